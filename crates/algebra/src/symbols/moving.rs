@@ -78,7 +78,7 @@ const MOST_OCTAVES: i64 = 12;
 /// How often the bits are doubled for one interval.
 const MOST_DOUBLINGS: usize = 4;
 
-/// A gap around the end of what is defined is shorter than the range by so many bits.
+/// The enclosure of an irrational end of a part is shorter than the range by so many bits.
 const GAP_BITS: u64 = 64;
 
 /// Zeros that are fractions with fewer bits are recognised as such.
@@ -87,19 +87,19 @@ const SHORT_BITS: u64 = 128;
 /// An interval this much shorter than the first one is given up.
 pub(super) const MOST_HALVINGS: i64 = 56;
 
-/// The parts of a range in which functions are defined.
+/// The parts of a range in which square roots have no negative arguments. Both lists are ascending; each pair is a lower and an upper end.
 pub struct DefinedParts {
-    /// From a number to another.
+    /// The parts, with rational ends.
     pub parts: Vec<(Rational, Rational)>,
-    /// Where an end of a part is that is not rational.
+    /// Enclosures of the irrational numbers at which a part ends.
     pub gaps: Vec<(Rational, Rational)>,
 }
 
-/// Changes its sign where the argument of a square root does.
+/// A factor of the argument of a square root with the zeros at which the argument changes its sign.
 pub struct SignUnderRoot {
-    /// Square-free and not constant.
+    /// A polynomial in the parameter, square-free and not constant.
     pub function: UniPoly,
-    /// Whether it is of the argument's denominator: at its zeros nothing is defined. At those of the numerator the root is zero.
+    /// True for a factor of the denominator: the argument has a pole at its zeros. At zeros of the numerator the root is zero.
     pub divides: bool,
 }
 
@@ -160,8 +160,8 @@ impl MovingSymbols {
         Some(symbols)
     }
 
-    /// What changes its sign where the argument of a square root does, of the arguments that are rational functions of the parameter:
-    /// where one is negative nothing is defined. Arguments with other symbols in them are left out.
+    /// The factors with odd multiplicity of the arguments of square roots. An argument changes its sign at their zeros, and where it is
+    /// negative the root has no value. Arguments that contain other symbols are left out.
     ///
     /// Cost: a square-free decomposition for each.
     pub fn signs_under_roots(&self) -> Vec<SignUnderRoot> {
@@ -175,7 +175,8 @@ impl MovingSymbols {
         self.arguments_of_roots().into_iter().flat_map(of).filter(|sign| !sign.function.is_constant()).collect()
     }
 
-    /// What is zero where an argument of a square root is zero without a change of its sign: the root may be defined there and nowhere near.
+    /// The factors with even multiplicity of the arguments of square roots. An argument keeps its sign around their zeros: where it is
+    /// negative on both sides, the root has a value at the zero alone.
     ///
     /// Cost: a square-free decomposition for each.
     pub fn touched_under_roots(&self) -> Vec<UniPoly> {
@@ -192,7 +193,8 @@ impl MovingSymbols {
         (0..self.table.len()).filter_map(|symbol| self.under_root(symbol)).collect()
     }
 
-    /// The numerator and the denominator of what a symbol is the square root of, where that is a rational function of the parameter.
+    /// The numerator and the denominator of the argument of a square root. `None` for another symbol, and for an argument that contains
+    /// other symbols.
     pub fn under_root(&self, symbol: usize) -> Option<(UniPoly, UniPoly)> {
         match &self.table[symbol].1 {
             Definition::Root(x) => Some((x.numerator().to_univariate(0)?, x.denominator().to_univariate(0)?)),
@@ -200,10 +202,10 @@ impl MovingSymbols {
         }
     }
 
-    /// The parts of a range in which no argument of a square root is negative, ascending, and what lies between them and other parts where
-    /// an end is not rational.
+    /// Splits a range at the zeros of the arguments of square roots, and keeps the parts in which no argument is negative. Arguments that
+    /// contain other symbols are left out.
     ///
-    /// Cost: the real roots of each argument.
+    /// Cost: the real roots of the product of the arguments.
     ///
     /// # Errors
     /// [`Exhausted`] when the budget runs out.
@@ -227,8 +229,8 @@ impl MovingSymbols {
         Ok(DefinedParts { parts, gaps: gaps.into_iter().filter(|(lo, hi)| lo < hi).collect() })
     }
 
-    /// Numbers below and above which an argument of a square root is negative, so that nothing is defined; `None` on a side where none
-    /// is. Each is next to a root of the argument.
+    /// A lower and an upper bound of the parameter beyond which an argument of a square root is negative; `None` on a side where no
+    /// argument stays negative. A bound is the integer beyond the outermost root of the argument.
     ///
     /// Cost: the real roots of each argument.
     ///
@@ -388,7 +390,7 @@ impl MovingSymbols {
                 }
             }
         }
-        // At the end of what is defined a square root has no series, but values next to its zero.
+        // Next to its zero a square root has enclosures, but no series.
         let may_vanish = |(lo, hi): &(Rational, Rational)| {
             self.value(&scheme, &Ball::between(lo, hi, FIRST_BITS)).is_none_or(|value| value.contains_zero())
         };

@@ -16,7 +16,7 @@ while line := sys.stdin.readline():
     print(word, said.encode(errors='backslashreplace').hex(), flush=True)
 ";
 
-/// A running checker, lent to one test after the other: to start one takes longer than most of what is asked of it.
+/// A test's turn with the checker in Python. The checker runs on for the next test, because its start takes longer than most checks.
 pub struct Python {
     running: Option<Running>,
 }

@@ -1,4 +1,4 @@
-//! Nominal values, of which some are formulas in constants and other parameters.
+//! Nominal values of parameters: numbers, and formulas in constants and in other parameters.
 
 use super::definition::{Model, Parameter, Position};
 use super::evaluate::scalar::Scope;
@@ -12,7 +12,7 @@ use jurist_algebra::number::{Rational, to_decimal};
 use jurist_algebra::poly::RationalFunction;
 use std::collections::{HashMap, HashSet};
 
-/// What a nominal value is.
+/// The nominal value of a parameter, or why it has none.
 #[derive(Clone, Debug)]
 pub(crate) enum Nominal {
     /// A number.

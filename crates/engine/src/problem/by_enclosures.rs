@@ -94,7 +94,7 @@ impl EnclosedParts {
     }
 }
 
-/// `None` unless all divisors, which follow so many kept names, are seen different from 0.
+/// `Some` if enclosures show that no divisor is zero. The first `kept` variables of a divisor are names, symbols follow.
 fn are_nonzero<'p>(divisors: impl Iterator<Item = &'p MultiPoly>, kept: usize, values: &[Ball]) -> Option<()> {
     for divisor in divisors.filter(|p| !p.is_one()) {
         let value = quotient_at(&beside(&divisor.clone().into(), kept)?, values, BITS)?;
@@ -103,8 +103,8 @@ fn are_nonzero<'p>(divisors: impl Iterator<Item = &'p MultiPoly>, kept: usize, v
     Some(())
 }
 
-/// An answer by exact polynomials over the constants of holds, within a share of the budget, else by enclosures of coefficients, else by
-/// exact polynomials after all.
+/// Asks exact polynomials first, within a share of the budget. Where their share of work, or the memory, runs out, it asks enclosures of the
+/// coefficients. Where enclosures do not tell the answer, it asks exact polynomials with the whole budget.
 ///
 /// # Errors
 /// Those of the answers; [`Error::Stopped`] when the budget runs out.
@@ -128,7 +128,7 @@ pub(crate) fn exact_or_enclosed<T>(
     exact(budget)
 }
 
-/// Whether expressions became longer than there was work or memory for.
+/// True if work or memory ran out, not time.
 fn is_too_long(stopped: &Exhausted) -> bool {
     matches!(stopped.stop, Stop::Work(_) | Stop::Memory(_))
 }

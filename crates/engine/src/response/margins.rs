@@ -175,7 +175,7 @@ impl Problem {
             let open_loop = OpenLoop::of(self, at, budget)?;
             let is_enclosed = open_loop.is_enclosed();
             match self.margins_of(open_loop, verdict.clone(), skew, with_held_delay, budget) {
-                // What is zero for a reason that enclosures do not show exact polynomials may.
+                // Exact polynomials may show an identity that enclosures do not.
                 Err(Error::Stopped(stopped)) if is_enclosed && stopped.stop.is_precision() => {
                     self.margins_of(OpenLoop::exact(self, at, budget)?, verdict, skew, with_held_delay, budget)
                 }

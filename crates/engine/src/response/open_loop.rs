@@ -54,7 +54,7 @@ pub(crate) enum Over {
     Constants(Parts<Constants>),
 }
 
-/// The polynomials with the dead time that is a factor, and the sample time.
+/// The polynomials and the dead time of a factor `exp(-tau s)`, and the sample time.
 pub(super) type WithTimes = ((Over, Option<Rational>), Option<Rational>);
 
 /// Evaluates an expression with the parts of an open loop, whatever their coefficients are.
@@ -161,7 +161,7 @@ impl OpenLoop {
         self.over.is_open()
     }
 
-    /// Whether enclosures are all that is known of coefficients.
+    /// True if a coefficient is known by enclosures alone.
     pub(super) fn is_enclosed(&self) -> bool {
         let Over::Constants(parts) = &self.over else { return false };
         let symbols = &parts.ground.0;

@@ -326,8 +326,8 @@ fn without_exponentials(p: MultiPoly, symbols: &MovingSymbols) -> MultiPoly {
     p.div_exact_monomial(&monomial).expect("the content divides")
 }
 
-/// Without factors that are powers of square roots of functions of the parameter, and the product of these functions' numerators: the
-/// roots are zero where it is.
+/// Divides a polynomial by the powers of square roots in it. The second result is the product of the numerators of their arguments: it
+/// has the zeros of the divisor.
 fn without_roots(p: MultiPoly, symbols: &MovingSymbols) -> (MultiPoly, UniPoly) {
     let content = p.monomial_content();
     let (mut monomial, mut under) = (content.clone(), UniPoly::one());

@@ -254,7 +254,7 @@ impl SymbolicPolynomial {
         found.extend(self.poles.iter().map(|q| (Cause::Pole, q.clone().into())));
         if let Table::Moving(symbols) = &self.symbols {
             let signs = symbols.signs_under_roots();
-            // No end by itself, but no sample of a cell either.
+            // Such a zero ends no interval, but a cell must not be decided by the loop at it.
             let touched = symbols.touched_under_roots();
             found.extend(touched.iter().map(|p| (Cause::Undecided, MultiPoly::from_univariate(p, 0).into())));
             let cause = |divides| if divides { Cause::Pole } else { Cause::SquareRoot };

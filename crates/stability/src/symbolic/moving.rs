@@ -75,8 +75,8 @@ pub(super) fn moving_stable_set(
     Line { reach, brackets, beyond, ..Line::new(range, values, &ring, budget) }.stable_set()
 }
 
-/// The part of a range outside of which a square root of a negative number is in the loop, where the range itself has no end; `None`
-/// where that is so in all of it.
+/// Bounds the open ends of a range where an argument of a square root is negative beyond: the loop has no value there. `None` where it
+/// has none in the whole range.
 fn defined_part(symbols: &MovingSymbols, range: &Range, budget: &Budget) -> Result<Option<Range>, Exhausted> {
     let (lower, upper) = symbols.defined_between(budget)?;
     let part = Range::between(range.lower.clone().or(lower), range.upper.clone().or(upper));

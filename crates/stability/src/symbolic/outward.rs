@@ -95,7 +95,7 @@ impl Looked<'_> {
         zeros.extend(after);
         brackets.append(&mut found.undecided);
         brackets.extend(more);
-        // One that goes on without an end may begin inside of what was looked at.
+        // A bracket without an end may begin inside of the range that was searched: that part stays undecided.
         for (lo, hi) in &mut brackets {
             if lo.is_none() && hi.as_ref().is_none_or(|x| *x > before.0) {
                 *lo = Some(before.0.clone());

@@ -60,7 +60,7 @@ pub(in crate::model) fn held(
         let r = respond(&one)?;
         (r.state, none(), &r.input - &r.slope, r.slope)
     } else if flows_stay_whole && !hold.is_first_order {
-        // The same without products of exponentials: over the whole step as with u[k-m-1], and its difference to u[k-m] at the end.
+        // Sums in place of products of exponentials: u[k-m-1] acts during the whole step, and u[k-m] - u[k-m-1] from the switch to its end.
         let (whole, second) = (respond(&one)?, respond(&(&one - &fraction))?);
         (whole.state, &whole.input - &second.input, second.input, none())
     } else {

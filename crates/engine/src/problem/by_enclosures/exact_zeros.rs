@@ -1,8 +1,8 @@
-//! Zeros of a loop's numerator that the rows without symbols show.
+//! Exact factors of the numerator of an open loop behind holds.
 //!
-//! With `B = e c` the polynomial beside `K` in `det(z I - A - K B)` is, but for its sign, the determinant of `z I - A` bordered by `e` and `c`
-//! (Rosenbrock's system matrix). By Laplace's expansion every common factor of the greatest minors of some of its rows divides it. Of
-//! the rows without symbols it has the zeros of a controller in front of a plant behind a hold, such as the `z + 1` of Tustin's rule.
+//! With `B = e c` the coefficient of `K` in `det(z I - A - K B)` is, up to its sign, the determinant of `z I - A` bordered by `e` and `c`,
+//! Rosenbrock's system matrix. Laplace's expansion along the rational rows shows that the greatest common divisor of their maximal minors
+//! divides this determinant. The divisor contains the zeros of a discrete controller, such as the `z + 1` of Tustin's rule.
 
 use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::number::{Integer, Rational};
@@ -11,17 +11,21 @@ use jurist_algebra::poly::{Domain, Poly, RationalFunction, UniPoly};
 /// A row of the pencil: polynomials in `z`.
 type Row = Vec<UniPoly>;
 
-/// A factor with integer coefficients of what stands beside `K`, for a matrix `B` of rank one.
+/// The place of the first entry that is not zero, row by row.
+pub(super) fn first_entry(m: &RationalMatrix) -> Option<(usize, usize)> {
+    let columns = m.columns();
+    (0..m.rows() * columns).map(|at| (at / columns, at % columns)).find(|&at| !m[at].is_zero())
+}
+
+/// A factor of the coefficient of `K` in `det(z I - A - K B)`, with integer coefficients, for an `n x n` matrix `B` of rank one.
 ///
-/// Cost: divisions of polynomials in columns of the rows without symbols.
+/// Cost: Euclid's algorithm between the columns of the rational rows, at most `n + 1` of `n + 1` entries.
 pub(super) fn exact_zeros(a: &RationalMatrix, b: &RationalMatrix) -> UniPoly {
     let n = a.rows();
     let numbers = |row: &mut dyn Iterator<Item = &RationalFunction>| {
         row.map(RationalFunction::as_constant).collect::<Option<Vec<Rational>>>()
     };
-    let Some(pivot) = (0..n * n).find(|&at| !b[(at / n, at % n)].is_zero()).map(|at| (at / n, at % n)) else {
-        return UniPoly::one();
-    };
+    let Some(pivot) = first_entry(b) else { return UniPoly::one() };
     // c is 1 at the pivot, so that e is the pivot's column.
     let c = (0..n).map(|j| b[(pivot.0, j)].checked_div(&b[pivot])?.as_constant()).collect::<Option<Vec<Rational>>>();
     let Some(c) = c else { return UniPoly::one() };
@@ -39,13 +43,13 @@ pub(super) fn exact_zeros(a: &RationalMatrix, b: &RationalMatrix) -> UniPoly {
     common_factor(rows)
 }
 
-/// By how much the degree of what stands beside `K` is less than `n - 1`, for a matrix `B` of rank one: the number of Markov parameters
-/// `c A^k e` from the first on that are zero.
+/// `n - 1` less the degree of the coefficient of `K`, for a matrix `B` of rank one: the number of Markov parameters `c e`, `c A e`, .. that are
+/// zero before the first other one.
 ///
 /// Cost: products of the matrix and a vector over symbols.
 pub(super) fn missing_degrees(a: &RationalMatrix, b: &RationalMatrix) -> usize {
     let n = a.rows();
-    let Some(pivot) = (0..n * n).map(|at| (at / n, at % n)).find(|&at| !b[at].is_zero()) else { return 0 };
+    let Some(pivot) = first_entry(b) else { return 0 };
     let dot = |row: &mut dyn Iterator<Item = &RationalFunction>, v: &[RationalFunction]| {
         row.zip(v).fold(RationalFunction::zero(), |sum, (x, y)| &sum + &(x * y))
     };
@@ -59,16 +63,17 @@ pub(super) fn missing_degrees(a: &RationalMatrix, b: &RationalMatrix) -> usize {
     0
 }
 
-/// A row times an integer.
+/// The row of the pencil with these constant and linear coefficients, times a common denominator.
 fn integral(row: Vec<[Rational; 2]>) -> Row {
     let common = row.iter().flatten().fold(Integer::ONE, |l, x| l.lcm(&x.denominator()));
     let whole = |x: &Rational| x.numerator() * common.div_exact(&x.denominator());
     row.iter().map(|entry| UniPoly::new(entry.iter().map(whole).collect())).collect()
 }
 
-/// The greatest common divisor of the greatest minors, up to a number; 1 where these are zero.
+/// The greatest common divisor of the maximal minors, up to a number; 1 where all of them are zero.
 ///
-/// Steps of Euclid's algorithm between columns make the matrix triangular: then one minor is left.
+/// Column operations keep it up to a number. Euclid's algorithm between columns makes the matrix lower triangular, so that only one maximal
+/// minor is left: the product of the diagonal.
 fn common_factor(mut rows: Vec<Row>) -> UniPoly {
     let columns = rows.first().map_or(0, Vec::len);
     let mut product = UniPoly::one();
@@ -92,7 +97,7 @@ fn common_factor(mut rows: Vec<Row>) -> UniPoly {
     product.primitive_part()
 }
 
-/// Takes from column `j`, times a number, the multiple of column `at` that leaves a remainder in row `at`.
+/// Replaces column `j` by a multiple of it less a multiple of column `at`: row `at` keeps the pseudo-remainder.
 fn reduce(rows: &mut [Row], at: usize, j: usize) {
     let divisor = rows[at][at].clone();
     let (q, _) = rows[at][j].pseudo_div_rem(&divisor);

@@ -1,6 +1,6 @@
 //! A part of a loop behind holds: the matrix `A + K B` and its characteristic polynomial, with a symbol for each coefficient.
 
-use super::exact_zeros::{exact_zeros, missing_degrees};
+use super::exact_zeros::{exact_zeros, first_entry, missing_degrees};
 use super::steady_state::steady_state;
 use crate::model::{Symbols, quotient_at};
 use crate::stability::SymbolicPolynomial;
@@ -25,15 +25,15 @@ pub(super) struct Part {
     linear: RationalMatrix,
     /// A bound of the degree in `K`.
     pub degree: usize,
-    /// A factor of the polynomial at `K = 0`, with roots at 1 of the parts below.
+    /// The exact factor of `D(z; 0)`: polynomials of rational parts, and the roots at 1 that integrators bring.
     exact: UniPoly,
-    /// The parts of `A` that are not in that factor, with the number of their roots at 1 that are.
+    /// The other parts of `A`, each with the number of its roots at 1, which are in the exact factor.
     others: Vec<(Vec<usize>, usize)>,
-    /// So many roots are 0 for every `K`, as rows without symbols depend on each other.
+    /// A lower bound of the number of roots that are 0 for every `K`, from rational rows that are linearly dependent.
     at_origin: usize,
-    /// A factor of what stands beside each power of `K`.
+    /// The exact factor of `N_p(z)`, the coefficient of each power `K^p` in `D(z; K)`.
     zeros: UniPoly,
-    /// By how much its degree is less than `n - 1`.
+    /// `n - 1` less the degree of `N_p`.
     missing: usize,
     /// `d(K)` with `D(1; K) = c d(K)` for a number `c` other than 0, where that is known.
     at_rest: Option<UniPoly>,
@@ -110,17 +110,17 @@ impl Part {
         Some(BallMatrix::from_fn(n, |i, j| entries[i * n + j].clone()).characteristic_polynomial(bits))
     }
 
-    /// How many coefficients the other factor at `K = 0` has beside the leading 1.
+    /// The degree of the enclosed factor of `D(z; 0)`.
     fn others_degree(&self) -> usize {
         self.constant.rows() - self.exact.degree().unwrap_or(0)
     }
 
-    /// How many coefficients the other factor has of what stands beside a power of `K`.
+    /// The number of coefficients of the enclosed factor of `N_p`.
     fn beside(&self) -> usize {
         self.constant.rows() - self.zeros.degree().unwrap_or(0) - self.missing
     }
 
-    /// The coefficients of the other factor at `K = 0` without the leading one, then those of the other factor beside each power of `K`.
+    /// The coefficients of the enclosed factor of `D(z; 0)` without the leading 1, then those of the enclosed factor of each `N_p`.
     fn coefficients(&self, bits: u64) -> Option<Arc<Vec<Ball>>> {
         let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(found) = known().get(&bits) {
@@ -145,13 +145,14 @@ impl Part {
 
     /// The product of the polynomials of the parts that are not rational, without their roots at 1.
     fn other_factor(&self, values: &[Ball], bits: u64) -> Option<Vec<Ball>> {
+        let root_at_one = UniPoly::from_i64(&[-1, 1]);
         let mut product = vec![Ball::from_integer(&Integer::ONE, bits)];
         for (block, at_one) in &self.others {
             let own = self.constant.principal(block);
             let entries = own.entries().iter().map(|f| quotient_at(f, values, bits)).collect::<Option<Vec<_>>>()?;
             let matrix = BallMatrix::from_fn(block.len(), |i, j| entries[i * block.len() + j].clone());
             let mut p = matrix.characteristic_polynomial(bits);
-            (0..*at_one).for_each(|_| p = without_root_at_one(&p));
+            (0..*at_one).for_each(|_| p = quotient(std::mem::take(&mut p), &root_at_one));
             let mut next = vec![Ball::zero(bits); product.len() + p.len() - 1];
             for (i, a) in product.iter().enumerate() {
                 for (j, b) in p.iter().enumerate() {
@@ -259,7 +260,7 @@ fn rank_bound(m: &RationalMatrix) -> usize {
     let rows = (0..n).filter(|&i| (0..n).any(|j| !m[(i, j)].is_zero())).count();
     let columns = (0..n).filter(|&j| (0..n).any(|i| !m[(i, j)].is_zero())).count();
     let bound = rows.min(columns);
-    let Some(pivot) = (0..n * n).map(|at| (at / n, at % n)).find(|&at| !m[at].is_zero()) else { return 0 };
+    let Some(pivot) = first_entry(m) else { return 0 };
     // Beside a pivot that is not zero the others' minors are combinations of those with it.
     let is_minor_zero =
         |i: usize, j: usize| (&(&m[pivot] * &m[(i, j)]) - &(&m[(pivot.0, j)] * &m[(i, pivot.1)])).is_zero();
@@ -267,10 +268,10 @@ fn rank_bound(m: &RationalMatrix) -> usize {
     if is_one { 1 } else { bound }
 }
 
-/// How many rows without symbols are combinations of others of them, for every `K`.
+/// The number of rational rows of `A + K B` less their rank over the rational functions of `K`.
 ///
-/// A minor of `m` rows has at most the degree `m` in `K`: one that is zero at more values is zero. So the greatest rank at these is that
-/// at almost all.
+/// A minor of `m` rows has at most the degree `m` in `K`, so a minor that is zero at `m + 1` values is zero for every `K`. The greatest rank
+/// at `m + 1` values is the rank over the functions.
 fn dependent_rows(constant: &RationalMatrix, linear: &RationalMatrix) -> usize {
     let n = constant.rows();
     let numbers = |m: &RationalMatrix, i: usize| (0..n).map(|j| m[(i, j)].as_constant()).collect::<Option<Vec<_>>>();
@@ -336,7 +337,7 @@ fn integrators(m: &RationalMatrix, symbols: &Symbols) -> usize {
     p.coeffs().iter().take_while(|c| c.is_zero()).count()
 }
 
-/// The quotient of a polynomial by a factor of it.
+/// The quotient of a polynomial by an exact factor: the remainder, which is zero, is left out.
 fn quotient(mut p: Vec<Ball>, factor: &UniPoly) -> Vec<Ball> {
     let (degree, lead) = (factor.degree().unwrap_or(0), factor.leading().cloned().unwrap_or(Integer::ONE));
     for at in (degree..p.len()).rev() {
@@ -350,18 +351,7 @@ fn quotient(mut p: Vec<Ball>, factor: &UniPoly) -> Vec<Ball> {
     p.split_off(degree)
 }
 
-/// The quotient by `z - 1` of a polynomial that has the root 1.
-fn without_root_at_one(p: &[Ball]) -> Vec<Ball> {
-    let mut quotient: Vec<Ball> = Vec::with_capacity(p.len());
-    for c in p.iter().skip(1).rev() {
-        let next = quotient.last().map_or_else(|| c.clone(), |above: &Ball| above.add(c));
-        quotient.push(next);
-    }
-    quotient.reverse();
-    quotient
-}
-
-/// For each power of `K` up to the degree, the weights of the values at `K = 0, 1, ..` of which its coefficient is the sum.
+/// Weights of an interpolation at `K = 0, 1, ..`, one list for each power of `K`: the values times its weights add up to its coefficient.
 pub(super) fn interpolation(degree: usize) -> Vec<Vec<Rational>> {
     let bases: Vec<Vec<Rational>> = (0..=degree).map(|node| lagrange(node, degree)).collect();
     (0..=degree).map(|power| bases.iter().map(|basis| basis[power].clone()).collect()).collect()

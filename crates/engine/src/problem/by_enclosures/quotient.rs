@@ -9,7 +9,7 @@ use jurist_algebra::poly::{MultiPoly, Poly, RationalFunction};
 use jurist_algebra::symbols::Symbols;
 use std::sync::Arc;
 
-/// `D0` and `N` of an open loop `N/D0`, with a symbol for each coefficient that is known by enclosures alone.
+/// An open loop `N/D0`. Symbol `i` of the table is variable `i` of the coefficients.
 pub(crate) struct EnclosedQuotient {
     pub symbols: Arc<Symbols>,
     pub denominator: Poly<MultiPoly>,
@@ -17,7 +17,7 @@ pub(crate) struct EnclosedQuotient {
 }
 
 impl EnclosedQuotient {
-    /// Of a loop that is opened where nothing passes on at once, in one part; `None` of another one. Symbol `i` is variable `i`.
+    /// `None` where the cut has a direct feedthrough, the closed loop decouples, or a divisor may be zero.
     ///
     /// Cost: enclosures of the matrix and of two characteristic polynomials.
     pub fn of(opened: &Opened) -> Option<EnclosedQuotient> {

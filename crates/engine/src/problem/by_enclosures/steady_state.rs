@@ -5,8 +5,8 @@
 //! which these rows are those of `-M v`, times a matrix with the determinant of `f` of the plants: no zero, unless a plant has a mode
 //! that turns by whole turns in a sample.
 //!
-//! With dead time of a fraction of a sample such a row has besides `exp(N) (u - w)`, where `w` is the state that is the input `u` before:
-//! these are multiples of the row of `w` in `I - A(K)`, and change no determinant.
+//! Dead time of a fraction of a sample adds `exp(N) (u - w)` to such a row; the state `w` is the input `u` of the sample before. The row of `w` in
+//! `I - A(K)` is `w - u`. Multiples of a row change no determinant, so the added terms are dropped.
 
 use crate::model::Symbols;
 use jurist_algebra::limits::Budget;
@@ -94,14 +94,14 @@ impl Terms {
         Some(row)
     }
 
-    /// The row of `A - I` where no exponential is in it: it is zero at rest.
+    /// The row of `A - I`, which is zero at rest; `None` where the row contains an exponential.
     fn balance(&self, i: usize) -> Option<Form> {
         let mut form = self.known.clone();
         form[i][0] = &form[i][0] - &Rational::ONE;
         self.forms.is_empty().then_some(form)
     }
 
-    /// The row without exponentials that are multiplied by what is zero at rest alone; `None` where more than one is left.
+    /// The row without the exponentials all of whose factors are zero at rest; `None` where two exponentials are left.
     fn without(mut self, balances: &[Form]) -> Option<Row> {
         let of = |entry: &(usize, usize, usize)| (entry.0, entry.1);
         let stays = |(entry, form): (&(usize, usize, usize), &Form)| (!balances.contains(form)).then(|| of(entry));
