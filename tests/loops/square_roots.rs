@@ -44,6 +44,23 @@ fn between_two_square_roots_all_is_decided() {
     assert!(set.is_empty() && set.undecided().is_empty());
 }
 
+/// The zero is a whole number of 41 bits: compared with itself it once took 34 GB.
+#[test]
+fn a_large_rational_zero_is_told_from_its_neighbours() {
+    let set = set_of("s + sqrt(k - 10^12) - 1");
+    assert_eq!(set.intervals()[0].lower.as_ref().unwrap().value.exact(), Some(ratio(1_000_000_000_001, 1)));
+    // Where nothing is decided the headline does not say that nothing is stable.
+    let run = jurist(&["intervals", "s + sqrt(k) - 10^20"]);
+    assert!(run.stdout.contains("stable nowhere outside of what is undecided"), "{}", run.stdout);
+}
+
+/// Arguments with functions in them are negative at numbers that no polynomial shows.
+#[test]
+fn a_transcendental_argument_has_a_beginning() {
+    let set = set_of("s + 1 + sqrt(exp(k) - 2)");
+    assert!(set.contains(&ratio(7, 10)) && !set.contains(&ratio(69, 100)) && !set.contains(&ratio(-1, 1)));
+}
+
 /// Under a square a root may be defined at one number and nowhere near: a cell is not decided there.
 #[test]
 fn a_number_at_which_alone_a_square_root_is_defined_decides_no_cell() {

@@ -81,8 +81,8 @@ const MOST_DOUBLINGS: usize = 4;
 /// The enclosure of an irrational end of a part is shorter than the range by so many bits.
 const GAP_BITS: u64 = 64;
 
-/// Zeros that are fractions with fewer bits are recognised as such.
-const SHORT_BITS: u64 = 128;
+/// Zeros that are fractions with fewer bits are recognised as such, those with few bits first.
+const SHORT_BITS: [u64; 2] = [40, 128];
 
 /// An interval this much shorter than the first one is given up.
 pub(super) const MOST_HALVINGS: i64 = 56;
@@ -439,17 +439,22 @@ impl MovingSymbols {
     /// The zero as a number: a rational one where it is a short fraction.
     fn known(&self, root: MovingRoot, f: &Function, budget: &Budget) -> Result<Real, Exhausted> {
         let width = &root.monotone;
-        let bits = SHORT_BITS + 8 + width.denominator().bit_length().saturating_sub(width.numerator().bit_length());
-        let place = budget.enter(|| root.enclose(bits, None))?;
-        // The zero may be an end of its place, or all of it.
-        let around = Rational::dyadic(&Integer::ONE, bits);
-        if let Some(short) = simplest_between(&(place.lower() - &around), &(place.upper() + &around))
-            && short.numerator().bit_length() + short.denominator().bit_length() < SHORT_BITS
-            && self.vanishes_at(f, &short, budget)?
-        {
-            return Ok(Real::from(short));
+        let spare = 8 + width.denominator().bit_length().saturating_sub(width.numerator().bit_length());
+        let mut first = None;
+        for short_bits in SHORT_BITS {
+            let bits = short_bits + spare;
+            let place = budget.enter(|| root.enclose(bits, first.as_ref()))?;
+            // The zero may be an end of its place, or all of it.
+            let around = Rational::dyadic(&Integer::ONE, bits);
+            if let Some(short) = simplest_between(&(place.lower() - &around), &(place.upper() + &around))
+                && short.numerator().bit_length() + short.denominator().bit_length() < short_bits
+                && self.vanishes_at(f, &short, budget)?
+            {
+                return Ok(Real::from(short));
+            }
+            first.get_or_insert(place);
         }
-        Ok(Real::from(Transcendental::within(root, place)))
+        Ok(Real::from(Transcendental::within(root, first.expect("two places"))))
     }
 
     pub(super) fn sign_at(&self, f: &Scheme, at: &Rational, bits: u64) -> Option<Sign> {

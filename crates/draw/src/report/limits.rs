@@ -8,7 +8,7 @@ use jurist_algebra::number::{Rational, parse_number, to_decimal};
 use jurist_engine::answer::{Answer, PointVerdict};
 use jurist_engine::problem::{Problem, Question};
 use jurist_engine::show::documents::{Answered, End, Intervals};
-use jurist_engine::show::intervals::{free_domain_text, stable_lines};
+use jurist_engine::show::intervals::{free_domain_text, nowhere, stable_lines};
 use jurist_engine::show::layout::short;
 use jurist_engine::stability::{Cause, StableSet};
 
@@ -102,7 +102,7 @@ fn of_parameter(limits: &Limits) -> String {
         domain => format!("asked about {domain}"),
     };
     let stable = match stable_lines(&free.name, answer.value(), DIGITS) {
-        lines if lines.is_empty() => "stable nowhere".to_owned(),
+        lines if lines.is_empty() => format!("stable {}", nowhere(answer.value().undecided())),
         lines => format!("stable for {}", lines.join(" or ")),
     };
     let unit = free.unit.as_deref().map(|u| format!(" ({u})")).unwrap_or_default();

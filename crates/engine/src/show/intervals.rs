@@ -55,7 +55,9 @@ pub fn answer_lines(problem: &Problem, set: Result<&StableSet, &Exhausted>, digi
         Ok(set) if set.is_empty() && problem.evaluated().is_some_and(|a| a.undefined().is_some()) => {
             format!("{asked}: {goal} nowhere, undefined for every {name}\n")
         }
-        Ok(set) if set.is_empty() => format!("{asked}: {goal} nowhere\n{}", undecided_lines(set.undecided(), digits)),
+        Ok(set) if set.is_empty() => {
+            format!("{asked}: {goal} {}\n{}", nowhere(set.undecided()), undecided_lines(set.undecided(), digits))
+        }
         Ok(set) => {
             let mut out = format!("{asked}: {goal} for\n");
             for interval in nominal_first(stable_lines(name, set, digits), nominal_place(set, problem)) {
@@ -66,6 +68,11 @@ pub fn answer_lines(problem: &Problem, set: Result<&StableSet, &Exhausted>, digi
             out
         }
     }
+}
+
+/// Where a set without intervals is: nowhere, or in what is undecided at most.
+pub fn nowhere(undecided: &[UndecidedBracket]) -> &'static str {
+    if undecided.is_empty() { "nowhere" } else { "nowhere outside of what is undecided" }
 }
 
 /// Which interval has the nominal value.
@@ -253,6 +260,8 @@ fn end_cells(end: &End, decimal: String, problem: &Problem, digits: usize) -> Ve
     let nominal = problem.parameter().nominal.as_ref();
     // A gain margin of a time means nothing in decibels.
     let is_time = problem.sample_time().is_some_and(|(n, d)| !(n.is_constant() && d.is_constant()));
+    // The end of a domain is no limit of the loop.
+    let nominal = nominal.filter(|_| end.causes.is_limit());
     let margin = margin(&end.value, nominal, places).and_then(|m| {
         let nominal = nominal.map(short).unwrap_or_default();
         // That an end at 0 is 0 x nominal goes without saying.

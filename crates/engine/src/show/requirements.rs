@@ -1,6 +1,6 @@
 //! Requirements for people.
 
-use super::intervals::{free_domain_text, heading, nominal_first, undecided_lines};
+use super::intervals::{free_domain_text, heading, nominal_first, nowhere, undecided_lines};
 use super::layout::Columns;
 use super::{real, region};
 use crate::answer::Answer;
@@ -21,7 +21,7 @@ impl Answer<RequiredSet> {
         let mut out = format!("{}\n{asked}: {goal}", heading(problem));
         let undecided = undecided_lines(&self.value().undecided, digits);
         if self.value().intervals.is_empty() {
-            return out + " nowhere\n" + &undecided;
+            return out + " " + nowhere(&self.value().undecided) + "\n" + &undecided;
         }
         out.push_str(" for\n");
         let mut columns = Columns::new("    ");
