@@ -4,6 +4,7 @@ use super::{Budget, Exhausted, Limits};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use std::cell::{Cell, RefCell};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Units of work between two looks at the limits: about a millisecond.
@@ -355,7 +356,24 @@ where
 
 fn parallel_each(count: usize, work: &(dyn Fn(usize) + Sync)) {
     let ambient = Ambient::current();
-    (0..count).into_par_iter().for_each(|k| ambient.run(|| work(k)));
+    // Rayon begins what waits also when a part has been left: a thousand parts that each end at their first look take a second together.
+    let is_left = AtomicBool::new(false);
+    (0..count).into_par_iter().for_each(|k| {
+        if !is_left.load(Ordering::Relaxed) {
+            let leaving = Leaving(&is_left);
+            ambient.run(|| work(k));
+            std::mem::forget(leaving);
+        }
+    });
+}
+
+/// Tells others when it is dropped: when its part of the work is left.
+struct Leaving<'a>(&'a AtomicBool);
+
+impl Drop for Leaving<'_> {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
 }
 
 /// Does work that no budget of this thread ends: as if it began on a thread of its own.
@@ -383,7 +401,7 @@ mod tests {
     use super::*;
     use crate::limits::Stop;
     use std::panic::panic_any;
-    use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+    use std::sync::atomic::AtomicU64;
 
     fn endless() -> u64 {
         loop {
@@ -505,6 +523,19 @@ mod tests {
             flag.store(true, Ordering::Relaxed);
             assert_eq!(end.join().expect("no panic").unwrap_err().stop, Stop::Cancelled);
         });
+    }
+
+    #[test]
+    fn what_waits_is_not_begun_when_a_part_is_left() {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().expect("threads");
+        let begun = AtomicU64::new(0);
+        let part = |_: i32| {
+            begun.fetch_add(1, Ordering::Relaxed);
+            checkpoint(1 << 20)
+        };
+        let work = || Budget::with_work(1000).enter(|| parallel_map::<_, _, Vec<()>>(0..10_000, part));
+        assert!(pool.install(work).is_err());
+        assert!(begun.into_inner() <= 2, "each of two threads begins one part at most");
     }
 
     #[test]
