@@ -261,3 +261,37 @@ proptest! {
         holds_at_points(&answer, "1e-2", &shares);
     }
 }
+
+/// With one name the lines on either side tell all: `K < (1 + p)/(1 - p)` with `K = 3` is `p > 1/2`, so `tau > T/ln(2) = 1.4426950408889634`.
+#[test]
+fn one_name_is_answered_by_its_line() {
+    let model = first_order();
+    let answer = asked(&model, &[("tau", "10%")], "1/1000000");
+    holds_at_points(&answer, "1/1000000", &[0, 500, 1000]);
+    let value = answer.value();
+    assert!(matches!(&value.decision, BoxDecision::Stable(proof) if proof.cells() == 1));
+    let worst = value.worst.as_ref().unwrap();
+    // (2 - 1.4426950408889634)/0.2
+    assert_eq!(
+        (worst.end.value.decimal(14).as_str(), worst.end.causes.to_string().as_str()),
+        ("2.7865247955552", "z=-1")
+    );
+    assert_eq!(value.factor.as_ref().unwrap().direction, Some(vec![number("-1")]));
+    // Only upwards nothing ends it.
+    let answer = asked(&model, &[("tau", "-0%..+10%")], "1/1000");
+    let factor = answer.value().factor.as_ref().unwrap();
+    assert!(factor.upper.is_none() && factor.lower > number("1000"), "{}", factor.lower);
+    // The box that holds its end is not stable; the factor 1 is never left inside of the bracket.
+    for (tolerance, stable) in [("27.8%", true), ("27.9%", false)] {
+        let answer = asked(&model, &[("tau", tolerance)], "1/10");
+        let factor = answer.value().factor.as_ref().unwrap();
+        assert_eq!(answer.value().decision.is_stable(), stable, "{tolerance}");
+        assert!(if stable { factor.lower >= number("1") } else { *factor.upper.as_ref().unwrap() <= number("1") });
+    }
+    // A domain that ends first bounds the factor.
+    let bounded = held("K = { nominal = 3 }\ntau = { nominal = 2, min = 1.6 }\nT = { nominal = 1 }", "1/(tau*s + 1)");
+    let answer = asked(&bounded, &[("tau", "10%")], "1/1000");
+    let factor = answer.value().factor.as_ref().unwrap();
+    assert!(factor.upper.is_none() && factor.lower < number("2") && factor.lower > number("1.99"));
+    assert_eq!(answer.value().domain_factor, Some(number("2")));
+}

@@ -3,6 +3,7 @@
 mod decide;
 mod held;
 mod limit;
+mod one_name;
 mod required;
 
 use super::Answer;

@@ -9,6 +9,7 @@ use super::sides::{Side, at_factor};
 use crate::AtPoint;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational, Sign};
+use jurist_algebra::real::Real;
 
 /// A proof that needs more cells than this is first tried at a smaller factor.
 const CELLS: usize = 4000;
@@ -135,6 +136,41 @@ pub struct LargestFactor {
     /// Where the proof of a closer bracket ended.
     pub open: Option<(OpenReason, Vec<[Rational; 2]>)>,
     pub(super) crossing: Option<Crossing>,
+}
+
+impl LargestFactor {
+    /// The bracket of a factor whose line ends at a known number, of relative width `gap`. The number 1 is not inside of it.
+    ///
+    /// Cost: the digits of the end that `gap` asks for.
+    pub fn before(end: &Real, direction: Vec<Rational>, gap: &Rational) -> LargestFactor {
+        let width = &(gap * &end.refined_to_digits(1).enclosure().0) * &Rational::new(1.into(), 8.into());
+        let (low, high) = end.refined(&width).enclosure();
+        let (mut lower, mut upper) = (lowered(&low, gap), high);
+        match end.compare_rational(&Rational::ONE).is_gt() {
+            true => lower = lower.max(Rational::ONE),
+            false => upper = upper.min(Rational::ONE),
+        }
+        let bare = LargestFactor::bare(lower, BoxProof::of_line());
+        LargestFactor { upper: Some(upper), direction: Some(direction), shares: Some(vec![Rational::ONE]), ..bare }
+    }
+
+    /// What is known where all boxes below a factor are stable, and nothing of larger ones.
+    pub fn at_least(factor: Rational, gap: &Rational) -> LargestFactor {
+        LargestFactor::bare(lowered(&factor, gap), BoxProof::of_line())
+    }
+
+    fn bare(lower: Rational, proof: BoxProof) -> LargestFactor {
+        LargestFactor {
+            lower,
+            proof: Some(proof),
+            upper: None,
+            direction: None,
+            shares: None,
+            witness: None,
+            open: None,
+            crossing: None,
+        }
+    }
 }
 
 impl ToleranceProblem<'_> {

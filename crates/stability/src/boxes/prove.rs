@@ -55,6 +55,11 @@ impl BoxProof {
         BoxProof { certain: Vec::new(), scale, weight: 0, pair: Tree::default(), beside }
     }
 
+    /// The proof of a box of one name by the stable set of its line: the box is in one cell.
+    pub fn of_line() -> BoxProof {
+        BoxProof::of_cells(0, 1)
+    }
+
     /// The number of cells of frequency and parameters.
     pub fn cells(&self) -> usize {
         self.pair.leaves() + self.beside

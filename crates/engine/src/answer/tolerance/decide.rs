@@ -85,6 +85,14 @@ impl Problem {
         let degree = self.algebra_over_symbols(budget)?.formal_degree();
         let nominal: Vec<Rational> = sides.iter().map(|side| side.nominal().clone()).collect();
         let at = truth.at(p, &nominal, budget)?;
+        if let [side] = sides.as_slice()
+            && at.is_stable(degree)
+            && p.as_polynomial().is_none()
+            && request.limit.is_none()
+            && let Some(answer) = self.tolerance_of_one(p, truth, (side, &at), asked, budget)?
+        {
+            return Ok(answer);
+        }
         let boxes = match at.is_stable(degree) {
             true => budget.enter(|| ToleranceProblem::new(p, all.clone()))?,
             false => None,
@@ -202,7 +210,7 @@ impl Problem {
         Answer::new(Arc::clone(self), value)
     }
 
-    fn bare(&self, sides: Vec<Side>, nominal: AtPoint, decision: BoxDecision) -> ToleranceAnswer {
+    pub(super) fn bare(&self, sides: Vec<Side>, nominal: AtPoint, decision: BoxDecision) -> ToleranceAnswer {
         ToleranceAnswer {
             sides,
             nominal,
@@ -219,7 +227,7 @@ impl Problem {
     }
 
     /// The factor at which the first parameter reaches the end of its domain.
-    fn domain_factor(&self, sides: &[Side]) -> Option<Rational> {
+    pub(super) fn domain_factor(&self, sides: &[Side]) -> Option<Rational> {
         let mut factors = Vec::new();
         for (free, side) in self.free().iter().zip(sides) {
             let rooms = [
