@@ -50,6 +50,7 @@ mod loops {
     mod paper;
     mod peaks;
     mod requirements;
+    mod root_requirements;
     mod sensitivity;
     mod square_roots;
 }

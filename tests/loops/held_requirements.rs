@@ -118,21 +118,33 @@ fn a_window_of_gains_between_two_angles() {
     assert!(both.iter().all(|n| *n > 0), "{both:?}");
 }
 
-/// Roots are not looked at where margins are: what is about roots has to be refused beside them.
+/// Margins and roots are decided one after the other: the set of both is what their own sets have in common.
 #[test]
-fn what_is_about_roots_is_refused_beside_a_margin() {
+fn margins_and_roots_are_required_together() {
     let problem = example("dc-servo").ask().free("K").problem().unwrap();
+    let set = |list: &[Requirement]| {
+        let found = problem.required_set(list, None, &Budget::unlimited()).unwrap().into_value();
+        assert!(found.undecided.is_empty());
+        let end = |end: &Option<RequiredEnd>| end.as_ref().unwrap().value().decimal(9);
+        found.intervals.iter().map(|i| [end(&i.lower), end(&i.upper)]).collect::<Vec<_>>()
+    };
     let margin = Requirement::phase_margin(&number("45")).unwrap();
-    let others = [
-        Requirement::damping(number("9/10")),
-        Requirement::settling_time(number("1/10"), &number("1/500")),
-        Requirement::delay_margin(number("1/100")),
-    ];
-    for other in others {
-        let list = [margin.clone(), other.unwrap()];
-        let refused = problem.required_set(&list, None, &Budget::unlimited()).unwrap_err().to_string();
-        assert!(refused.contains(list[1].name()), "{refused}");
-    }
+    let damping = Requirement::damping(number("2/5")).unwrap();
+    let settling = Requirement::settling_time(number("2/5"), &number("1/500")).unwrap();
+    let [own, damped, settled] = [&margin, &damping, &settling].map(|r| set(std::slice::from_ref(r)).swap_remove(0));
+    assert!(damped != own && settled != own && damped != settled, "{own:?} {damped:?} {settled:?}");
+    let number_of = |text: &str| number(text);
+    let common = |sets: [&[String; 2]; 2]| {
+        let [a, b] = sets;
+        let lower = if number_of(&a[0]) < number_of(&b[0]) { &b[0] } else { &a[0] };
+        let upper = if number_of(&a[1]) < number_of(&b[1]) { &a[1] } else { &b[1] };
+        [lower.clone(), upper.clone()]
+    };
+    assert_eq!(set(&[margin.clone(), damping.clone()]), [common([&own, &damped])]);
+    assert_eq!(set(&[settling.clone(), margin.clone()]), [common([&own, &settled])]);
+    let delay = Requirement::delay_margin(number("1/100")).unwrap();
+    let refused = problem.required_set(&[margin, delay], None, &Budget::unlimited()).unwrap_err().to_string();
+    assert!(refused.contains("a delay margin is decided at points only"), "{refused}");
 }
 
 #[test]

@@ -12,6 +12,7 @@ use jurist_algebra::real::Real;
 use jurist_engine::answer::{Answer, Map};
 use jurist_engine::model::Model;
 use jurist_engine::response::{RequiredEnd, Requirement};
+use jurist_engine::stability::UndecidedBracket;
 use serde_json::Value;
 
 /// A PI controller and a lag with a slow sensor.
@@ -207,4 +208,61 @@ fn phase_margins_are_nested_in_the_document_and_in_the_picture() {
     assert_eq!(sets[1]["regions"], sets[2]["regions"]);
     let refused = jurist_with_input(&[&arguments[..], &["--method", "boxes"]].concat(), PI.as_bytes());
     assert!(refused.status == 2 && refused.stderr.contains("E-require"), "{}", refused.stderr);
+}
+
+/// A PI controller and a lag behind a hold, and a continuous loop with a constant that is not rational.
+const HELD: &str = "time = 'discrete'
+sample_time = '1/10'
+[parameters]
+K = { nominal = 1, min = 0, max = 20 }
+b = { nominal = 0.5, min = 0, max = 20 }
+[loop]
+inputs = ['r']
+outputs = ['y']
+[[block]]
+name = 'controller'
+input = 'r - y'
+output = 'u'
+transfer = 'K + b/10/(z - 1)'
+[[block]]
+name = 'plant'
+input = 'u'
+output = 'y'
+transfer = '1/(s + 1)'
+discretize = 'zoh'
+";
+
+#[test]
+fn regions_over_constants_are_the_sets_on_lines() {
+    let continuous = "time = 'continuous'\nparameters.K = { nominal = 1, min = 0, max = 20 }\n\
+                      parameters.b = { nominal = 1, min = 0, max = 20 }\nloop.characteristic = 's^2 + sqrt(2)*b*s + K + b'\n";
+    let cases = [
+        (HELD, Requirement::modulus_margin(number("1/2")).unwrap()),
+        (HELD, Requirement::gain_margin(&number("2")).unwrap()),
+        (continuous, Requirement::damping(number("1/2")).unwrap()),
+    ];
+    let mut random = Random::new(5);
+    for (text, requirement) in cases {
+        let model = load(text);
+        let list = std::slice::from_ref(&requirement);
+        let answer = required(&model, &["K", "b"], list);
+        let mut seen = [0; 2];
+        for _ in 0..4 {
+            let x = ratio(1 + random.below(19_999) as i64, 1000);
+            let line = keeping(&model, &["b"]).set("K", x.clone()).problem().unwrap();
+            let set = line.required_set(list, None, &Budget::unlimited()).unwrap().into_value();
+            // Near 0, and where a zero of the controller cancels the plant's pole.
+            let is_short =
+                |b: &UndecidedBracket| b.upper.clone().unwrap() - b.lower.clone().unwrap() < ratio(1, 1_000_000);
+            assert!(set.undecided.iter().all(is_short), "{:?}", set.undecided);
+            for _ in 0..5 {
+                let y = ratio(1 + random.below(19_999) as i64, 1000);
+                let Some(met) = met(&answer, &x, &y) else { continue };
+                let expected = set.intervals.iter().any(|i| i.contains(&y));
+                assert_eq!(!met.is_empty(), expected, "{} at {x}, {y}", requirement.text());
+                seen[usize::from(expected)] += 1;
+            }
+        }
+        assert!(seen[0] > 0 && seen[1] > 0, "{}: {seen:?}", requirement.text());
+    }
 }

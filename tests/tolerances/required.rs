@@ -218,3 +218,36 @@ fn the_program_says_which_requirement_binds() {
         (&false.into(), &true.into())
     );
 }
+
+/// Constants that are not rational are sides of the box; the factor of one name is where its own set ends.
+#[test]
+fn a_requirement_over_constants_ends_where_its_set_does() {
+    let held = load(
+        "time = 'discrete'\nsample_time = '1/10'\nparameters.K = 2\n[loop]\ninputs = ['r']\noutputs = ['y']\n\
+         [[block]]\nname = 'controller'\ninput = 'r - y'\noutput = 'u'\ntransfer = 'K'\n\
+         [[block]]\nname = 'plant'\ninput = 'u'\noutput = 'y'\ntransfer = '1/(s + 1)'\ndiscretize = 'zoh'\n",
+    );
+    let rooted = load("time = 'continuous'\nparameters.K = 2\nloop.characteristic = 's^2 + sqrt(2)*s + K'\n");
+    let cases = [
+        (&held, Requirement::modulus_margin(number("1/2")).unwrap()),
+        (&held, Requirement::gain_margin(&number("3/2")).unwrap()),
+        (&held, Requirement::phase_margin(&number("60")).unwrap()),
+        (&rooted, Requirement::damping(number("1/4")).unwrap()),
+    ];
+    for (model, requirement) in cases {
+        let list = std::slice::from_ref(&requirement);
+        let problem = model.ask().free("K").problem().unwrap();
+        let set = problem.required_set(list, None, &Budget::unlimited()).unwrap().into_value();
+        let around = set.intervals.iter().find(|i| i.contains(&number("2"))).expect("met at the nominal value");
+        let end = around.upper.as_ref().unwrap().value();
+        let request = ToleranceRequest::new([("K", "-0%..+10%".parse().unwrap())]).require(list.to_vec(), None);
+        let answer = model.ask().tolerance(&request, &Budget::unlimited()).unwrap();
+        let factor = answer.value().factor.as_ref().unwrap();
+        // K = 2 + factor/5
+        let value = |factor: &Rational| number("2") + factor * &number("1/5");
+        let upper = value(factor.upper.as_ref().expect("a point that does not meet it"));
+        assert!(end.compare_rational(&value(&factor.lower)).is_ge(), "{}", requirement.text());
+        assert!(end.compare_rational(&upper).is_le(), "{}", requirement.text());
+        assert!(&upper - &value(&factor.lower) < number("1/10000"), "{}", requirement.text());
+    }
+}

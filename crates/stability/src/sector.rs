@@ -1,8 +1,7 @@
 //! The sector of at least a damping in the left half plane, `cos` of the angle with the negative real axis: its polynomials.
 
-use crate::ParametricPolynomial;
 use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::{Domain, Poly, UniPoly};
+use jurist_algebra::poly::{Domain, Poly};
 
 /// `P(a s) P(b s)` with `a, b = c (c +- j damping)`, `c^2 = 1 - damping^2`, times powers of the denominator: all its roots are in the
 /// left half plane just when those of `P` are in the sector of at least this damping.
@@ -57,17 +56,11 @@ pub fn on_sector_edge<R: Domain>(p: &Poly<R>, damping: &Rational) -> [Poly<R>; 2
     [Poly::new(first), Poly::new(second)]
 }
 
-/// The sector's polynomial in the parameter that is free.
-pub fn sector_in_parameter(p: &ParametricPolynomial, damping: &Rational) -> ParametricPolynomial {
-    let product = in_sector(p.polynomial(), damping);
-    let coefficients: Vec<_> = (0..=2 * p.formal_degree()).map(|i| (product.coeff(i), UniPoly::one())).collect();
-    ParametricPolynomial::new(&coefficients, 2 * p.formal_degree(), Vec::new())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::{Shape, count_roots};
+    use jurist_algebra::poly::UniPoly;
 
     #[test]
     fn the_sector_of_a_damped_pair() {

@@ -211,8 +211,8 @@ fn required(
     asked: &Requirements,
     context: &Context,
 ) -> Result<MapOrBoxes, EngineError> {
-    if !asked.list.is_empty() {
-        // What is required is decided of rational loops only; that is said before the map is made.
+    if !asked.list.is_empty() && !Asked::MapWithMargins.over(problem.coefficient_ring(&context.budget)?).is_answered() {
+        // That is said before the map is made.
         problem.algebra(&context.budget)?;
     }
     match problem.map_by(method, boxes, digits, &context.budget)? {

@@ -282,6 +282,30 @@ impl MovingSymbols {
         Some(list.iter().map(|p| polynomial_at(p, &values).coefficients()[0].clone()).collect())
     }
 
+    /// The values of polynomials in the parameter and symbols and their derivatives by the parameter, the parameter anywhere in a ball;
+    /// `None` where a divisor may vanish.
+    ///
+    /// ```
+    /// use jurist_algebra::ball::Ball;
+    /// use jurist_algebra::poly::{MultiPoly, RationalFunction};
+    /// use jurist_algebra::symbols::{Definition, MovingSymbols};
+    /// // 3 exp(p) at 0
+    /// let symbols = MovingSymbols::new(vec![("X".into(), Definition::Exponential(RationalFunction::variable(0)))]);
+    /// let p = MultiPoly::variable(1).scaled_by(&3.into());
+    /// let [value, slope] = &symbols.jets(&[p], &Ball::zero(64)).unwrap()[0];
+    /// assert!(value.contains(&3.into()) && slope.contains(&3.into()));
+    /// ```
+    pub fn jets(&self, list: &[MultiPoly], parameter: &Ball) -> Option<Vec<[Ball; 2]>> {
+        let one = Ball::from_integer(&Integer::ONE, parameter.bits());
+        let values = self.series(&Series::linear(parameter, &one, 2))?;
+        let jet = |p: &MultiPoly| {
+            let series = polynomial_at(p, &values);
+            let [value, slope] = series.coefficients() else { unreachable!("two terms") };
+            [value.clone(), slope.clone()]
+        };
+        Some(list.iter().map(jet).collect())
+    }
+
     /// The value of a function, the parameter anywhere in a ball.
     pub(super) fn value(&self, f: &Scheme, parameter: &Ball) -> Option<Ball> {
         let values = self.series(&Series::constant(parameter, 1))?;

@@ -101,12 +101,12 @@ pub(super) static TENSOR: Method = Method::new(
 );
 pub(super) static FUNCTION_TENSOR: Method = Method::new(
     "Bernstein tensor with Taylor models",
-    "As the Bernstein tensor. In each part of the box a Taylor model encloses each function of the parameters; the tensor takes its polynomial and a bound of its rest.",
+    "As the Bernstein tensor. In each part of the box a Taylor model encloses each function of the parameters; the tensor takes its polynomial and a bound of its rest. One name alone is decided by its stable set.",
     "stability::boxes::MovingPolynomial",
 );
 pub(super) static DELAYED_TENSOR: Method = Method::new(
     "Bernstein tensor with Taylor models of the delays",
-    "The box is cut in frequency and parameters; exp(-i w tau) is a Taylor model in both, and beyond a bound of the frequency no root is on the axis.",
+    "The box is cut in frequency and parameters; exp(-i w tau) is a Taylor model in both, and beyond a bound of the frequency no root is on the axis. One name alone is decided by its stable set.",
     "stability::boxes::DelayedFunction",
 );
 pub(super) static POLYNOMIAL: Method = Method::new(
@@ -137,6 +137,12 @@ pub(super) static RESULTANTS: Method = Method::new(
 pub(super) static ENCLOSED_RESULTANTS: Method = Method::new(
     "enclosed resultants of the open loop with the requirement",
     "The same resultants, enclosed and not expanded; what they leave open stays as a bracket.",
+    "problem::Problem::required_set",
+);
+pub(super) static ROOTS: Method = Method::new(
+    "roots on the edge of the required region",
+    "The damping of a discrete loop asks for roots inside of a spiral: turns of the argument along it count them for all values of short intervals at once. \
+     Other regions are brought back to the disc or the half plane, where boundary polynomials tell.",
     "problem::Problem::required_set",
 );
 pub(super) static FLOATING: Method = Method::new(

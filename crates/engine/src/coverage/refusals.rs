@@ -119,13 +119,11 @@ pub(crate) static MARGINS_AT_POINTS: Refusal = Refusal::new(
 );
 pub(crate) static MARGINS_IN_ONE: Refusal = Refusal::new(
     Code::Require,
-    "requirements on margins are decided in one parameter for loops with functions that are not rational",
+    "of this loop requirements on margins are decided in one parameter only",
     "ask 'intervals' for one of the parameters, or 'margins' with a value for each",
 );
 pub(crate) static DELAY_AT_POINTS: Refusal =
     Refusal::new(Code::Require, "a delay margin is decided at points only, not as a set of a parameter", AT_A_POINT);
-pub(crate) static NOT_A_SET: Refusal =
-    Refusal::new(Code::Require, "the requirement {name} is not decided as a set for this loop", "{help}");
 pub(crate) static NOT_IN_A_PLANE: Refusal =
     Refusal::new(Code::Require, "the requirement {name} is not decided for two parameters", "{help}");
 pub(crate) static NOT_OVER_A_BOX: Refusal =

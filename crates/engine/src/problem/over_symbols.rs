@@ -37,16 +37,14 @@ impl Problem {
     pub(super) fn symbolic_of(&self, algebra: &Algebra) -> Result<Option<SymbolicPolynomial>, Error> {
         let Some(polynomial) = algebra.polynomial() else { return Ok(None) };
         let (symbols, free) = (algebra.symbols(), self.free().len());
-        if !symbols.is_moving() {
-            return Ok(Some(SymbolicPolynomial::new(polynomial, free, &Arc::new(fixed_symbols(symbols)?))));
-        }
-        let found = SymbolicPolynomial::with_moving(polynomial, &Arc::new(moving_symbols(symbols)?));
-        let usual = self.parameter().nominal.clone();
-        let found = match usual {
+        let found = match symbols.is_moving() {
+            false => SymbolicPolynomial::new(polynomial, free, &Arc::new(fixed_symbols(symbols)?)),
+            true => SymbolicPolynomial::with_moving(polynomial, &Arc::new(moving_symbols(symbols)?)),
+        };
+        Ok(Some(match self.free().first().and_then(|free| free.nominal.clone()) {
             Some(usual) => found.with_usual_value(usual),
             None => found,
-        };
-        Ok(Some(found))
+        }))
     }
 }
 

@@ -3,35 +3,29 @@
 use super::family::{Boundaries, Family};
 use super::met::AtPoint;
 use super::requirement::{Requirement, Rule};
-use super::{RequiredEnd, RequiredInterval};
+use super::{RequiredEnd, RequiredInterval, RequiredSet};
 use crate::error::Error;
-use crate::problem::Problem;
-use crate::stability::{End, RealInterval, StableInterval};
+use crate::stability::{Cause, End, RealInterval, StableInterval, UndecidedBracket};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::{Domain, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots};
+use jurist_algebra::poly::{RealAlgebraic, SquareFree, UniPoly, isolate_real_roots};
 use jurist_algebra::real::Real;
-use jurist_algebra::symbols::merged;
 use std::slice::from_ref;
 
 /// What is asked in each cell.
 pub(super) struct Cells<'a> {
-    /// With the whole region of stability, whatever smaller one is asked for.
-    pub problem: &'a Problem,
     pub requirements: &'a [Requirement],
     pub boundaries: &'a [Boundaries<UniPoly>],
-    pub family: Option<&'a Family<UniPoly>>,
+    pub family: &'a Family<UniPoly>,
     pub budget: &'a Budget,
 }
 
 impl Cells<'_> {
     /// The names of what is not met at a stable value.
-    fn unmet(&self, value: &Rational) -> Result<Vec<&'static str>, Error> {
-        let open_loop = self.family.map(|f| f.at(from_ref(value)));
-        let open_loop = open_loop.as_ref();
-        let closed = self.problem.parametric(self.budget)?.map(|p| p.specialised(value)).unwrap_or_else(UniPoly::zero);
+    fn unmet(&self, value: &Rational) -> Result<Unmet, Error> {
+        let open_loop = self.family.at(from_ref(value));
         let mut out = Vec::new();
-        let mut at = AtPoint::new(open_loop, &closed, self.problem.shape());
+        let mut at = AtPoint::new(&open_loop);
         for requirement in self.requirements {
             if !at.meets(requirement, self.budget)? {
                 out.push(requirement.name());
@@ -58,10 +52,7 @@ impl Cells<'_> {
             zeros.sort_by(RealAlgebraic::compare);
             zeros.dedup_by(|a, b| a.compare(b).is_eq());
         })?;
-        let mut all: Vec<Real> = zeros.into_iter().map(Real::from).collect();
-        for boundary in self.boundaries {
-            all = merged(all, boundary.values.clone(), self.budget)?;
-        }
+        let all: Vec<Real> = zeros.into_iter().map(Real::from).collect();
         let mut out = Vec::with_capacity(all.len());
         for x in all {
             if interval.has_inside(&x, self.budget)? {
@@ -90,6 +81,68 @@ impl Cells<'_> {
     }
 }
 
+/// The names of the requirements that are not met.
+pub(super) type Unmet = Vec<&'static str>;
+
+/// The values strictly inside of a stable interval.
+pub(super) fn inside_of(interval: &StableInterval, values: &[Real], budget: &Budget) -> Result<Vec<Real>, Exhausted> {
+    let bare = interval.bare();
+    let mut out = Vec::with_capacity(values.len());
+    for value in values {
+        if bare.has_inside(value, budget)? {
+            out.push(value.clone());
+        }
+    }
+    Ok(out)
+}
+
+/// The parts of a stable interval beside brackets in which it is not told what is met: `cells` decides what lies between them.
+pub(super) fn parts_beside(
+    interval: &StableInterval,
+    mut brackets: Vec<UndecidedBracket>,
+    found: &mut RequiredSet,
+    cells: impl Fn(&StableInterval) -> Result<Vec<RequiredInterval>, Error>,
+) -> Result<(), Error> {
+    brackets.retain(|b| {
+        let begins = |lo: &Rational| interval.upper.as_ref().is_none_or(|end| end.value.compare_rational(lo).is_gt());
+        let ends = |hi: &Rational| interval.lower.as_ref().is_none_or(|end| end.value.compare_rational(hi).is_lt());
+        b.lower.as_ref().is_none_or(begins) && b.upper.as_ref().is_none_or(ends)
+    });
+    let mut lower = interval.lower.clone();
+    for bracket in brackets {
+        if let Some(below) = &bracket.lower
+            && is_between(below, lower.as_ref(), interval.upper.as_ref())
+        {
+            let part = StableInterval::new(lower.clone(), Some(edge(below)));
+            found.intervals.extend(cells(&part)?);
+        }
+        let above = bracket.upper.clone();
+        found.undecided.push(bracket);
+        match &above {
+            Some(above) if is_between(above, lower.as_ref(), interval.upper.as_ref()) => lower = Some(edge(above)),
+            Some(above) if interval.upper.as_ref().is_none_or(|u| u.value.compare_rational(above).is_gt()) => {}
+            _ => return Ok(()),
+        }
+    }
+    found.intervals.extend(cells(&StableInterval::new(lower, interval.upper.clone()))?);
+    Ok(())
+}
+
+/// A rational number beyond an end of an interval: one that is not rational lies strictly inside.
+pub(super) fn outward(end: &Option<End>, is_lower: bool) -> Option<Rational> {
+    let (lo, hi) = end.as_ref()?.value.refined_to_digits(9).enclosure();
+    Some(if is_lower { lo } else { hi })
+}
+
+pub(super) fn edge(x: &Rational) -> End {
+    End::new(Real::from(x.clone()), Cause::Undecided.into(), None)
+}
+
+fn is_between(x: &Rational, lower: Option<&End>, upper: Option<&End>) -> bool {
+    lower.is_none_or(|end| end.value.compare_rational(x).is_lt())
+        && upper.is_none_or(|end| end.value.compare_rational(x).is_gt())
+}
+
 /// The parts of a stable interval in which everything is met, from one sample of each cell between neighbouring candidates.
 ///
 /// `unmet` has the names of what is not met at a value; `is_closed` tells whether at a candidate, of which the number is given, all is
@@ -102,7 +155,7 @@ pub(super) fn required_parts<U, C>(
     budget: &Budget,
 ) -> Result<Vec<RequiredInterval>, Error>
 where
-    U: Fn(&Rational) -> Result<Vec<&'static str>, Error>,
+    U: Fn(&Rational) -> Result<Unmet, Error>,
     C: Fn(usize, &[&'static str]) -> Result<bool, Error>,
 {
     // An end that is stable itself is kept where all is met there, too.

@@ -1,8 +1,9 @@
 //! The values of a parameter at which a root of a discrete loop enters or leaves the spiral of a damping.
 
+use super::on_roots::Changes;
 use super::spiral::{Arc, OnSpiral, Values, Walk};
-use crate::stability::subdivision::{BoxPart, Look, Order, subdivide};
-use crate::stability::{Cause, End, StableInterval};
+use crate::stability::subdivision::{BoxPart, Look, Order, Tally, subdivide};
+use crate::stability::{Bracket, Cause, End, StableInterval};
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, Exhausted, Stop, checkpoint};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
@@ -10,14 +11,18 @@ use jurist_algebra::real::{Enclosing, Origin, Real, Transcendental};
 
 /// Bits of the search.
 const BITS: u64 = 128;
-/// Arcs of a search are halved so often at most,
-const ARCS: u64 = 14;
+/// Arcs of a search are halved so often at most, and once more with each halving of the box: all roots may go to 1 with the parameter,
+const ARCS: u64 = 24;
 /// and only while no more of them are open: beside few roots near the edge.
 const MOST_OPEN: usize = 24;
 /// A value is enclosed with so many bits after the point at first.
 const PLACE_BITS: u64 = 64;
 /// Boxes of the parameter are halved so often at most.
-const BOXES: u32 = 40;
+const BOXES: u32 = 24;
+/// An interval without end is looked at so many times as far as its other end and the usual value.
+const FAR: i64 = 1024;
+/// So many of them may be left open.
+const MOST_LEFT: usize = 32;
 
 /// The values strictly inside of a stable interval, ascending; they are not algebraic.
 ///
@@ -27,20 +32,56 @@ const BOXES: u32 = 40;
 ///
 /// Cost: some tens of walks for each value.
 ///
+/// Where boxes get too small a bracket is left: near a double root at 1, and where roots touch the edge. So is what is far away in an
+/// interval without end.
+///
 /// # Errors
-/// [`Exhausted`] when the budget runs out, for an interval without end, and where boxes get too small: near a double root at 1, or where
-/// roots touch the edge.
-pub(super) fn changes(p: &OnSpiral, interval: &StableInterval, budget: &Budget) -> Result<Vec<Real>, Exhausted> {
-    let (Some(lower), Some(upper)) = (&interval.lower, &interval.upper) else {
-        return Err(Exhausted::by_method("a stable interval without end", "the damping of a discrete loop"));
-    };
+/// [`Exhausted`] when the budget runs out.
+pub(super) fn changes(p: &OnSpiral, interval: &StableInterval, budget: &Budget) -> Result<Changes, Exhausted> {
+    let far = far_from(interval, p.usual());
+    let [lower, upper] = [(&interval.lower, -&far), (&interval.upper, far)]
+        .map(|(end, far)| end.clone().unwrap_or_else(|| End::new(far, Cause::Undecided.into(), None)));
     let (a, b) = (lower.value.refined_to_digits(15).enclosure(), upper.value.refined_to_digits(15).enclosure());
     let outer = [a.0.clone(), b.1.clone()];
-    let search = Search { p, ends: [lower, upper], outer, inner: [a.1, b.0], budget };
+    let search = Search { p, ends: [&lower, &upper], outer, inner: [a.1, b.0], budget };
     let whole = BoxPart::whole([[a.0, b.1]]);
     let mut out = Vec::new();
-    subdivide([whole], Order::Depth, budget, |part, _| search.look(part, &mut out))?.ok();
-    Ok(out)
+    let (mut open, mut left): (Vec<Bracket>, usize) = (Vec::new(), 0);
+    let look = |part: &mut BoxPart, _: Tally| {
+        if let Some(seen) = search.look(part, &mut out)? {
+            return Ok(seen);
+        }
+        let [from, to] = &part.sides[0];
+        left += 1;
+        if left > MOST_LEFT {
+            let near = from.to_f64_approximate();
+            return Err(Exhausted::new(Stop::Halvings(BOXES), format!("the damping near {near:.6e}")));
+        }
+        match open.last_mut() {
+            Some(last) if last.1.as_ref() == Some(from) => last.1 = Some(to.clone()),
+            _ => open.push((Some(from.clone()), Some(to.clone()))),
+        }
+        Ok(Look::Decided(()))
+    };
+    subdivide([whole], Order::Depth, budget, look)?.ok();
+    if interval.lower.is_none() {
+        open.insert(0, (None, lower.value.exact()));
+    }
+    if interval.upper.is_none() {
+        open.push((upper.value.exact(), None));
+    }
+    Ok((out, open))
+}
+
+/// How far an interval without end is looked at.
+fn far_from(interval: &StableInterval, usual: &Rational) -> Rational {
+    let ends = [&interval.lower, &interval.upper].into_iter().flatten();
+    let size = |end: &End| {
+        let (lo, hi) = end.value.refined_to_digits(2).enclosure();
+        lo.abs().max(hi.abs())
+    };
+    let size = ends.map(size).chain([usual.abs()]).max().expect("the usual value is one");
+    Rational::from((size * Rational::from(FAR)).ceil())
 }
 
 struct Search<'a> {
@@ -54,22 +95,24 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Looks at a box of the parameter, for at most one value.
-    fn look(&self, part: &BoxPart, out: &mut Vec<Real>) -> Result<Look<(), ()>, Exhausted> {
+    /// Looks at a box of the parameter, for at most one value; `None` where it is too small to be cut.
+    fn look(&self, part: &BoxPart, out: &mut Vec<Real>) -> Result<Option<Look<(), ()>>, Exhausted> {
         let [from, to] = &part.sides[0];
         let values = Values::between(from, to);
-        let open = match self.budget.enter(|| self.p.walk(&values, BITS, ARCS, MOST_OPEN))? {
-            Walk::Count(_) => return Ok(Look::Decided(())),
+        let halvings = u64::from(part.halvings[0]);
+        let (bits, arcs) = (BITS + halvings * (self.p.degree() as u64 + 2), ARCS + halvings);
+        let open = match self.budget.enter(|| self.p.walk(&values, bits, arcs, MOST_OPEN))? {
+            Walk::Count(_) => return Ok(Some(Look::Decided(()))),
             Walk::Open(open) => open,
         };
         let angles = hull(&open);
         // An arc at 1 is open where 1 is a root at the end of the interval.
         let at_one = angles[0].is_zero();
         let touches_one = at_one && self.is_known_at_one(from, to);
-        if (!at_one || touches_one) && self.budget.enter(|| self.p.is_one_to_one(&angles, &values, BITS))? {
+        if (!at_one || touches_one) && self.budget.enter(|| self.p.is_one_to_one(&angles, &values, bits))? {
             // The only zero is the one at 1.
             if touches_one {
-                return Ok(Look::Decided(()));
+                return Ok(Some(Look::Decided(())));
             }
             let (low, high) = (from.max(&self.inner[0]).clone(), to.min(&self.inner[1]).clone());
             let counts = [self.p.count_at(&low, self.budget)?, self.p.count_at(&high, self.budget)?];
@@ -79,13 +122,9 @@ impl Search<'_> {
                 let place = self.budget.enter(|| change.enclose(PLACE_BITS, None))?;
                 out.push(Transcendental::within(change, place).into());
             }
-            return Ok(Look::Decided(()));
+            return Ok(Some(Look::Decided(())));
         }
-        if part.halvings[0] == BOXES {
-            let near = from.to_f64_approximate();
-            return Err(Exhausted::new(Stop::Halvings(BOXES), format!("the damping near {near:.6e}")));
-        }
-        Ok(Look::Cut(0))
+        Ok((part.halvings[0] < BOXES).then_some(Look::Cut(0)))
     }
 
     /// Whether the box holds an end at which 1 is a root.
@@ -127,7 +166,7 @@ impl Change {
         let rounds = 8 + (u64::BITS - bits.leading_zeros());
         for _ in 0..rounds {
             checkpoint(working);
-            let jet = self.p.at_middle(&[t.clone(), t.clone()], &Values::of(&k), working);
+            let jet = self.p.at_point(&t, &k, working)?;
             let (f, u, v) = (jet.value, jet.by_angle, jet.by_parameter);
             let determinant = u.re.mul(&v.im).sub(&u.im.mul(&v.re));
             let angle = f.re.mul(&v.im).sub(&f.im.mul(&v.re)).div(&determinant)?;
@@ -183,8 +222,9 @@ impl Enclosing for Change {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::stability::{ParametricPolynomial, Range, Shape, stable_set};
-    use jurist_algebra::poly::{Poly, UniPoly};
+    use crate::stability::{ParametricPolynomial, Range, Shape, SymbolicPolynomial, stable_set};
+    use jurist_algebra::poly::{MultiPoly, Poly, UniPoly};
+    use jurist_algebra::symbols::Symbols;
 
     /// An integrator, a lag and two samples of delay with a zero: roots at 1 for the gain 0, at the end of the domain. The values are
     /// mpmath's at 50 digits: there a negative root and a pair leave the spiral.
@@ -198,10 +238,14 @@ mod tests {
         let set = stable_set(&p, &domain, Shape::UnitDisc, &budget).unwrap();
         let [interval] = set.intervals() else { panic!("{set:?}") };
         let damping = Rational::new(2.into(), 5.into());
-        let found = changes(&OnSpiral::new(&polynomial, &damping), interval, &budget).unwrap();
+        let coefficients = polynomial.map(|c| MultiPoly::from_univariate(c, 0));
+        let lead = coefficients.coeff(4);
+        let p = SymbolicPolynomial::from_parts(&Symbols::new().into(), coefficients, lead, 4, Vec::new());
+        let p = OnSpiral::of(&p, &damping).unwrap();
+        let (found, open) = changes(&p, interval, &budget).unwrap();
+        assert!(open.is_empty());
         let decimals: Vec<String> = found.iter().map(|x| x.decimal(25)).collect();
         assert_eq!(decimals, ["7.286368919065204252291676", "27.57670552299612977034143"]);
-        let p = OnSpiral::new(&polynomial, &damping);
         let count = |k: i64| p.count_at(&Rational::new(k.into(), 10.into()), &budget).unwrap();
         assert_eq!([1, 240, 280].map(count), [4, 3, 1]);
     }

@@ -6,46 +6,53 @@ use super::requirement::{Requirement, Rule};
 use crate::coverage::refusals::MARGINS_IN_ONE;
 use crate::error::{Code, Diagnostic, Error};
 use crate::model::{ClosedLoop, Cut, Opened};
-use crate::problem::Problem;
+use crate::problem::{Problem, fixed_symbols};
 use crate::stability::Shape;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{
     Domain, MultiPoly, Poly, RationalFunction, RealAlgebraic, UniPoly, discriminant, resultant,
 };
-use jurist_algebra::real::Real;
+use jurist_algebra::symbols::{Symbols, common_scale};
+use std::sync::Arc;
 
 /// Polynomials in what is free: in one parameter, or in two.
 pub(crate) trait Parameters: Domain {
+    /// True if symbols may follow the parameters.
+    const HAS_SYMBOLS: bool;
     /// With the parameters as the first variables.
     fn lifted(&self) -> MultiPoly;
     /// From one in the first variables only.
     fn lowered(p: &MultiPoly) -> Self;
-    /// The value at a point.
-    fn value(&self, at: &[Rational]) -> Rational;
+    /// Polynomials at a point, all times one positive integer, in symbols as their table numbers them.
+    fn at_point(list: &[Self], point: &[Rational]) -> Vec<MultiPoly>;
 }
 
 impl Parameters for UniPoly {
+    const HAS_SYMBOLS: bool = false;
+
     fn lifted(&self) -> MultiPoly {
         MultiPoly::from_univariate(self, 0)
     }
     fn lowered(p: &MultiPoly) -> Self {
         p.to_univariate(0).expect("one variable is left")
     }
-    fn value(&self, at: &[Rational]) -> Rational {
-        self.eval_rational(&at[0])
+    fn at_point(list: &[Self], point: &[Rational]) -> Vec<MultiPoly> {
+        common_scale(&list.iter().map(Self::lifted).collect::<Vec<_>>(), &point[0])
     }
 }
 
 impl Parameters for MultiPoly {
+    const HAS_SYMBOLS: bool = true;
+
     fn lifted(&self) -> MultiPoly {
         self.clone()
     }
     fn lowered(p: &MultiPoly) -> Self {
         p.clone()
     }
-    fn value(&self, at: &[Rational]) -> Rational {
-        self.eval(at)
+    fn at_point(list: &[Self], point: &[Rational]) -> Vec<MultiPoly> {
+        point.iter().fold(list.to_vec(), |list, value| common_scale(&list, value))
     }
 }
 
@@ -56,6 +63,8 @@ pub(crate) struct Family<R> {
     cut: Cut,
     /// The number of parameters.
     free: usize,
+    /// The symbols that follow them.
+    pub symbols: Arc<Symbols>,
     /// Where the open loop is undefined.
     pub undefined: R,
 }
@@ -102,8 +111,6 @@ struct Expanded {
 pub(crate) struct Boundaries<R> {
     /// All of them.
     pub zeros: Vec<R>,
-    /// Such values themselves.
-    pub values: Vec<Real>,
     /// Where a crossing may appear at once: not known by continuity.
     pub touches: R,
 }
@@ -117,15 +124,16 @@ impl<R: Parameters> Family<R> {
         }
         let kept: Vec<String> = problem.free().iter().map(|f| f.name.clone()).collect();
         let Opened { system, sample_time, symbols } = problem.model().opened(&cut, &kept, problem.set(), budget)?;
-        if !symbols.is_empty() {
+        if !symbols.is_empty() && !R::HAS_SYMBOLS {
             return Err(MARGINS_IN_ONE.diagnostic(&[]).into());
         }
+        let table = Arc::new(fixed_symbols(&symbols)?);
         let (quotient, undefined) = Quotient::of(&system, problem.shape(), R::lowered, budget)?;
         if quotient.numerator.is_zero() {
             return Err(nothing_comes_back(&cut));
         }
         let sample_time = sample_time.and_then(|t| t.as_constant());
-        Ok(Family { quotient, sample_time, cut, free: kept.len(), undefined })
+        Ok(Family { quotient, sample_time, cut, free: kept.len(), symbols: table, undefined })
     }
 
     /// `D0` and `N` with the open loop `N/D0`, in the variable of the closed loop.
@@ -135,14 +143,21 @@ impl<R: Parameters> Family<R> {
 
     /// The open loop at a point.
     pub fn at(&self, point: &[Rational]) -> OpenLoop {
-        let part = |p: &Poly<R>| p.coeffs().iter().map(|c| c.value(point)).collect::<Vec<_>>();
-        let (denominator, numerator) =
-            super::open_loop::integral(part(&self.quotient.denominator), part(&self.quotient.numerator));
-        OpenLoop::from_parts(self.cut.clone(), denominator, numerator, self.quotient.shape, self.sample_time.clone())
+        let Quotient { denominator, numerator, shape } = &self.quotient;
+        let all: Vec<R> = denominator.coeffs().iter().chain(numerator.coeffs()).cloned().collect();
+        let mut at = R::at_point(&all, point);
+        let above = Poly::new(at.split_off(denominator.coeffs().len()));
+        OpenLoop::over_symbols(
+            self.cut.clone(),
+            (Poly::new(at), above),
+            &self.symbols,
+            *shape,
+            self.sample_time.clone(),
+        )
     }
 
     pub fn boundaries(&self, requirement: &Requirement, budget: &Budget) -> Result<Boundaries<R>, Exhausted> {
-        self.quotient.boundaries(&Expanded { variable: self.free }, requirement, budget)
+        self.quotient.boundaries(&Expanded { variable: self.free + self.symbols.len() }, requirement, budget)
     }
 }
 
@@ -209,7 +224,7 @@ impl<R: Domain> Quotient<R> {
                 let mut zeros = at_ends(&excess);
                 zeros.extend((!content.is_zero()).then(|| by.function(content)));
                 zeros.push(repeated(&excess)?);
-                Boundaries { zeros, values: Vec::new(), touches: one() }
+                Boundaries { zeros, touches: one() }
             }
             Rule::Turned { twice_cosine } => {
                 // Modulus one, and the real part is minus the cosine: twice_real + 2 cos |N|^2 = 0. Of a gain, N is a multiple.
@@ -222,7 +237,7 @@ impl<R: Domain> Quotient<R> {
                 let mut zeros: Vec<_> = ends.map(|f| by.function(f)).collect();
                 zeros.push(eliminated(&excess, &twice_real, &above, twice_cosine)?);
                 zeros.push(repeated(&excess)?);
-                Boundaries { zeros, values: Vec::new(), touches: repeated(&excess)? }
+                Boundaries { zeros, touches: repeated(&excess)? }
             }
             Rule::Factors(factor) => {
                 // Real, and the factor makes it -1: 2 |D0|^2 + k twice_real = 0.
@@ -241,10 +256,10 @@ impl<R: Domain> Quotient<R> {
                         zeros.push(by.sum(a, b, factor, budget)?);
                     }
                 }
-                Boundaries { zeros, values: Vec::new(), touches }
+                Boundaries { zeros, touches }
             }
             Rule::Sector(_) | Rule::DeadTime(_) | Rule::Modulus { .. } => {
-                Boundaries { zeros: Vec::new(), values: Vec::new(), touches: one() }
+                Boundaries { zeros: Vec::new(), touches: one() }
             }
         })
     }
@@ -349,11 +364,4 @@ fn without_common<R: Domain>(p: &Poly<R>, others: &[&Poly<R>], budget: &Budget) 
         let common = others.iter().fold(p.clone(), |g, q| g.gcd(q));
         p.div_exact(&common).expect("a gcd divides").square_free_part()
     })
-}
-
-impl<R: Domain> Boundaries<R> {
-    /// No value at all.
-    pub fn none() -> Boundaries<R> {
-        Boundaries { zeros: Vec::new(), values: Vec::new(), touches: R::one() }
-    }
 }

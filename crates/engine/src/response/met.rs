@@ -2,26 +2,19 @@
 
 use super::crossings::Crossings;
 use super::extreme::{Extreme, extreme_over};
-use super::ground::{Constants, Ground};
 use super::margins::{GainMargin, Margins, PhaseMargin, StableMargins};
 use super::open_loop::{OpenLoop, with_parts};
 use super::place::modulus_squared;
-use super::requirement::{Circle, Found, Requirement, Rule, scaled_by_exponential};
-use super::spiral::OnSpiral;
+use super::requirement::{Circle, Found, Requirement, Rule};
 use super::value::{Value, square_root};
-use crate::stability::Shape;
 use jurist_algebra::limits::{Budget, Exhausted};
-use jurist_algebra::number::Rational;
-use jurist_algebra::poly::{Domain, MultiPoly, RealAlgebraic, UniPoly};
+use jurist_algebra::poly::{Domain, RealAlgebraic, UniPoly};
 use jurist_algebra::real::Real;
 use std::cmp::Ordering;
 
-/// A stable loop at a point; each margin is computed once, when it is first asked for.
+/// The open loop of a stable loop at a point; each margin is computed once, when it is first asked for.
 pub(super) struct AtPoint<'a> {
-    open_loop: Option<&'a OpenLoop>,
-    /// The closed loop's polynomial, all its roots as they are.
-    closed: &'a UniPoly,
-    shape: Shape,
+    open_loop: &'a OpenLoop,
     gain: Option<GainMargin>,
     phase: Option<PhaseMargin>,
     /// Of circles: the least `|1 + L|^2/|u + v L|^2` of each `u` and `v`.
@@ -29,25 +22,25 @@ pub(super) struct AtPoint<'a> {
 }
 
 impl<'a> AtPoint<'a> {
-    pub fn new(open_loop: Option<&'a OpenLoop>, closed: &'a UniPoly, shape: Shape) -> Self {
-        AtPoint { open_loop, closed, shape, gain: None, phase: None, circles: Vec::new() }
+    pub fn new(open_loop: &'a OpenLoop) -> Self {
+        AtPoint { open_loop, gain: None, phase: None, circles: Vec::new() }
     }
 
-    /// Whether it meets a requirement.
+    /// Whether it meets a requirement on margins; none on roots is met by an open loop.
     pub fn meets(&mut self, requirement: &Requirement, budget: &Budget) -> Result<bool, Exhausted> {
-        let cut = || self.open_loop.expect("a margin is taken at a cut");
+        let open_loop = self.open_loop;
         match requirement.rule() {
             Rule::Factors(factor) => {
                 let gain = match self.gain.take() {
                     Some(gain) => gain,
-                    None => GainMargin::of(cut(), budget)?,
+                    None => GainMargin::of(open_loop, budget)?,
                 };
                 has_gain_margin(self.gain.insert(gain), factor, budget)
             }
             Rule::Turned { twice_cosine } => {
                 let phase = match self.phase.take() {
                     Some(phase) => phase,
-                    None => PhaseMargin::of(cut(), &Crossings::of(cut(), budget)?, budget)?,
+                    None => PhaseMargin::of(open_loop, &Crossings::of(open_loop, budget)?, budget)?,
                 };
                 has_phase_margin(self.phase.insert(phase), twice_cosine, budget)
             }
@@ -56,7 +49,7 @@ impl<'a> AtPoint<'a> {
                 let place = match known {
                     Some(place) => place,
                     None => {
-                        let extreme = circle_extreme(cut(), circle, budget)?;
+                        let extreme = circle_extreme(open_loop, circle, budget)?;
                         self.circles.push((circle.combined(), extreme.and_then(|extreme| extreme.value())));
                         self.circles.len() - 1
                     }
@@ -65,24 +58,8 @@ impl<'a> AtPoint<'a> {
                 let square = Value::from(circle.least() * circle.least());
                 Ok(ratio.compare(&square, budget)?.is_ge())
             }
-            Rule::Sector(least) if self.shape == Shape::UnitDisc => {
-                let inside = OnSpiral::without_parameter(self.closed, least).count_at(&Rational::ZERO, budget)?;
-                Ok(Some(inside) == self.closed.degree())
-            }
-            Rule::Sector(least) => {
-                // On the sector's edge a root is damped enough.
-                let count =
-                    crate::stability::count_roots(&crate::stability::sector::in_sector(self.closed, least), self.shape);
-                Ok(count.outside == 0)
-            }
-            Rule::Modulus { exponent } => {
-                let coefficients = self.closed.coeffs().iter().cloned().map(MultiPoly::constant);
-                let (symbols, scaled) = scaled_by_exponential(coefficients, exponent);
-                // No root has a transcendental modulus, so none is on the circle.
-                Constants(symbols).is_stable(&scaled, self.shape, budget)
-            }
-            // Of the whole answer, with the dead time behind a hold.
-            Rule::DeadTime(_) => Ok(false),
+            // Of roots, or of the whole answer, with the dead time behind a hold.
+            Rule::Sector(_) | Rule::Modulus { .. } | Rule::DeadTime(_) => Ok(false),
         }
     }
 }

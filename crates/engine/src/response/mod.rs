@@ -21,6 +21,7 @@ mod held_delay;
 mod margins;
 mod met;
 mod norm;
+mod on_roots;
 mod open_loop;
 mod over_boxes;
 mod over_symbols;

@@ -14,7 +14,7 @@ use jurist_algebra::ball::{Ball, cos_sin};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
-use jurist_algebra::symbols::Definition;
+use jurist_algebra::symbols::{Definition, Symbols};
 use std::sync::Arc;
 
 /// `D(z; k) = D0 + k N`: the characteristic polynomial with the factor `k` at the cut, nominally 1.
@@ -177,6 +177,24 @@ impl OpenLoop {
         sample_time: Option<Rational>,
     ) -> OpenLoop {
         let over = Over::Integers(Parts::new(Integers, denominator, numerator, Vec::new(), shape));
+        OpenLoop { cut, over, shape, sample_time, dead_time: None }
+    }
+
+    /// From polynomials whose coefficients are polynomials in symbols.
+    pub(crate) fn over_symbols(
+        cut: Cut,
+        (denominator, numerator): (Poly<MultiPoly>, Poly<MultiPoly>),
+        symbols: &Arc<Symbols>,
+        shape: Shape,
+        sample_time: Option<Rational>,
+    ) -> OpenLoop {
+        if symbols.is_empty() {
+            let numbers = |p: Poly<MultiPoly>| -> Vec<Rational> { p.coeffs().iter().map(|c| c.eval(&[])).collect() };
+            let (denominator, numerator) = integral(numbers(denominator), numbers(numerator));
+            return OpenLoop::from_parts(cut, denominator, numerator, shape, sample_time);
+        }
+        let ground = Constants(Arc::clone(symbols));
+        let over = Over::Constants(Parts::new(ground, denominator, numerator, Vec::new(), shape));
         OpenLoop { cut, over, shape, sample_time, dead_time: None }
     }
 

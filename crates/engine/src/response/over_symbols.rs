@@ -1,22 +1,20 @@
 //! Requirements on margins in one parameter where the loop contains functions that are not rational, such as a plant behind a hold.
 
-use super::cells::required_parts;
+use super::cells::{edge, outward, parts_beside, required_parts};
 use super::family::{Elimination, Quotient, nothing_comes_back, plus_multiple, plus_multiple_of};
 use super::met::AtPoint;
 use super::open_loop::OpenLoop;
 use super::over_boxes::{OverBoxes, certain, segments};
 use super::requirement::{Requirement, Rule};
 use super::{RequiredEnd, RequiredInterval, RequiredSet};
-use crate::coverage::refusals::{MARGINS_AT_POINTS, NOT_A_SET};
+use crate::coverage::refusals::{DELAY_AT_POINTS, MARGINS_AT_POINTS};
 use crate::error::{Code, Diagnostic, Error};
 use crate::model::{Cut, Opened};
 use crate::problem::{Problem, moving_symbols};
-use crate::stability::{
-    Bracket, Cause, End, Range, StableInterval, StableSet, UndecidedBracket, told_apart, zeros_of_functions,
-};
+use crate::stability::{Bracket, Range, StableInterval, StableSet, UndecidedBracket, told_apart, zeros_of_functions};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::{Domain, MultiPoly, Poly, RealAlgebraic, UniPoly};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly, RealAlgebraic};
 use jurist_algebra::real::Real;
 use jurist_algebra::symbols::{Definition, Function, MovingSymbols};
 use std::sync::Arc;
@@ -110,14 +108,8 @@ impl<'a> SymbolicFamily<'a> {
         stable: &StableSet,
         budget: &Budget,
     ) -> Result<RequiredSet, Error> {
-        if let Some(other) = requirements.iter().find(|r| !r.needs_cut() || matches!(r.rule(), Rule::DeadTime(_))) {
-            let help = match other.rule() {
-                Rule::DeadTime(_) => "ask 'verdict' with a value for every parameter",
-                _ => {
-                    "margins of loops with functions that are not rational are decided, roots in smaller regions not yet"
-                }
-            };
-            return Err(NOT_A_SET.diagnostic(&[("name", other.name()), ("help", help)]).into());
+        if requirements.iter().any(|r| matches!(r.rule(), Rule::DeadTime(_))) {
+            return Err(DELAY_AT_POINTS.diagnostic(&[]).into());
         }
         let mut found = RequiredSet { intervals: Vec::new(), undecided: stable.undecided().to_vec() };
         let of = |requirement: &Requirement| {
@@ -129,7 +121,7 @@ impl<'a> SymbolicFamily<'a> {
         for interval in stable.intervals() {
             self.in_segments(interval, requirements, &boxes, &mut found, budget)?;
         }
-        found.undecided.sort_by(|a, b| (&a.lower, &a.upper).cmp(&(&b.lower, &b.upper)));
+        found.sort();
         Ok(found)
     }
 
@@ -213,30 +205,7 @@ impl<'a> SymbolicFamily<'a> {
                 brackets.push(bracket);
             }
         }
-        brackets.retain(|b| {
-            let begins =
-                |lo: &Rational| interval.upper.as_ref().is_none_or(|end| end.value.compare_rational(lo).is_gt());
-            let ends = |hi: &Rational| interval.lower.as_ref().is_none_or(|end| end.value.compare_rational(hi).is_lt());
-            b.lower.as_ref().is_none_or(begins) && b.upper.as_ref().is_none_or(ends)
-        });
-        let mut lower = interval.lower.clone();
-        for bracket in &brackets {
-            if let Some(below) = &bracket.lower
-                && is_between(below, lower.as_ref(), interval.upper.as_ref())
-            {
-                let part = StableInterval::new(lower.clone(), Some(edge(below)));
-                found.intervals.extend(self.cells(&part, &candidates, requirements, budget)?);
-            }
-            found.undecided.push(bracket.clone());
-            match &bracket.upper {
-                Some(above) if is_between(above, lower.as_ref(), interval.upper.as_ref()) => lower = Some(edge(above)),
-                Some(above) if interval.upper.as_ref().is_none_or(|u| u.value.compare_rational(above).is_gt()) => {}
-                _ => return Ok(()),
-            }
-        }
-        let part = StableInterval::new(lower, interval.upper.clone());
-        found.intervals.extend(self.cells(&part, &candidates, requirements, budget)?);
-        Ok(())
+        parts_beside(interval, brackets, found, |part| self.cells(part, &candidates, requirements, budget))
     }
 
     /// All values strictly inside of a stable interval at which a requirement may begin or cease to be met, and what may have
@@ -342,8 +311,7 @@ impl<'a> SymbolicFamily<'a> {
     ) -> Result<Vec<&'static str>, Error> {
         let problem = self.problem.with_value(value);
         let open_loop = OpenLoop::of_any(&problem, self.at, budget)?;
-        let closed = UniPoly::zero();
-        let mut here = AtPoint::new(Some(&open_loop), &closed, self.problem.shape());
+        let mut here = AtPoint::new(&open_loop);
         let mut out = Vec::new();
         for requirement in requirements {
             if !here.meets(requirement, budget)? {
@@ -352,16 +320,6 @@ impl<'a> SymbolicFamily<'a> {
         }
         Ok(out)
     }
-}
-
-/// A rational number beyond an end of an interval: one that is not rational lies strictly inside.
-fn outward(end: &Option<End>, is_lower: bool) -> Option<Rational> {
-    let (lo, hi) = end.as_ref()?.value.refined_to_digits(9).enclosure();
-    Some(if is_lower { lo } else { hi })
-}
-
-fn edge(x: &Rational) -> End {
-    End::new(Real::from(x.clone()), Cause::Undecided.into(), None)
 }
 
 /// Digits of the interval around a zero in which nothing may change.
@@ -392,9 +350,4 @@ fn around(x: &Real) -> Bracket {
     let width = Rational::dyadic(&Integer::ONE, BRACKET_BITS);
     let (lo, hi) = x.refined(&width).enclosure();
     (Some(lo - &width), Some(hi + &width))
-}
-
-fn is_between(x: &Rational, lower: Option<&End>, upper: Option<&End>) -> bool {
-    lower.is_none_or(|end| end.value.compare_rational(x).is_lt())
-        && upper.is_none_or(|end| end.value.compare_rational(x).is_gt())
 }

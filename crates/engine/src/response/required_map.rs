@@ -1,17 +1,21 @@
 //! For which values of two parameters a loop is stable and meets its requirements.
 
-use super::family::Family;
+use super::family::{Family, Parameters};
 use super::met::AtPoint;
+use super::on_roots::OnRoots;
 use super::requirement::{Requirement, Rule};
 use crate::answer::{Answer, Map};
+use crate::coverage::CoefficientRing;
 use crate::coverage::refusals::NOT_IN_A_PLANE;
 use crate::error::{Code, Diagnostic, Error};
 use crate::problem::Problem;
-use crate::stability::Shape;
-use crate::stability::plane::{Asked, StabilityMap, layers};
+use crate::stability::plane::{Asked, PlanePolynomial, StabilityMap, layers};
+use crate::stability::{Shape, SymbolicPolynomial};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::{Domain, MultiPoly, UniPoly, resultant};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly, resultant};
+use jurist_algebra::symbols::Symbols;
+use std::sync::Arc;
 
 /// Where in a plane requirements are met: for each alone, and for all together.
 #[derive(Clone, Debug)]
@@ -87,7 +91,7 @@ fn not_in_a_plane(requirement: &Requirement) -> Error {
 
 impl Problem {
     fn required_map(
-        self: &std::sync::Arc<Self>,
+        self: &Arc<Self>,
         requirements: &[Requirement],
         at: Option<&str>,
         budget: &Budget,
@@ -107,13 +111,17 @@ impl Problem {
                 .collect(),
         };
         let whole = self.without_region();
-        let (Some(p), Some(plain)) = (self.plane(budget)?, whole.plane(budget)?) else {
+        let (Some(p), Some(plain)) = (self.plane_over_symbols(budget)?, whole.plane_over_symbols(budget)?) else {
             return Ok(found(sets.iter().map(|_| StabilityMap::never_stable()).collect()));
         };
         let family: Option<Family<MultiPoly>> = match requirements.iter().any(Requirement::needs_cut) {
             true => Some(Family::of(self, at, budget)?),
             false => None,
         };
+        let symbols = Arc::new(self.fixed_symbols(budget)?);
+        if family.as_ref().is_some_and(|family| family.symbols != symbols) {
+            return Err(CoefficientRing::Constants.not_rational(self.algebra_over_symbols(budget)?.symbols()).into());
+        }
         budget.step("boundaries of the requirements");
         let mut curves = Vec::new();
         for requirement in requirements {
@@ -121,9 +129,15 @@ impl Problem {
         }
         let met = |point: &[Rational; 2]| -> Result<Vec<bool>, Exhausted> {
             let open_loop = family.as_ref().map(|f| f.at(point));
-            let closed: UniPoly = plain.specialised(point);
-            let mut here = AtPoint::new(open_loop.as_ref(), &closed, self.shape());
-            requirements.iter().map(|r| here.meets(r, budget)).collect()
+            let mut here = open_loop.as_ref().map(AtPoint::new);
+            let met = |r: &Requirement| match (&mut here, r.needs_cut()) {
+                (Some(here), true) => here.meets(r, budget),
+                _ => {
+                    let closed = closed_at(plain, &symbols, point);
+                    OnRoots::of(r, &closed, self.shape()).expect("all is known").is_met_at(&Rational::ZERO, budget)
+                }
+            };
+            requirements.iter().map(met).collect()
         };
         let asked = Asked { curves, met: &met, sets: &sets };
         let domains = [self.free()[0].domain.clone(), self.free()[1].domain.clone()];
@@ -160,4 +174,13 @@ impl Problem {
         found.retain(|f| !f.is_constant());
         Ok(found)
     }
+}
+
+/// The closed loop at a point of the plane.
+fn closed_at(plane: &PlanePolynomial, symbols: &Arc<Symbols>, point: &[Rational; 2]) -> SymbolicPolynomial {
+    let coefficients = <MultiPoly as Parameters>::at_point(plane.polynomial().coeffs(), point);
+    let beside = coefficients.into_iter().map(|c| c.map_variables(|i| i + 1)).collect();
+    let polynomial = Poly::new(beside);
+    let degree = plane.formal_degree();
+    SymbolicPolynomial::from_parts(symbols, polynomial.clone(), polynomial.coeff(degree), degree, Vec::new())
 }

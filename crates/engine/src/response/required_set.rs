@@ -1,27 +1,23 @@
 //! For which values of a parameter a loop is stable and meets its requirements.
 
 use super::cells::Cells;
-use super::damped::changes;
 use super::family::{Boundaries, Family};
 use super::margins::Margins;
 use super::met::AtPoint;
+use super::on_roots::OnRoots;
 use super::open_loop::OpenLoop;
 use super::over_symbols::SymbolicFamily;
-use super::requirement::{Requirement, Rule, scaled_by_exponential};
-use super::spiral::OnSpiral;
+use super::requirement::{Requirement, Rule};
 use super::{DelayMargin, HeldDelay};
 use crate::answer::{Answer, Verdict};
 use crate::coverage::refusals::DELAY_AT_POINTS;
 use crate::error::{Code, Diagnostic, Error};
 use crate::precisions::REQUIRED_DELAY;
 use crate::problem::Problem;
-use crate::stability::{
-    End, Range, Shape, StableSet, SymbolicPolynomial, UndecidedBracket, boundary_polynomials, symbolic_stable_set,
-};
+use crate::stability::{End, Shape, StableInterval, StableSet, UndecidedBracket};
 use jurist_algebra::limits::{Budget, Exhausted};
-use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Enclosure, Rational};
-use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction, UniPoly};
+use jurist_algebra::poly::{Domain, UniPoly};
 use jurist_algebra::real::Real;
 use std::cmp::Ordering;
 use std::sync::Arc;
@@ -34,6 +30,49 @@ pub struct RequiredSet {
     pub intervals: Vec<RequiredInterval>,
     /// Where it is not told, ascending.
     pub undecided: Vec<UndecidedBracket>,
+}
+
+impl RequiredSet {
+    /// Sorts what is undecided.
+    pub(super) fn sort(&mut self) {
+        self.undecided.sort_by(|a, b| (&a.lower, &a.upper).cmp(&(&b.lower, &b.upper)));
+    }
+
+    /// The values in both sets; what binds at an end is what binds there in either.
+    ///
+    /// Cost: comparisons of each interval with each.
+    ///
+    /// # Errors
+    /// As [`Real::compare`].
+    fn intersection(&self, other: &RequiredSet, budget: &Budget) -> Result<RequiredSet, Exhausted> {
+        let mut intervals = Vec::new();
+        for a in &self.intervals {
+            for b in &other.intervals {
+                let lower = RequiredEnd::nearer([&a.lower, &b.lower], Ordering::Greater, budget)?;
+                let upper = RequiredEnd::nearer([&a.upper, &b.upper], Ordering::Less, budget)?;
+                let order = match (&lower, &upper) {
+                    (Some(lower), Some(upper)) => lower.value().compare(&upper.value(), budget)?,
+                    _ => Ordering::Less,
+                };
+                let is_closed = |end: &Option<RequiredEnd>| end.as_ref().is_some_and(RequiredEnd::is_closed);
+                if order.is_lt() || (order.is_eq() && is_closed(&lower) && is_closed(&upper)) {
+                    intervals.push(RequiredInterval { lower, upper });
+                }
+            }
+        }
+        let mut found = RequiredSet { intervals, undecided: self.undecided.clone() };
+        found.undecided.extend(other.undecided.iter().filter(|b| !self.undecided.contains(b)).cloned());
+        found.sort();
+        Ok(found)
+    }
+}
+
+impl From<&StableSet> for RequiredSet {
+    fn from(set: &StableSet) -> Self {
+        let end = |end: &Option<End>| end.clone().map(RequiredEnd::Stability);
+        let interval = |i: &StableInterval| RequiredInterval { lower: end(&i.lower), upper: end(&i.upper) };
+        RequiredSet { intervals: set.intervals().iter().map(interval).collect(), undecided: set.undecided().to_vec() }
+    }
 }
 
 /// An interval; `None` is an infinite end.
@@ -86,6 +125,42 @@ impl RequiredEnd {
     }
 }
 
+impl RequiredEnd {
+    /// True if the value itself is in the set.
+    fn is_closed(&self) -> bool {
+        match self {
+            RequiredEnd::Stability(end) => end.closed,
+            RequiredEnd::Requirement { closed, .. } => *closed,
+        }
+    }
+
+    /// The end that comes first from inside: the one whose value compares so with the other. At the same value stability goes before
+    /// requirements, and requirements are named together.
+    fn nearer(
+        ends: [&Option<RequiredEnd>; 2],
+        side: Ordering,
+        budget: &Budget,
+    ) -> Result<Option<RequiredEnd>, Exhausted> {
+        let [Some(a), Some(b)] = ends else { return Ok(ends.into_iter().flatten().next().cloned()) };
+        let order = a.value().compare(&b.value(), budget)?;
+        if order.is_ne() {
+            return Ok(Some(if order == side { a.clone() } else { b.clone() }));
+        }
+        Ok(Some(match (a, b) {
+            (RequiredEnd::Stability(end), other) | (other, RequiredEnd::Stability(end)) => {
+                RequiredEnd::Stability(end.clone().closed_if(end.closed && other.is_closed()))
+            }
+            (
+                RequiredEnd::Requirement { value, names, closed },
+                RequiredEnd::Requirement { names: others, closed: also, .. },
+            ) => {
+                let names = names.iter().chain(others.iter().filter(|name| !names.contains(name))).copied().collect();
+                RequiredEnd::Requirement { value: value.clone(), names, closed: *closed && *also }
+            }
+        }))
+    }
+}
+
 /// A requirement at a point.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
@@ -124,35 +199,62 @@ impl Problem {
     ) -> Result<Answer<RequiredSet>, Error> {
         budget.enter(|| {
             let stable = self.stable_set(budget)?.into_value();
-            let whole = self.without_region();
-            if requirements.iter().any(Requirement::needs_cut)
-                && let Some(family) = SymbolicFamily::of(&whole, at, budget)?
-            {
-                budget.step("boundaries of the requirements");
-                return Ok(Answer::new(Arc::clone(self), family.required_set(requirements, &stable, budget)?));
-            }
-            let family = match requirements.iter().any(Requirement::needs_cut) {
-                true => Some(Family::of(self, at, budget)?),
-                false => None,
+            let (on_margins, on_roots): (Vec<Requirement>, Vec<Requirement>) =
+                requirements.iter().cloned().partition(Requirement::needs_cut);
+            let mut found = match on_margins.is_empty() {
+                true => RequiredSet::from(&stable),
+                false => self.with_margins(&on_margins, &stable, at, budget)?,
             };
-            budget.step("boundaries of the requirements");
-            let mut boundaries = Vec::new();
-            for requirement in requirements {
-                boundaries.push(whole.boundaries(requirement, family.as_ref(), &stable, budget)?);
+            for requirement in &on_roots {
+                budget.step(requirement.name());
+                let own = self.on_roots(requirement, budget)?.required_set(requirement, &stable, budget)?;
+                found = found.intersection(&own, budget)?;
             }
-            let mut intervals = Vec::new();
-            if !stable.undecided().is_empty() {
-                let message = "the stable set is undecided in places, and so are requirements";
-                return Err(Diagnostic::error(Code::Require, message).into());
-            }
-            for interval in stable.intervals() {
-                budget.step("testing a sample of each cell");
-                let cells =
-                    Cells { problem: &whole, requirements, boundaries: &boundaries, family: family.as_ref(), budget };
-                intervals.extend(cells.within(interval)?);
-            }
-            Ok(Answer::new(Arc::clone(self), RequiredSet { intervals, undecided: Vec::new() }))
+            Ok(Answer::new(Arc::clone(self), found))
         })?
+    }
+
+    /// The parts of the stable set in which requirements on margins are met.
+    fn with_margins(
+        self: &Arc<Self>,
+        requirements: &[Requirement],
+        stable: &StableSet,
+        at: Option<&str>,
+        budget: &Budget,
+    ) -> Result<RequiredSet, Error> {
+        let whole = self.without_region();
+        let over_symbols = SymbolicFamily::of(&whole, at, budget)?;
+        budget.step("boundaries of the requirements");
+        if let Some(family) = over_symbols {
+            return family.required_set(requirements, stable, budget);
+        }
+        let family = Family::of(self, at, budget)?;
+        let boundaries: Vec<_> =
+            requirements.iter().map(|r| boundaries(r, &family, budget)).collect::<Result<_, Error>>()?;
+        if !stable.undecided().is_empty() {
+            let message = "the stable set is undecided in places, and so are requirements";
+            return Err(Diagnostic::error(Code::Require, message).into());
+        }
+        let mut intervals = Vec::new();
+        for interval in stable.intervals() {
+            budget.step("testing a sample of each cell");
+            let cells = Cells { requirements, boundaries: &boundaries, family: &family, budget };
+            intervals.extend(cells.within(interval)?);
+        }
+        Ok(RequiredSet { intervals, undecided: Vec::new() })
+    }
+
+    /// A requirement on the roots of the closed loop, all of them as they are.
+    fn on_roots(self: &Arc<Self>, requirement: &Requirement, budget: &Budget) -> Result<OnRoots, Error> {
+        if let Rule::Modulus { .. } = requirement.rule()
+            && (self.shape() != Shape::UnitDisc || !self.has_fixed_sample_time(budget)?)
+        {
+            let message = "a settling time is required of discrete loops with a sample time that is a number";
+            return Err(Diagnostic::error(Code::Require, message).into());
+        }
+        let closed = self.without_region().symbolic(budget)?;
+        let found = closed.and_then(|p| OnRoots::of(requirement, &p, self.shape()));
+        found.ok_or_else(|| not_decided(requirement))
     }
 
     /// Whether the loop is stable and meets each requirement, with every parameter at its set or nominal value.
@@ -189,12 +291,6 @@ impl Problem {
                 }
                 false => (None, None),
             };
-            let about_roots = |r: &Requirement| !r.needs_cut();
-            let closed = match requirements.iter().any(about_roots) {
-                true => self.without_region().parametric(budget)?.map(|p| p.specialised(&Rational::ZERO)),
-                false => None,
-            };
-            let closed = closed.unwrap_or_else(UniPoly::zero);
             let mut out = Vec::with_capacity(requirements.len());
             for requirement in requirements {
                 let open_loop = margins.as_ref().map(|m| &m.open_loop).or(zero_loop.as_ref());
@@ -208,7 +304,10 @@ impl Problem {
                     (Rule::DeadTime(least), Some(margins), _) => bears(margins, least, budget)?,
                     // A loop that is open at this point bears any dead time.
                     (Rule::DeadTime(_), None, _) => true,
-                    _ => AtPoint::new(open_loop, &closed, self.shape()).meets(requirement, budget)?,
+                    (Rule::Sector(_) | Rule::Modulus { .. }, ..) => {
+                        self.on_roots(requirement, budget)?.is_met_at(&Rational::ZERO, budget)?
+                    }
+                    _ => AtPoint::new(open_loop.expect("a margin is taken at a cut")).meets(requirement, budget)?,
                 };
                 out.push(RequirementMet { requirement: requirement.clone(), margins: margins.clone(), met });
             }
@@ -216,85 +315,32 @@ impl Problem {
         })?
     }
 
-    fn boundaries(
-        &self,
-        requirement: &Requirement,
-        family: Option<&Family<UniPoly>>,
-        stable: &StableSet,
-        budget: &Budget,
-    ) -> Result<Boundaries<UniPoly>, Error> {
-        let undecided = || {
-            let message = format!("the requirement {} is not decided for this loop", requirement.name());
-            Error::from(
-                Diagnostic::error(Code::Require, message).help("a polynomial of its boundary vanishes for every value"),
-            )
-        };
-        let found = match (requirement.rule(), family) {
-            (Rule::Sector(least), _) => {
-                let Some(p) = self.parametric(budget)? else { return Err(undecided()) };
-                if self.shape() == Shape::UnitDisc {
-                    budget.step("roots on the spiral of the damping");
-                    let p = OnSpiral::new(p.polynomial(), least);
-                    let mut values = Vec::new();
-                    for interval in stable.intervals() {
-                        values.extend(changes(&p, interval, budget)?);
-                    }
-                    return Ok(Boundaries { values, ..Boundaries::none() });
-                }
-                let sector = crate::stability::sector::sector_in_parameter(p, least);
-                let Some(found) = boundary_polynomials(&sector, self.shape(), budget)? else { return Err(undecided()) };
-                let zeros = found.into_iter().map(|b| b.polynomial.poly().clone()).collect();
-                Boundaries { zeros, ..Boundaries::none() }
-            }
-            (Rule::Modulus { exponent }, _) => {
-                Boundaries { values: self.settled(exponent, budget)?, ..Boundaries::none() }
-            }
-            (Rule::DeadTime(_), _) => {
-                return Err(DELAY_AT_POINTS.diagnostic(&[]).into());
-            }
-            (_, None) => return Err(undecided()),
-            (_, Some(family)) => {
-                let mut found = family.boundaries(requirement, budget)?;
-                found.zeros.push(family.undefined.clone());
-                found
-            }
-        };
-        if found.zeros.iter().any(UniPoly::is_zero) || found.touches.is_zero() { Err(undecided()) } else { Ok(found) }
-    }
-
-    /// The values of the parameter at which a root may have the modulus `exp(exponent)`.
-    fn settled(&self, exponent: &Rational, budget: &Budget) -> Result<Vec<Real>, Error> {
-        if self.shape() != Shape::UnitDisc || !self.has_fixed_sample_time(budget)? {
-            let message = "a settling time is required of discrete loops with a sample time that is a number";
-            return Err(Diagnostic::error(Code::Require, message).into());
-        }
-        let Some(p) = self.parametric(budget)? else { return Ok(Vec::new()) };
-        let lift = |c: &UniPoly| MultiPoly::from_univariate(c, 1);
-        let (symbols, scaled) = scaled_by_exponential(p.polynomial().coeffs().iter().map(lift), exponent);
-        // The parameter is variable 0, the exponential variable 1.
-        let swapped = |c: &MultiPoly| RationalFunction::from(c.map_variables(|i| 1 - i));
-        let d = CharacteristicPolynomial {
-            variables: vec![self.parameter().name.clone(), "X".to_owned()],
-            coefficients: scaled.coeffs().iter().map(swapped).collect(),
-            formal_degree: p.formal_degree(),
-            poles: Vec::new(),
-            monic: false,
-        };
-        let p = SymbolicPolynomial::new(&d, 1, &symbols);
-        let set = symbolic_stable_set(&p, &Range::all(), Shape::UnitDisc, budget)?;
-        let mut out: Vec<Real> = Vec::new();
-        for end in set.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten() {
-            if out.last().is_none_or(|last| !last.is_same(&end.value)) {
-                out.push(end.value.clone());
-            }
-        }
-        Ok(out)
-    }
-
     fn has_fixed_sample_time(&self, budget: &Budget) -> Result<bool, Error> {
-        let step = self.algebra(budget)?.sample_time();
+        let step = self.algebra_over_symbols(budget)?.sample_time();
         Ok(step.is_some_and(|t| t.as_constant().is_some()))
     }
+}
+
+/// Where a requirement on margins of a rational loop may begin or cease to be met.
+fn boundaries(
+    requirement: &Requirement,
+    family: &Family<UniPoly>,
+    budget: &Budget,
+) -> Result<Boundaries<UniPoly>, Error> {
+    if let Rule::DeadTime(_) = requirement.rule() {
+        return Err(DELAY_AT_POINTS.diagnostic(&[]).into());
+    }
+    let mut found = family.boundaries(requirement, budget)?;
+    found.zeros.push(family.undefined.clone());
+    if found.zeros.iter().any(UniPoly::is_zero) || found.touches.is_zero() {
+        return Err(not_decided(requirement));
+    }
+    Ok(found)
+}
+
+fn not_decided(requirement: &Requirement) -> Error {
+    let message = format!("the requirement {} is not decided for this loop", requirement.name());
+    Diagnostic::error(Code::Require, message).help("a polynomial of its boundary vanishes for every value").into()
 }
 
 /// Whether a stable loop bears all dead times less than one.

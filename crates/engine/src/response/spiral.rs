@@ -3,13 +3,17 @@
 //! A continuous pair `s = w (-d +- j sqrt(1 - d^2))` is sampled to `z = exp(s T)`: a damping of at least `d` is
 //! `|z| <= exp(-c |arg z|)`, `c = d/sqrt(1 - d^2)`. The edge is `z = exp((-c + j) phi)`, `0 <= phi <= pi`, with its conjugate. But
 //! for `z = 1` no point of it is algebraic, by the theorem of Gelfond and Schneider (`|z| = exp(j phi)^(j c)`), so that the
-//! roots of a polynomial with rational coefficients are never on it: a count at a rational point ends.
+//! roots of a polynomial with rational coefficients are never on it: a count at a rational point ends. With other coefficients it may
+//! end without an answer.
 
 use crate::precisions::ROOTS_IN_SPIRAL;
+use crate::stability::SymbolicPolynomial;
 use jurist_algebra::ball::{Ball, cos_sin, exp};
 use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
-use jurist_algebra::poly::{Poly, UniPoly};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly};
+use jurist_algebra::symbols::MovingSymbols;
+use std::sync::Arc as Shared;
 
 /// A complex number in balls.
 #[derive(Clone, Debug)]
@@ -70,18 +74,15 @@ impl Arc {
 
 /// A value of the parameter, or all of an interval.
 #[derive(Clone, Debug)]
-pub(super) struct Values {
-    middle: Rational,
-    whole: [Rational; 2],
-}
+pub(super) struct Values([Rational; 2]);
 
 impl Values {
     pub fn of(value: &Rational) -> Values {
-        Values { middle: value.clone(), whole: [value.clone(), value.clone()] }
+        Values([value.clone(), value.clone()])
     }
 
     pub fn between(lower: &Rational, upper: &Rational) -> Values {
-        Values { middle: lower.midpoint(upper), whole: [lower.clone(), upper.clone()] }
+        Values([lower.clone(), upper.clone()])
     }
 }
 
@@ -95,10 +96,45 @@ pub(super) struct Jet {
 /// `P(exp((-c + j) phi); K)`.
 #[derive(Clone, Debug)]
 pub(super) struct OnSpiral {
-    /// In `z` over the polynomials in the parameter.
-    polynomial: Poly<UniPoly>,
-    slope: Poly<UniPoly>,
+    /// Of the powers of `z`, and of those of `z - 1`: polynomials in the parameter and symbols. The roots of a loop with a short sample
+    /// time are near to 1, where only the second ones tell how small the function is.
+    coefficients: [Shared<[MultiPoly]>; 2],
+    symbols: Shared<MovingSymbols>,
     damping: Rational,
+    usual: Rational,
+    /// Terms of the Taylor polynomials in the parameter: with a sample time that goes to 0 all coefficients vanish but one.
+    terms: usize,
+}
+
+/// Which number the powers are counted from.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Origin {
+    Zero,
+    One,
+}
+
+impl Origin {
+    /// The nearer one to the points at some angles, in parts of pi: of less than a quarter all are nearer to 1.
+    fn of(angles: &[Rational; 2]) -> Origin {
+        if angles[1] <= Rational::dyadic(&Integer::ONE, 2) { Origin::One } else { Origin::Zero }
+    }
+
+    /// The distance from it.
+    fn to(self, z: &Complex) -> Complex {
+        let one = Ball::from_integer(&Integer::ONE, z.re.bits());
+        match self {
+            Origin::Zero => z.clone(),
+            Origin::One => Complex { re: z.re.sub(&one), im: z.im.clone() },
+        }
+    }
+}
+
+/// The coefficients at a value, or over an interval.
+struct Coefficients {
+    origin: Origin,
+    middle: Vec<Ball>,
+    /// With the derivatives by the parameter.
+    whole: Vec<[Ball; 2]>,
 }
 
 /// The balls that depend on the precision alone.
@@ -123,15 +159,50 @@ const FIRST_LEVEL: u64 = 5;
 const EVERYWHERE: u64 = 8;
 
 impl OnSpiral {
-    /// Of a polynomial in `z` over those in the parameter.
-    pub fn new(polynomial: &Poly<UniPoly>, damping: &Rational) -> OnSpiral {
-        let slope = polynomial.map(UniPoly::derivative);
-        OnSpiral { polynomial: polynomial.clone(), slope, damping: damping.clone() }
+    /// Of a closed loop in one parameter or none; `None` where only enclosures of its coefficients are known.
+    pub fn of(p: &SymbolicPolynomial, damping: &Rational) -> Option<OnSpiral> {
+        let one_more = Poly::new(vec![MultiPoly::one(), MultiPoly::one()]);
+        let coefficients = [p.polynomial().clone(), p.polynomial().compose(&one_more)].map(|p| p.into_coeffs().into());
+        let (symbols, usual) = (p.moving_symbols()?, p.usual().clone());
+        let terms = if p.fixed_symbols().is_some() { 2 } else { p.formal_degree() + 2 };
+        Some(OnSpiral { coefficients, symbols, damping: damping.clone(), usual, terms })
     }
 
-    /// Of a polynomial without parameter.
-    pub fn without_parameter(p: &UniPoly, damping: &Rational) -> OnSpiral {
-        OnSpiral::new(&p.map(|c| UniPoly::constant(c.clone())), damping)
+    /// A usual value of the parameter.
+    pub fn usual(&self) -> &Rational {
+        &self.usual
+    }
+
+    /// The degree of the polynomial.
+    pub fn degree(&self) -> usize {
+        self.coefficients[0].len() - 1
+    }
+
+    /// The coefficients that are used at some angles; `None` where one is not defined for all values.
+    fn coefficients(&self, origin: Origin, values: &Values, bits: u64) -> Option<Coefficients> {
+        let list = &self.coefficients[origin as usize];
+        let Values([from, to]) = values;
+        if from == to {
+            let whole = self.symbols.jets(list, &Ball::from_rational(from, bits))?;
+            return Some(Coefficients {
+                origin,
+                middle: whole.iter().map(|[value, _]| value.clone()).collect(),
+                whole,
+            });
+        }
+        // f(from + t (to - from)) = f + s t + ...: terms that cancel do so in each coefficient.
+        let taylor = self.symbols.taylor_from_end(list, from, to, self.terms, bits)?;
+        let part = Ball::between(&Rational::ZERO, &Rational::ONE, bits);
+        let length = Ball::from_rational(&(to - from), bits);
+        let at = |terms: &[Ball], t: &Ball| terms.iter().rev().fold(Ball::zero(bits), |sum, c| sum.mul(t).add(c));
+        let half = Ball::from_rational(&Rational::dyadic(&Integer::ONE, 1), bits);
+        let (mut middle, mut whole) = (Vec::with_capacity(list.len()), Vec::with_capacity(list.len()));
+        for terms in taylor {
+            let slope = terms.iter().enumerate().skip(1).map(|(i, c)| c.scaled(&Integer::from(i as i64)));
+            middle.push(at(&terms, &half));
+            whole.push([at(&terms, &part), at(&slope.collect::<Vec<_>>(), &part).div(&length)?]);
+        }
+        Some(Coefficients { origin, middle, whole })
     }
 
     /// The number of roots inside at a rational value at which 1 is no root.
@@ -153,11 +224,15 @@ impl OnSpiral {
     /// Walks along the edge, halving arcs so often at most, and only while no more of them are open.
     pub fn walk(&self, values: &Values, bits: u64, halvings: u64, most_open: usize) -> Walk {
         let constants = self.constants(bits);
-        let plane = |arc: &Arc| {
-            checkpoint(bits * self.polynomial.coeffs().len() as u64);
-            self.on(&arc.ends(), values, &constants).half_plane()
-        };
         let first = (0..1i64 << FIRST_LEVEL).map(|k| Arc { at: Integer::from(k), level: FIRST_LEVEL });
+        let known = [Origin::Zero, Origin::One].map(|origin| self.coefficients(origin, values, bits));
+        let [Some(from_zero), Some(from_one)] = known else { return Walk::Open(first.collect()) };
+        let plane = |arc: &Arc| {
+            checkpoint(bits * self.degree() as u64);
+            let angles = arc.ends();
+            let coefficients = if Origin::of(&angles) == Origin::One { &from_one } else { &from_zero };
+            on(coefficients, &angles, values, &constants).half_plane()
+        };
         let mut arcs: Vec<(Arc, Option<u8>)> = first.map(|arc| (plane(&arc), arc)).map(|(p, arc)| (arc, p)).collect();
         for level in FIRST_LEVEL..halvings {
             let open = arcs.iter().filter(|(_, plane)| plane.is_none()).count();
@@ -185,19 +260,21 @@ impl OnSpiral {
         Walk::Count(usize::try_from(quarters / 2).unwrap_or(0))
     }
 
-    /// Function and derivatives at the middle of a range of angles and values.
-    pub fn at_middle(&self, angles: &[Rational; 2], values: &Values, bits: u64) -> Jet {
+    /// Function and derivatives at an angle, in parts of pi, and a value; `None` where a coefficient is not defined.
+    pub fn at_point(&self, angle: &Rational, value: &Rational, bits: u64) -> Option<Jet> {
         let with = self.constants(bits);
-        let z = self.point(&angles[0].midpoint(&angles[1]), &with);
-        self.jet(&z, &Values::of(&values.middle), &with)
+        let origin = Origin::of(&[angle.clone(), angle.clone()]);
+        let coefficients = self.coefficients(origin, &Values::of(value), bits)?;
+        Some(jet(&point(angle, &with), &coefficients, &with))
     }
 
     /// Whether the function vanishes at most once in a box of angles (in parts of pi) and values: its derivatives are
     /// independent, whatever they are inside, which makes it one to one on a convex set.
     pub fn is_one_to_one(&self, angles: &[Rational; 2], values: &Values, bits: u64) -> bool {
         let with = self.constants(bits);
-        let z = self.around(&self.point(&angles[0].midpoint(&angles[1]), &with), angles, &with);
-        let Jet { by_angle, by_parameter, .. } = self.jet(&z, values, &with);
+        let Some(coefficients) = self.coefficients(Origin::of(angles), values, bits) else { return false };
+        let z = around(&point(&angles[0].midpoint(&angles[1]), &with), angles, &with);
+        let Jet { by_angle, by_parameter, .. } = jet(&z, &coefficients, &with);
         let determinant = by_angle.re.mul(&by_parameter.im).sub(&by_angle.im.mul(&by_parameter.re));
         !determinant.contains_zero()
     }
@@ -208,55 +285,56 @@ impl OnSpiral {
         let decay = Ball::from_rational(&ratio, bits).sqrt().expect("positive");
         Constants { bits, pi: Ball::from_enclosure(&Enclosure::pi(bits + 4), bits), decay }
     }
+}
 
-    /// `z` at an angle, in parts of pi.
-    fn point(&self, angle: &Rational, with: &Constants) -> Complex {
-        let angle = Ball::from_rational(angle, with.bits).mul(&with.pi);
-        let size = exp(&with.decay.mul(&angle).neg());
-        let (cos, sin) = cos_sin(&angle);
-        Complex { re: size.mul(&cos), im: size.mul(&sin) }
-    }
+/// `z` at an angle, in parts of pi.
+fn point(angle: &Rational, with: &Constants) -> Complex {
+    let angle = Ball::from_rational(angle, with.bits).mul(&with.pi);
+    let size = exp(&with.decay.mul(&angle).neg());
+    let (cos, sin) = cos_sin(&angle);
+    Complex { re: size.mul(&cos), im: size.mul(&sin) }
+}
 
-    /// `z` for all angles of a range, from that in the middle.
-    fn around(&self, z: &Complex, [from, to]: &[Rational; 2], with: &Constants) -> Complex {
-        // |dz/dphi| = |z| |-c + j| <= 1 + c.
-        let half = Ball::from_rational(&(to - from), with.bits).mul(&with.pi).shifted(-1);
-        let radius = half.mul(&with.decay.add(&Ball::from_integer(&Integer::ONE, with.bits))).magnitude_units();
-        Complex { re: z.re.widened(&radius), im: z.im.widened(&radius) }
-    }
+/// `z` for all angles of a range, from that in the middle.
+fn around(z: &Complex, [from, to]: &[Rational; 2], with: &Constants) -> Complex {
+    // |dz/dphi| = |z| |-c + j| <= 1 + c.
+    let half = Ball::from_rational(&(to - from), with.bits).mul(&with.pi).shifted(-1);
+    let radius = half.mul(&with.decay.add(&Ball::from_integer(&Integer::ONE, with.bits))).magnitude_units();
+    Complex { re: z.re.widened(&radius), im: z.im.widened(&radius) }
+}
 
-    fn jet(&self, z: &Complex, values: &Values, with: &Constants) -> Jet {
-        let k = Ball::between(&values.whole[0], &values.whole[1], with.bits);
-        let at = |c: &UniPoly| {
-            let number = |c: &Integer| Ball::from_integer(c, with.bits);
-            c.coeffs().iter().rev().fold(Ball::zero(with.bits), |sum, c| sum.mul(&k).add(&number(c)))
-        };
-        let horner = |c: &[Ball]| {
-            c.iter().rev().fold(Complex::zero(with.bits), |sum, c| {
-                let product = sum.times(z);
-                Complex { re: product.re.add(c), im: product.im }
-            })
-        };
-        let coefficients: Vec<Ball> = self.polynomial.coeffs().iter().map(at).collect();
-        let weighted: Vec<Ball> =
-            coefficients.iter().enumerate().map(|(i, c)| c.scaled(&Integer::from(i as i64))).collect();
-        let slopes: Vec<Ball> = self.slope.coeffs().iter().map(at).collect();
-        let one = Ball::from_integer(&Integer::ONE, with.bits);
-        let turn = Complex { re: with.decay.neg(), im: one };
-        Jet { value: horner(&coefficients), by_angle: horner(&weighted).times(&turn), by_parameter: horner(&slopes) }
-    }
+/// The value of the polynomial with these coefficients, from the constant term up.
+fn horner<'c>(coefficients: impl DoubleEndedIterator<Item = &'c Ball>, z: &Complex, bits: u64) -> Complex {
+    coefficients.rev().fold(Complex::zero(bits), |sum, c| {
+        let product = sum.times(z);
+        Complex { re: product.re.add(c), im: product.im }
+    })
+}
 
-    /// The function on an arc: by its value in the middle and its derivatives on the whole.
-    fn on(&self, angles: &[Rational; 2], values: &Values, with: &Constants) -> Complex {
-        let z = self.point(&angles[0].midpoint(&angles[1]), with);
-        let value = self.jet(&z, &Values::of(&values.middle), with).value;
-        let whole = self.jet(&self.around(&z, angles, with), values, with);
-        let side = |from: &Rational, to: &Rational| {
-            let half = (to - from) * Rational::dyadic(&Integer::ONE, 1);
-            Ball::between(&-&half, &half, with.bits)
-        };
-        let aside = side(&angles[0], &angles[1]).mul(&with.pi);
-        let along = side(&values.whole[0], &values.whole[1]);
-        value.plus(&whole.by_angle.scaled(&aside)).plus(&whole.by_parameter.scaled(&along))
+fn jet(z: &Complex, coefficients: &Coefficients, with: &Constants) -> Jet {
+    let (whole, at) = (&coefficients.whole, coefficients.origin.to(z));
+    let derivative: Vec<Ball> =
+        whole.iter().enumerate().skip(1).map(|(i, [c, _])| c.scaled(&Integer::from(i as i64))).collect();
+    let one = Ball::from_integer(&Integer::ONE, with.bits);
+    // dz/dphi
+    let turn = Complex { re: with.decay.neg(), im: one }.times(z);
+    Jet {
+        value: horner(whole.iter().map(|[c, _]| c), &at, with.bits),
+        by_angle: horner(derivative.iter(), &at, with.bits).times(&turn),
+        by_parameter: horner(whole.iter().map(|[_, slope]| slope), &at, with.bits),
     }
+}
+
+/// The function on an arc: by its value in the middle and its derivatives on the whole.
+fn on(coefficients: &Coefficients, angles: &[Rational; 2], values: &Values, with: &Constants) -> Complex {
+    let z = point(&angles[0].midpoint(&angles[1]), with);
+    let value = horner(coefficients.middle.iter(), &coefficients.origin.to(&z), with.bits);
+    let whole = jet(&around(&z, angles, with), coefficients, with);
+    let side = |from: &Rational, to: &Rational| {
+        let half = (to - from) * Rational::dyadic(&Integer::ONE, 1);
+        Ball::between(&-&half, &half, with.bits)
+    };
+    let aside = side(&angles[0], &angles[1]).mul(&with.pi);
+    let along = side(&values.0[0], &values.0[1]);
+    value.plus(&whole.by_angle.scaled(&aside)).plus(&whole.by_parameter.scaled(&along))
 }

@@ -18,6 +18,7 @@ mod moving;
 mod outward;
 mod pair;
 mod plane;
+mod regions;
 mod resultant;
 mod rounded;
 mod rows;
@@ -145,6 +146,11 @@ impl SymbolicPolynomial {
     pub fn with_usual_value(mut self, usual: Rational) -> Self {
         self.usual = usual;
         self
+    }
+
+    /// A usual value of the parameter.
+    pub fn usual(&self) -> &Rational {
+        &self.usual
     }
 
     /// The polynomial without denominators.

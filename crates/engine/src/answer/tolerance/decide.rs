@@ -139,7 +139,7 @@ impl Problem {
             let nearest = factor.as_ref().and_then(|factor| factor.upper.as_ref());
             let most = nearest.into_iter().chain(&domain_factor).min().cloned();
             let Some(base) = p.as_polynomial() else { unreachable!("refused beside functions") };
-            let found = self.required_box(requirement, &sides, request, most.as_ref(), base, budget)?;
+            let found = self.required_box(requirement, (&sides, truth), request, most.as_ref(), base, budget)?;
             decision = worse(decision, found.decision.clone());
             factor = match (factor, found.factor.clone()) {
                 (Some(known), Some(own)) => {

@@ -1,8 +1,9 @@
 //! Requirements over a box: each is the stability of a family of polynomials over the box with one side more.
 
 use super::decide::{agreed, too_many};
+use super::held::Truth;
 use super::{RequiredBox, ToleranceRequest};
-use crate::coverage::refusals::NOT_OVER_A_BOX;
+use crate::coverage::refusals::{MARGINS_IN_ONE, NOT_OVER_A_BOX};
 use crate::error::Error;
 use crate::problem::Problem;
 use crate::response::{Family, Requirement, Rule, half_tangent, radius_below};
@@ -31,20 +32,21 @@ impl Problem {
     pub(super) fn required_box(
         self: &Arc<Self>,
         requirement: &Requirement,
-        sides: &[Side],
+        (sides, truth): (&[Side], &Truth<'_>),
         request: &ToleranceRequest,
         most: Option<&Rational>,
         base: &BoxPolynomial,
         budget: &Budget,
     ) -> Result<RequiredBox, Error> {
-        let of = |point: &[Rational]| self.breaks(requirement, &point[..sides.len()], request, base, budget);
+        let of = |point: &[Rational]| self.breaks(requirement, &point[..sides.len()], request, (base, truth), budget);
+        let beside = truth.beside(sides);
         let mut found = RequiredBox {
             requirement: requirement.clone(),
             decision: BoxDecision::Undecided { why: OpenReason::Untried, cell: Vec::new() },
             factor: None,
             cells: 0,
         };
-        let families = self.families(requirement, request.at.as_deref(), sides.len(), budget)?;
+        let families = self.families(requirement, request.at.as_deref(), beside.len(), budget)?;
         let nominal: Vec<Rational> = sides.iter().map(|side| side.nominal().clone()).collect();
         // An open loop that crosses a circle nowhere over the box can lie on its wrong side.
         if matches!(requirement.rule(), Rule::Circle(_))
@@ -54,7 +56,7 @@ impl Problem {
             return Ok(found);
         }
         for (index, (p, own)) in families.iter().enumerate() {
-            let all: Vec<Side> = sides.iter().chain(own).cloned().collect();
+            let all: Vec<Side> = beside.iter().chain(own).cloned().collect();
             let Some(boxes) = budget.enter(|| ToleranceProblem::new(p, all.clone()))? else {
                 found.decision = match of(&nominal)? {
                     Some(witness) => BoxDecision::NotStable { witness: Some(witness) },
@@ -110,7 +112,7 @@ impl Problem {
         requirement: &Requirement,
         point: &[Rational],
         request: &ToleranceRequest,
-        base: &BoxPolynomial,
+        (base, truth): (&BoxPolynomial, &Truth<'_>),
         budget: &Budget,
     ) -> Result<Option<Witness>, Error> {
         let names = self.free().iter().map(|free| free.name.clone());
@@ -120,10 +122,13 @@ impl Problem {
             Err(Error::Undefined(_)) => false,
             met => met?.iter().all(|found| found.met),
         };
-        Ok((!is_met).then(|| Witness::new(point.to_vec(), base.at(point))))
+        if is_met {
+            return Ok(None);
+        }
+        Ok(Some(Witness::new(point.to_vec(), truth.at(base, point, budget)?)))
     }
 
-    /// The families whose stability over the box is what is required.
+    /// The families whose stability over the box is what is required; the parameters are followed by constants that are not rational.
     fn families(
         self: &Arc<Self>,
         requirement: &Requirement,
@@ -145,7 +150,7 @@ impl Problem {
                 ));
             }
             Rule::Sector(_) | Rule::Modulus { .. } => {
-                let Some(d) = whole.algebra(budget)?.polynomial() else { return Ok(Vec::new()) };
+                let Some(d) = whole.algebra_over_symbols(budget)?.polynomial() else { return Ok(Vec::new()) };
                 let (p, denominator) = budget.enter(|| d.cleared())?;
                 let undefined: Vec<&MultiPoly> = d.poles.iter().chain([&denominator]).collect();
                 let n = d.formal_degree;
@@ -164,6 +169,9 @@ impl Problem {
             _ => {}
         }
         let family: Family<MultiPoly> = Family::of(&whole, at, budget)?;
+        if *family.symbols != whole.fixed_symbols(budget)? {
+            return Err(MARGINS_IN_ONE.diagnostic(&[]).into());
+        }
         let [open, back] = family.parts();
         let undefined = [&family.undefined];
         let closed = open.plus(back);

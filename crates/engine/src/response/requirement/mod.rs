@@ -20,7 +20,7 @@ mod settling_time;
 
 pub(crate) use circle::Circle;
 
-pub(crate) use settling_time::{radius_below, scaled_by_exponential};
+pub(crate) use settling_time::radius_below;
 
 use super::{Margins, StableMargins};
 use crate::error::{Code, Diagnostic, Error};

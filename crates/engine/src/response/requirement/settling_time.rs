@@ -5,9 +5,7 @@ use crate::error::Error;
 use crate::model::Time;
 use crate::problem::{Bound, Region};
 use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::{Domain, MultiPoly, Poly};
 use jurist_algebra::symbols::{Definition, Symbols};
-use std::sync::Arc;
 
 pub(super) const KIND: RequirementKind = RequirementKind {
     name: "settling_time",
@@ -39,8 +37,15 @@ fn meaning(written: &Written<'_>) -> Result<Meaning, Error> {
             Ok(Meaning::Region(Region::half_plane(least)))
         }
         Time::Discrete => {
-            let Some(step) = (written.sample_time)()? else {
-                return Err(not_understood(KIND.name, "a settling time needs the loop's sample time"));
+            let step = match (written.sample_time)() {
+                Ok(Some(step)) => step,
+                Ok(None) => return Err(not_understood(KIND.name, "a settling time needs the loop's sample time")),
+                Err(Error::Undefined(_)) => {
+                    let why =
+                        "a settling time needs a sample time that has a value: it is a parameter here that has none";
+                    return Err(not_understood(KIND.name, why));
+                }
+                Err(error) => return Err(error),
             };
             Ok(Meaning::Requirement(Requirement::settling_time(value.clone(), &step)?))
         }
@@ -59,22 +64,6 @@ impl Requirement {
         let exponent = (&Rational::from(-4) * step).checked_div(&time).expect("positive");
         Ok(Requirement { kind: &KIND, asked: time.to_string(), rule: Rule::Modulus { exponent } })
     }
-}
-
-/// The polynomial at `r z`, `r = exp(exponent)`, as variable 0 of the symbols; the coefficients are free of them.
-pub(crate) fn scaled_by_exponential(
-    coefficients: impl Iterator<Item = MultiPoly>,
-    exponent: &Rational,
-) -> (Arc<Symbols>, Poly<MultiPoly>) {
-    let mut symbols = Symbols::new();
-    let radius = symbols.insert("X", Definition::exponential(exponent.clone()));
-    let mut power = MultiPoly::one();
-    let mut scaled = Vec::new();
-    for c in coefficients {
-        scaled.push(c.times(&power));
-        power = power.times(&MultiPoly::variable(radius));
-    }
-    (Arc::new(symbols), Poly::new(scaled))
 }
 
 /// A rational number of few digits just below `exp(exponent)`, by at most so many binary digits.
