@@ -37,15 +37,15 @@ impl Problem {
             return Ok(None);
         }
         let part = budget.share(LINE_SHARE.0, LINE_SHARE.1);
-        let mut nearest: Option<(Rational, WorstEnd)> = None;
+        let mut nearest: Option<(Rational, Box<WorstEnd>)> = None;
         for (width, direction) in side.widths().iter().zip([-Rational::ONE, Rational::ONE]) {
             if width.is_zero() {
                 continue;
             }
             let worst = match self.end_of_line(side, &direction, domain.as_ref(), &part) {
-                Ok(Line::Free) => continue,
-                Ok(Line::Ends(worst)) => worst,
-                Ok(Line::Undecided) | Err(Error::Refused(_)) => return Ok(None),
+                Ok(LineEnd::Free) => continue,
+                Ok(LineEnd::Ends(worst)) => worst,
+                Ok(LineEnd::Undecided) | Err(Error::Refused(_)) => return Ok(None),
                 Err(Error::Stopped(_)) if budget.check().is_ok() => return Ok(None),
                 Err(error) => return Err(error),
             };
@@ -83,7 +83,7 @@ impl Problem {
             false => BoxDecision::NotStable { witness: factor.witness.clone() },
         };
         let bare = self.bare(sides, at.clone(), decision);
-        let found = ToleranceAnswer { factor: Some(factor), worst: Some(worst), domain_factor: domain, ..bare };
+        let found = ToleranceAnswer { factor: Some(factor), worst: Some(*worst), domain_factor: domain, ..bare };
         Ok(Some(self.answer_of_one(found, asked)))
     }
 
@@ -103,7 +103,7 @@ impl Problem {
         direction: &Rational,
         most: Option<&Rational>,
         budget: &Budget,
-    ) -> Result<Line, Error> {
+    ) -> Result<LineEnd, Error> {
         let (base, step) = ray(std::slice::from_ref(side), std::slice::from_ref(direction));
         let is_at =
             |end: &Option<End>, x: &Rational| end.as_ref().is_some_and(|end| end.value.exact().as_ref() == Some(x));
@@ -113,26 +113,30 @@ impl Problem {
             let problem = Arc::new(self.on_ray("factor", &base, &step, range, budget)?);
             let set = problem.stable_set(budget)?.into_value();
             let first = set.intervals().first().filter(|first| is_at(&first.lower, &Rational::ZERO));
-            let Some(end) = first.and_then(|first| first.upper.clone()) else { return Ok(Line::Undecided) };
+            let Some(end) = first.and_then(|first| first.upper.clone()) else { return Ok(LineEnd::Undecided) };
             if end.value.exact().as_ref() != Some(&reach) {
                 // Nothing is known to happen at an undecided bracket.
                 let is_limit = end.causes.is_limit();
-                return Ok(if is_limit { Line::Ends(WorstEnd { problem, end }) } else { Line::Undecided });
+                return Ok(if is_limit {
+                    LineEnd::Ends(Box::new(WorstEnd { problem, end }))
+                } else {
+                    LineEnd::Undecided
+                });
             }
             if most == Some(&reach) {
                 break;
             }
         }
-        Ok(Line::Free)
+        Ok(LineEnd::Free)
     }
 }
 
 /// Where a line from the nominal value ends.
-enum Line {
+enum LineEnd {
     /// Not up to the domain's end or the farthest factor that is asked for.
     Free,
     /// Stability is lost.
-    Ends(WorstEnd),
+    Ends(Box<WorstEnd>),
     /// What happens next is not known.
     Undecided,
 }
