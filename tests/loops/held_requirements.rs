@@ -171,3 +171,23 @@ fn a_sample_at_which_nothing_comes_back_has_all_margins() {
     let ends = [&interval.lower, &interval.upper].map(|end| end.as_ref().unwrap().value().exact());
     assert_eq!(ends, [Some(number("-50")), Some(number("100"))]);
 }
+
+/// Where the controller's zero passes the plant's pole both vanish at a real root inside of the circle, which means nothing for a margin.
+/// With the integrator the open loop is infinite at z = 1: no factor brings it to -1 there.
+#[test]
+fn a_zero_that_passes_a_pole_leaves_nothing_undecided() {
+    let model = load(
+        "time = 'discrete'\nsample_time = '1/10'\n[parameters]\nK = 3\nb = { nominal = '1/2', min = 0, max = 20 }\n\
+         [loop]\ninputs = ['r']\noutputs = ['y']\n\
+         [[block]]\nname = 'controller'\ninput = 'r - y'\noutput = 'u'\ntransfer = 'K + b/10/(z - 1)'\n\
+         [[block]]\nname = 'plant'\ninput = 'u'\noutput = 'y'\ntransfer = '1/(s + 1)'\ndiscretize = 'zoh'\n",
+    );
+    let requirement = Requirement::gain_margin(&number("3")).unwrap();
+    let answer = required(&model, "b", ["1/100", "10"], &requirement);
+    assert!(answer.value().undecided.is_empty(), "{:?}", answer.value().undecided);
+    assert_eq!(answer.value().intervals.len(), 1);
+    for value in ["1/2", "2.8", "2.9", "9"] {
+        let value = number(value);
+        assert_eq!(answer.value().intervals[0].contains(&value), is_met(&model, "b", &value, &requirement), "{value}");
+    }
+}

@@ -43,8 +43,8 @@ struct Asked {
 enum Allows {
     /// A crossing is allowed where the sign is positive.
     Positive,
-    /// It is where both signs are the same; the open loop is real at both ends of the circle.
-    Same,
+    /// It is where both signs are the same; the open loop is real at both ends of the circle, if it is finite at `y = 0`.
+    Same { at_zero: bool },
 }
 
 /// What is known of a crossing on a piece.
@@ -130,7 +130,18 @@ impl OverBoxes {
             Rule::Factors(_) => {
                 // 2 |D|^2 + k 2 Re(N conj D) at both ends of the factors.
                 let signs = [sum(&times(&below, alpha), &twice_real), sum(&below, &times(&twice_real, alpha))];
-                Asked { crossing: Some(ranges(imaginary(n, d))), signs: signs.map(ranges).into(), rule: Allows::Same }
+                // With an integrator the open loop is infinite at y = 0: nothing crosses there, and y divides the imaginary part.
+                let has_integrator = d.first().is_some_and(Share::is_zero);
+                let mut crossing = imaginary(n, d);
+                if has_integrator {
+                    let zeros = crossing.iter().take_while(|c| c.is_zero()).count();
+                    crossing.drain(..zeros.min(crossing.len() - 1));
+                }
+                Asked {
+                    crossing: Some(ranges(crossing)),
+                    signs: signs.map(ranges).into(),
+                    rule: Allows::Same { at_zero: !has_integrator },
+                }
             }
             Rule::Circle(circle) => {
                 let all = sum(d, n);
@@ -297,8 +308,8 @@ impl Asked {
         let crossing = self.crossing.as_deref();
         let signs: Vec<&[Ball]> = self.signs.iter().map(Vec::as_slice).collect();
         let four = Rational::from(4);
-        if self.rule == Allows::Same {
-            for end in [&Rational::ZERO, &four] {
+        if let Allows::Same { at_zero } = self.rule {
+            for end in [Some(&Rational::ZERO).filter(|_| at_zero), Some(&four)].into_iter().flatten() {
                 match self.allowed(&signs, &Ball::from_rational(end, bits)) {
                     Crossing::Allowed => {}
                     Crossing::Forbidden => return Some(false),
@@ -356,7 +367,7 @@ impl Asked {
         match (signs.as_deref(), self.rule) {
             (None | Some([]), _) => Crossing::Unknown,
             (Some([first, ..]), Allows::Positive) if first.is_gt() => Crossing::Allowed,
-            (Some([first, rest @ ..]), Allows::Same) if rest.iter().all(|s| s == first) => Crossing::Allowed,
+            (Some([first, rest @ ..]), Allows::Same { .. }) if rest.iter().all(|s| s == first) => Crossing::Allowed,
             _ => Crossing::Forbidden,
         }
     }
