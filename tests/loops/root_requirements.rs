@@ -125,3 +125,50 @@ fn a_drive_with_a_short_sample_time_has_a_required_damping() {
     assert_eq!(held.status, 1, "{}", held.stdout);
     assert!(held.stdout.contains("damping >= 3/10: met") && held.stdout.contains("settling_time <= 1/2: not met"));
 }
+
+/// A root whose modulus is the required one by an identity: `exp(-4 T/t)` is met. `verdict` and `intervals` say the same.
+#[test]
+fn a_settling_time_is_met_at_equality() {
+    let model = load(
+        "time = 'discrete'\nsample_time = '1/10'\nconstants.c = '(1 - exp(-1/5))*10'\nparameters.K = { nominal = 1, min = 0 }\n\
+         [loop]\ninputs = ['r']\noutputs = ['y']\n\
+         [[block]]\nname = 'gain'\ninput = 'r - y'\noutput = 'u'\ngain = 'c*K'\n\
+         [[block]]\nname = 'plant'\ninput = 'u'\noutput = 'y'\ntransfer = '1/s'\ndiscretize = 'zoh'\n",
+    );
+    let requirement = Requirement::settling_time(number("2"), &number("1/10")).unwrap();
+    let list = std::slice::from_ref(&requirement);
+    let met = model.ask().problem().unwrap().requirements_met(list, None, &Budget::unlimited()).unwrap();
+    assert!(met[0].met);
+    let set = set_on(&model, "K", ["0", "100"], &requirement);
+    // 1 - (1 - x) K = x and = -x with x = exp(-1/5)
+    assert_eq!(ends(&set, 12), [["1".to_owned(), "10.0333111323".to_owned()]]);
+    assert!(set.intervals[0].contains(&number("1")));
+}
+
+/// A factor of the loop whose root is on the required circle whatever the gain is: no boundary function tells anything.
+#[test]
+fn a_root_that_is_always_on_the_boundary_is_refused() {
+    let text = "time = 'discrete'\nsample_time = '1/10'\nparameters.K = {}\n\
+                loop.characteristic = '(z - exp(-1/5))*(z - K)'\n";
+    let requirement = Requirement::settling_time(number("2"), &number("1/10")).unwrap();
+    let problem = keeping(&load(text), &["K"]).problem().unwrap();
+    let refused = problem.required_set(std::slice::from_ref(&requirement), None, &Budget::unlimited()).unwrap_err();
+    assert!(refused.to_string().contains("settling_time is not decided for this loop"), "{refused}");
+}
+
+/// At `s = 0` stability ends at the same transcendental number for the sector as for the half plane.
+#[test]
+fn an_end_of_stability_is_no_end_of_a_damping() {
+    let requirement = Requirement::damping(number("1/2")).unwrap();
+    // s^2 + s + pi + k: the damping is 1/(2 sqrt(pi + k))
+    let set = set_on(&continuous("s^2 + s + pi + k", ""), "k", ["-9", "9"], &requirement);
+    assert_eq!(ends(&set, 12), [["-3.14159265359".to_owned(), "-2.14159265359".to_owned()]]);
+}
+
+/// A damping that hardly any value has, at both ends of which the search gets stuck: what is known is said.
+#[test]
+fn what_is_not_found_is_a_bracket() {
+    let run = jurist(&["intervals", "examples/dc-servo.toml", "--param", "T", "--damping", "0.7", "--json"]);
+    assert!([0, 3].contains(&run.status), "{}", run.stderr);
+    assert!(run.stdout.contains("\"stable\""), "{}", run.stderr);
+}

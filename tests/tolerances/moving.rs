@@ -295,3 +295,16 @@ fn one_name_is_answered_by_its_line() {
     assert!(factor.upper.is_none() && factor.lower < number("2") && factor.lower > number("1.99"));
     assert_eq!(answer.value().domain_factor, Some(number("2")));
 }
+
+/// At the end of the domain there is no loop: the point that shows it bounds the factor.
+#[test]
+fn a_box_that_ends_where_there_is_no_loop_must_shrink() {
+    let model =
+        held("K = { nominal = 1 }\ntau = { nominal = '1/2', min = 0 }\nT = { nominal = 0.1 }", "1/(s*(tau*s + 1))");
+    let answer = asked(&model, &[("tau", "0..2")], "1/1000");
+    let value = answer.value();
+    let factor = value.factor.as_ref().unwrap();
+    assert!(!value.decision.is_stable() && factor.lower < number("1"));
+    assert_eq!(factor.upper, Some(number("1")));
+    assert_eq!(factor.witness.as_ref().unwrap().point, [number("0")]);
+}

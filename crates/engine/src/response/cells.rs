@@ -5,9 +5,9 @@ use super::met::AtPoint;
 use super::requirement::{Requirement, Rule};
 use super::{RequiredEnd, RequiredInterval, RequiredSet};
 use crate::error::Error;
-use crate::stability::{Cause, End, RealInterval, StableInterval, UndecidedBracket};
+use crate::stability::{Bracket, Cause, End, RealInterval, StableInterval, UndecidedBracket};
 use jurist_algebra::limits::{Budget, Exhausted};
-use jurist_algebra::number::Rational;
+use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{RealAlgebraic, SquareFree, UniPoly, isolate_real_roots};
 use jurist_algebra::real::Real;
 use std::slice::from_ref;
@@ -210,4 +210,14 @@ where
         out.push(RequiredInterval { lower, upper: stability(&upper) });
     }
     Ok(out)
+}
+
+/// Bits of the bracket around a number that is not told from an end.
+const BRACKET_BITS: u64 = 256;
+
+/// A bracket around a number that is not told from another one.
+pub(super) fn around(x: &Real) -> Bracket {
+    let width = Rational::dyadic(&Integer::ONE, BRACKET_BITS);
+    let (lo, hi) = x.refined(&width).enclosure();
+    (Some(lo - &width), Some(hi + &width))
 }

@@ -5,7 +5,7 @@ use super::spiral::{Arc, OnSpiral, Values, Walk};
 use crate::stability::subdivision::{BoxPart, Look, Order, Tally, subdivide};
 use crate::stability::{Bracket, Cause, End, StableInterval};
 use jurist_algebra::ball::Ball;
-use jurist_algebra::limits::{Budget, Exhausted, Stop, checkpoint};
+use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::real::{Enclosing, Origin, Real, Transcendental};
 
@@ -44,6 +44,7 @@ pub(super) fn changes(p: &OnSpiral, interval: &StableInterval, budget: &Budget) 
     let (a, b) = (lower.value.refined_to_digits(15).enclosure(), upper.value.refined_to_digits(15).enclosure());
     let outer = [a.0.clone(), b.1.clone()];
     let search = Search { p, ends: [&lower, &upper], outer, inner: [a.1, b.0], budget };
+    let end = b.1.clone();
     let whole = BoxPart::whole([[a.0, b.1]]);
     let mut out = Vec::new();
     let (mut open, mut left): (Vec<Bracket>, usize) = (Vec::new(), 0);
@@ -53,15 +54,13 @@ pub(super) fn changes(p: &OnSpiral, interval: &StableInterval, budget: &Budget) 
         }
         let [from, to] = &part.sides[0];
         left += 1;
-        if left > MOST_LEFT {
-            let near = from.to_f64_approximate();
-            return Err(Exhausted::new(Stop::Halvings(BOXES), format!("the damping near {near:.6e}")));
-        }
+        // What follows is not looked at.
+        let to = if left > MOST_LEFT { &end } else { to };
         match open.last_mut() {
             Some(last) if last.1.as_ref() == Some(from) => last.1 = Some(to.clone()),
             _ => open.push((Some(from.clone()), Some(to.clone()))),
         }
-        Ok(Look::Decided(()))
+        Ok(if left > MOST_LEFT { Look::Open(()) } else { Look::Decided(()) })
     };
     subdivide([whole], Order::Depth, budget, look)?.ok();
     if interval.lower.is_none() {

@@ -1,13 +1,14 @@
 //! Requirements on the roots of the closed loop, whatever its coefficients are made of.
 
-use super::cells::{Unmet, inside_of, outward, parts_beside, required_parts};
+use super::cells::{Unmet, around, inside_of, outward, parts_beside, required_parts};
 use super::damped::changes;
+use super::required_set::not_decided;
 use super::requirement::{Requirement, Rule};
 use super::spiral::OnSpiral;
 use super::{RequiredInterval, RequiredSet};
 use crate::error::Error;
 use crate::stability::{
-    AtPoint, Bracket, Range, Shape, StableInterval, StableSet, SymbolicPolynomial, UndecidedBracket,
+    AtPoint, Bracket, Cause, Range, Shape, StableInterval, StableSet, SymbolicPolynomial, UndecidedBracket,
 };
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
@@ -17,13 +18,8 @@ use jurist_algebra::real::Real;
 pub(super) enum OnRoots {
     /// The roots are inside of the spiral of a damping.
     Spiral(OnSpiral),
-    /// The roots of another polynomial are inside of the region of stability.
-    Region {
-        polynomial: SymbolicPolynomial,
-        shape: Shape,
-        /// True if a root on the boundary is allowed.
-        closed: bool,
-    },
+    /// The roots of another polynomial are inside of the region of stability or on its boundary.
+    Region { polynomial: SymbolicPolynomial, shape: Shape },
 }
 
 impl OnRoots {
@@ -31,11 +27,8 @@ impl OnRoots {
     pub fn of(requirement: &Requirement, p: &SymbolicPolynomial, shape: Shape) -> Option<OnRoots> {
         Some(match requirement.rule() {
             Rule::Sector(least) if shape == Shape::UnitDisc => OnRoots::Spiral(OnSpiral::of(p, least)?),
-            Rule::Sector(least) => OnRoots::Region { polynomial: p.in_sector(least), shape, closed: true },
-            // No root has a transcendental modulus, so none is on the circle.
-            Rule::Modulus { exponent } => {
-                OnRoots::Region { polynomial: p.scaled_by_exponential(exponent), shape, closed: false }
-            }
+            Rule::Sector(least) => OnRoots::Region { polynomial: p.in_sector(least), shape },
+            Rule::Modulus { exponent } => OnRoots::Region { polynomial: p.scaled_by_exponential(exponent), shape },
             _ => return None,
         })
     }
@@ -47,8 +40,8 @@ impl OnRoots {
     pub fn is_met_at(&self, value: &Rational, budget: &Budget) -> Result<bool, Exhausted> {
         Ok(match self {
             OnRoots::Spiral(p) => p.count_at(value, budget)? == p.degree(),
-            OnRoots::Region { polynomial, shape, closed } => match polynomial.at(value, *shape, budget)? {
-                AtPoint::Defined { count, infinite: 0 } => count.outside + if *closed { 0 } else { count.on } == 0,
+            OnRoots::Region { polynomial, shape } => match polynomial.at(value, *shape, budget)? {
+                AtPoint::Defined { count, infinite: 0 } => count.outside == 0,
                 _ => false,
             },
         })
@@ -66,6 +59,9 @@ impl OnRoots {
     ) -> Result<RequiredSet, Error> {
         let mut found = RequiredSet { intervals: Vec::new(), undecided: stable.undecided().to_vec() };
         for interval in stable.intervals() {
+            if self.has_roots_on_boundary_throughout(interval, budget)? {
+                return Err(not_decided(requirement));
+            }
             let (values, open) = self.changes(interval, budget)?;
             let why = format!("where {} begins or ceases to be met", requirement.name());
             let open =
@@ -75,6 +71,21 @@ impl OnRoots {
         }
         found.sort();
         Ok(found)
+    }
+
+    /// True if a root of the other polynomial is on the boundary at several values: then it may be there at all of them, and its boundary
+    /// conditions tell nothing.
+    fn has_roots_on_boundary_throughout(&self, interval: &StableInterval, budget: &Budget) -> Result<bool, Exhausted> {
+        let OnRoots::Region { polynomial, shape } = self else { return Ok(false) };
+        let mut below = interval.bare();
+        for _ in 0..SAMPLES {
+            let sample = below.sample(budget)?;
+            match polynomial.at(&sample, *shape, budget)? {
+                AtPoint::Defined { count, .. } if count.on > 0 => below.upper = Some(sample.into()),
+                _ => return Ok(false),
+            }
+        }
+        Ok(true)
     }
 
     /// The values strictly inside of a stable interval at which the requirement may begin or cease to be met, ascending, and where there may
@@ -87,13 +98,20 @@ impl OnRoots {
         let range = Range::between(outward(&interval.lower, true), outward(&interval.upper, false));
         let set = polynomial.stable_set(&range, *shape, budget)?;
         let mut values: Vec<Real> = Vec::new();
+        let mut open: Vec<Bracket> = set.undecided().iter().map(|b| (b.lower.clone(), b.upper.clone())).collect();
         for end in set.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten() {
             let is_new = values.last().is_none_or(|last| !last.is_same(&end.value));
-            if is_new && end.causes.is_limit() && interval.bare().has_inside(&end.value, budget)? {
-                values.push(end.value.clone());
+            if !is_new || !end.causes.is_limit() || ENDS_OF_STABILITY.iter().any(|cause| end.causes.contains(*cause)) {
+                continue;
+            }
+            match interval.bare().has_inside(&end.value, budget) {
+                Ok(true) => values.push(end.value.clone()),
+                Ok(false) => {}
+                Err(stopped) if stopped.stop.is_precision() => open.push(around(&end.value)),
+                Err(stopped) => return Err(stopped),
             }
         }
-        Ok((values, set.undecided().iter().map(|b| (b.lower.clone(), b.upper.clone())).collect()))
+        Ok((values, open))
     }
 
     fn cells(
@@ -110,6 +128,12 @@ impl OnRoots {
         required_parts(interval, &inside, unmet, |_, _| Ok(true), budget)
     }
 }
+
+/// At these the loop itself is not stable: no stable interval has them inside. (A root at 0 is at the sector's vertex.)
+const ENDS_OF_STABILITY: [Cause; 4] = [Cause::RootAtZero, Cause::DegreeLost, Cause::Pole, Cause::SquareRoot];
+
+/// So many values with a root on the boundary are no coincidence.
+const SAMPLES: usize = 3;
 
 /// Values, and where there may be others.
 pub(super) type Changes = (Vec<Real>, Vec<Bracket>);

@@ -1,6 +1,6 @@
 //! Requirements on margins in one parameter where the loop contains functions that are not rational, such as a plant behind a hold.
 
-use super::cells::{edge, outward, parts_beside, required_parts};
+use super::cells::{around, edge, outward, parts_beside, required_parts};
 use super::family::{Elimination, Quotient, nothing_comes_back, plus_multiple, plus_multiple_of};
 use super::met::AtPoint;
 use super::open_loop::OpenLoop;
@@ -13,7 +13,7 @@ use crate::model::{Cut, Opened};
 use crate::problem::{Problem, moving_symbols};
 use crate::stability::{Bracket, Range, StableInterval, StableSet, UndecidedBracket, told_apart, zeros_of_functions};
 use jurist_algebra::limits::{Budget, Exhausted};
-use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RealAlgebraic};
 use jurist_algebra::real::Real;
 use jurist_algebra::symbols::{Definition, Function, MovingSymbols};
@@ -341,13 +341,4 @@ fn without_contents(f: Function) -> Vec<Function> {
     let (a, b) = (primitive(a), primitive(b));
     out.push(Function::resultant(a, b));
     out
-}
-
-/// Bits of the bracket around a number that is not told from an end.
-const BRACKET_BITS: u64 = 256;
-
-fn around(x: &Real) -> Bracket {
-    let width = Rational::dyadic(&Integer::ONE, BRACKET_BITS);
-    let (lo, hi) = x.refined(&width).enclosure();
-    (Some(lo - &width), Some(hi + &width))
 }

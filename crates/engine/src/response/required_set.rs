@@ -338,7 +338,7 @@ fn boundaries(
     Ok(found)
 }
 
-fn not_decided(requirement: &Requirement) -> Error {
+pub(super) fn not_decided(requirement: &Requirement) -> Error {
     let message = format!("the requirement {} is not decided for this loop", requirement.name());
     Diagnostic::error(Code::Require, message).help("a polynomial of its boundary vanishes for every value").into()
 }

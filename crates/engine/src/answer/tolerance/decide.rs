@@ -133,6 +133,7 @@ impl Problem {
         let factor = boxes.bracket(search, known, &|_| request.gap.clone(), domain_factor.as_ref(), &part)?;
         let factor = truth.factor(p, factor, budget)?;
         let decision = agreed(decision, &factor, None);
+        let factor = bounded_by(&decision, factor, &sides);
         let (mut decision, mut factor) = (decision, Some(factor));
         let (mut required, mut binding) = (Vec::new(), None);
         for (k, requirement) in request.requirements.iter().enumerate() {
@@ -304,6 +305,27 @@ pub(super) fn agreed(decision: BoxDecision, factor: &LargestFactor, exact: Optio
         }
         _ => decision,
     }
+}
+
+/// The factor of a box that is not stable is 1 at most: where nothing nearer is known, the point that shows it bounds the factor.
+fn bounded_by(decision: &BoxDecision, mut factor: LargestFactor, sides: &[Side]) -> LargestFactor {
+    if let BoxDecision::NotStable { witness: Some(witness) } = decision
+        && factor.upper.is_none()
+        && factor.lower < Rational::ONE
+    {
+        let share = |(side, x): (&Side, &Rational)| {
+            let offset = x - side.nominal();
+            offset.checked_div(&side.widths()[usize::from(offset.sign().is_gt())]).unwrap_or(Rational::ZERO)
+        };
+        let direction: Vec<Rational> = sides.iter().zip(&witness.point).map(share).collect();
+        let upper = direction.iter().map(Rational::abs).max().filter(|upper| *upper > factor.lower);
+        if let Some(upper) = upper.filter(|upper| *upper <= Rational::ONE) {
+            factor.direction =
+                Some(direction.iter().map(|x| x.checked_div(&upper).unwrap_or(Rational::ZERO)).collect());
+            (factor.upper, factor.witness) = (Some(upper), Some(witness.clone()));
+        }
+    }
+    factor
 }
 
 /// The volume of a box of many parameters, refused before any work.

@@ -41,8 +41,7 @@ fn meaning(written: &Written<'_>) -> Result<Meaning, Error> {
                 Ok(Some(step)) => step,
                 Ok(None) => return Err(not_understood(KIND.name, "a settling time needs the loop's sample time")),
                 Err(Error::Undefined(_)) => {
-                    let why =
-                        "a settling time needs a sample time that has a value: it is a parameter here that has none";
+                    let why = "a settling time needs a sample time that is a number, and here it depends on what is asked about";
                     return Err(not_understood(KIND.name, why));
                 }
                 Err(error) => return Err(error),
