@@ -12,7 +12,7 @@ pub(crate) const SIGN_AT_NUMBER: Precisions = Precisions::new(128, 1 << 13);
 pub(crate) const REQUIRED_DELAY: Precisions = Precisions::new(64, 1 << 12);
 
 /// The argument along a spiral of constant damping. Roots may be on it.
-pub(crate) const ROOTS_IN_SPIRAL: Precisions = Precisions::new(128, 1 << 12);
+pub(crate) const ROOTS_IN_SPIRAL: Precisions = Precisions::new(128, 1 << 10);
 
 /// The signs of a certificate over constants, which both checkers enclose again with as many bits.
 pub(crate) const CERTIFICATE_OVER_SYMBOLS: Precisions = Precisions::new(256, 1 << 13);

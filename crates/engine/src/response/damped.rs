@@ -21,8 +21,11 @@ const PLACE_BITS: u64 = 64;
 const BOXES: u32 = 24;
 /// An interval without end is looked at so many times as far as its other end and the usual value.
 const FAR: i64 = 1024;
-/// So many of them may be left open.
+/// So many of them may be left open,
 const MOST_LEFT: usize = 32;
+/// and so many boxes are looked at, within this part of the time. What is open then stays so.
+const MOST_LOOKS: usize = 4000;
+const SEARCH_SHARE: (u32, u32) = (1, 2);
 
 /// The values strictly inside of a stable interval, ascending; they are not algebraic.
 ///
@@ -43,26 +46,47 @@ pub(super) fn changes(p: &OnSpiral, interval: &StableInterval, budget: &Budget) 
         .map(|(end, far)| end.clone().unwrap_or_else(|| End::new(far, Cause::Undecided.into(), None)));
     let (a, b) = (lower.value.refined_to_digits(15).enclosure(), upper.value.refined_to_digits(15).enclosure());
     let outer = [a.0.clone(), b.1.clone()];
-    let search = Search { p, ends: [&lower, &upper], outer, inner: [a.1, b.0], budget };
-    let end = b.1.clone();
-    let whole = BoxPart::whole([[a.0, b.1]]);
-    let mut out = Vec::new();
-    let (mut open, mut left): (Vec<Bracket>, usize) = (Vec::new(), 0);
-    let look = |part: &mut BoxPart, _: Tally| {
-        if let Some(seen) = search.look(part, &mut out)? {
-            return Ok(seen);
+    let part = budget.share(SEARCH_SHARE.0, SEARCH_SHARE.1);
+    let search = Search { p, ends: [&lower, &upper], outer, inner: [a.1, b.0], budget: &part };
+    let [from, to] = [a.0, b.1];
+    let whole = BoxPart::whole([[from.clone(), to.clone()]]);
+    // The parts in which all is known, each with the value in it, if it has one.
+    let mut decided: Vec<([Rational; 2], Option<Real>)> = Vec::new();
+    let mut left = 0;
+    let look = |part: &mut BoxPart, tally: Tally| {
+        if tally.looks() >= MOST_LOOKS {
+            return Ok(Look::Open(()));
         }
-        let [from, to] = &part.sides[0];
-        left += 1;
-        // What follows is not looked at.
-        let to = if left > MOST_LEFT { &end } else { to };
-        match open.last_mut() {
-            Some(last) if last.1.as_ref() == Some(from) => last.1 = Some(to.clone()),
-            _ => open.push((Some(from.clone()), Some(to.clone()))),
-        }
-        Ok(if left > MOST_LEFT { Look::Open(()) } else { Look::Decided(()) })
+        let Some(seen) = search.look(part)? else {
+            left += 1;
+            return Ok(if left > MOST_LEFT { Look::Open(()) } else { Look::Decided(()) });
+        };
+        Ok(match seen {
+            Seen::Decided(value) => {
+                decided.push((part.sides[0].clone(), value));
+                Look::Decided(())
+            }
+            Seen::Cut => Look::Cut(0),
+        })
     };
-    subdivide([whole], Order::Depth, budget, look)?.ok();
+    // Large boxes first: what is hard hides nothing else.
+    match subdivide([whole], Order::Breadth, &part, look) {
+        Err(_) if budget.check().is_ok() => {}
+        ended => drop(ended?),
+    }
+    decided.sort_by(|(a, _), (b, _)| a[0].cmp(&b[0]));
+    let (mut out, mut open): (Vec<Real>, Vec<Bracket>) = (Vec::new(), Vec::new());
+    let mut reached = from;
+    for ([lower, upper], value) in decided {
+        if reached < lower {
+            open.push((Some(reached), Some(lower)));
+        }
+        out.extend(value);
+        reached = upper;
+    }
+    if reached < to {
+        open.push((Some(reached), Some(to)));
+    }
     if interval.lower.is_none() {
         open.insert(0, (None, lower.value.exact()));
     }
@@ -83,6 +107,13 @@ fn far_from(interval: &StableInterval, usual: &Rational) -> Rational {
     Rational::from((size * Rational::from(FAR)).ceil())
 }
 
+/// What a look at a box tells.
+enum Seen {
+    /// All is known, with the one value that it may have.
+    Decided(Option<Real>),
+    Cut,
+}
+
 struct Search<'a> {
     p: &'a OnSpiral,
     ends: [&'a End; 2],
@@ -95,13 +126,13 @@ struct Search<'a> {
 
 impl Search<'_> {
     /// Looks at a box of the parameter, for at most one value; `None` where it is too small to be cut.
-    fn look(&self, part: &BoxPart, out: &mut Vec<Real>) -> Result<Option<Look<(), ()>>, Exhausted> {
+    fn look(&self, part: &BoxPart) -> Result<Option<Seen>, Exhausted> {
         let [from, to] = &part.sides[0];
         let values = Values::between(from, to);
         let halvings = u64::from(part.halvings[0]);
         let (bits, arcs) = (BITS + halvings * (self.p.degree() as u64 + 2), ARCS + halvings);
         let open = match self.budget.enter(|| self.p.walk(&values, bits, arcs, MOST_OPEN))? {
-            Walk::Count(_) => return Ok(Some(Look::Decided(()))),
+            Walk::Count(_) => return Ok(Some(Seen::Decided(None))),
             Walk::Open(open) => open,
         };
         let angles = hull(&open);
@@ -111,19 +142,18 @@ impl Search<'_> {
         if (!at_one || touches_one) && self.budget.enter(|| self.p.is_one_to_one(&angles, &values, bits))? {
             // The only zero is the one at 1.
             if touches_one {
-                return Ok(Some(Look::Decided(())));
+                return Ok(Some(Seen::Decided(None)));
             }
             let (low, high) = (from.max(&self.inner[0]).clone(), to.min(&self.inner[1]).clone());
             let counts = [self.p.count_at(&low, self.budget)?, self.p.count_at(&high, self.budget)?];
-            if counts[0] != counts[1] {
-                let p = self.p.clone();
-                let change = Change { p, angles, within: [low, high], count_below: counts[0] };
-                let place = self.budget.enter(|| change.enclose(PLACE_BITS, None))?;
-                out.push(Transcendental::within(change, place).into());
+            if counts[0] == counts[1] {
+                return Ok(Some(Seen::Decided(None)));
             }
-            return Ok(Some(Look::Decided(())));
+            let change = Change { p: self.p.clone(), angles, within: [low, high], count_below: counts[0] };
+            let place = self.budget.enter(|| change.enclose(PLACE_BITS, None))?;
+            return Ok(Some(Seen::Decided(Some(Transcendental::within(change, place).into()))));
         }
-        Ok((part.halvings[0] < BOXES).then_some(Look::Cut(0)))
+        Ok((part.halvings[0] < BOXES).then_some(Seen::Cut))
     }
 
     /// Whether the box holds an end at which 1 is a root.
