@@ -1,6 +1,10 @@
 //! Maps, loci and tables of loops with plants behind a hold, as the program makes them.
 
+use crate::helpers::model::load;
+use crate::helpers::number::number;
 use crate::helpers::program::{json, jurist, jurist_with_input};
+use jurist_algebra::limits::Budget;
+use jurist_engine::stability::{Shape, count_roots};
 use serde_json::Value;
 
 #[test]
@@ -109,4 +113,28 @@ fn routh_conditions_with_functions_of_constants_are_solved() {
     let holds: Vec<&Value> = document["conditions"].as_array().unwrap().iter().map(|c| &c["holds"]).collect();
     assert_eq!(holds, [true, false, false]);
     assert_eq!(document["rows"][3]["name"], "s^0");
+}
+
+/// Exact polynomials over the constants of three modes take more than a minute: a locus is drawn from enclosures of the matrix.
+#[test]
+fn a_locus_of_several_modes_does_not_wait_for_the_characteristic_polynomial() {
+    let text = "time = 'discrete'\n[parameters]\nK = { nominal = 0.5 }\n[loop]\ninputs = ['r']\noutputs = ['y']\n\
+                [[block]]\nname = 'block'\ninput = 'K*(r - y)'\noutput = 'y'\n\
+                transfer = '1/((s + 1)*(s^2 + s/5 + 1)*(s^2 + s/3 + 4)*(s^2 + s/2 + 9))'\n\
+                discretize = { method = 'zoh', T = 0.1 }\n";
+    let problem = load(text).ask().free("K").problem().unwrap();
+    let budget = Budget::with_work(2_000_000_000);
+    let rounded = problem.rounded_loop(&budget).unwrap().expect("a loop of several modes");
+    // The roots at a value are those of the loop with that value, whose verdict is asked of its numbers.
+    let of = |value: &str| {
+        let p = rounded.at(&number(value)).unwrap();
+        (p.degree(), count_roots(&p, Shape::UnitDisc).inside)
+    };
+    let told = |value: &str| {
+        let answer = load(text).ask().set("K", number(value)).verdict(&budget).unwrap();
+        (Some(7), answer.value().count.unwrap().inside)
+    };
+    for value in ["0", "0.5", "20", "200", "-30"] {
+        assert_eq!(of(value), told(value), "{value}");
+    }
 }

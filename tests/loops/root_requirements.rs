@@ -165,10 +165,18 @@ fn an_end_of_stability_is_no_end_of_a_damping() {
     assert_eq!(ends(&set, 12), [["-3.14159265359".to_owned(), "-2.14159265359".to_owned()]]);
 }
 
-/// A damping that hardly any value has, at both ends of which the search gets stuck: what is known is said.
+/// At the gain 0 the damping is the plant's own, which is the required one. No identity of the coefficients says so.
 #[test]
-fn what_is_not_found_is_a_bracket() {
-    let run = jurist(&["intervals", "examples/dc-servo.toml", "--param", "T", "--damping", "0.7", "--json"]);
-    assert!([0, 3].contains(&run.status), "{}", run.stderr);
-    assert!(run.stdout.contains("\"stable\""), "{}", run.stderr);
+fn a_damping_that_is_met_with_equality_is_a_bracket() {
+    let model = load(
+        "time = 'discrete'\nsample_time = '1/10'\nparameters.K = {}\n[loop]\ninputs = ['r']\noutputs = ['y']\n\
+         [[block]]\nname = 'gain'\ninput = 'r - y'\noutput = 'u'\ngain = 'K'\n\
+         [[block]]\nname = 'plant'\ninput = 'u'\noutput = 'y'\ntransfer = '1/(s^2 + s + 1)'\ndiscretize = 'zoh'\n",
+    );
+    let set = set_on(&model, "K", ["-1/2", "1"], &Requirement::damping(number("1/2")).unwrap());
+    let [bracket] = set.undecided.as_slice() else { panic!("{:?}", set.undecided) };
+    let (lower, upper) = (bracket.lower.clone().unwrap(), bracket.upper.clone().unwrap());
+    assert!(lower < ratio(0, 1) && upper > ratio(0, 1) && upper - lower < ratio(1, 1_000_000_000));
+    assert!(set.intervals.iter().any(|i| i.contains(&number("-1/10"))));
+    assert!(!set.intervals.iter().any(|i| i.contains(&number("1/10"))));
 }

@@ -15,7 +15,7 @@ use jurist_algebra::poly::{Poly, UniPoly};
 use jurist_engine::answer::Answer;
 use jurist_engine::error::Error;
 use jurist_engine::model::Time;
-use jurist_engine::problem::Problem;
+use jurist_engine::problem::{Problem, RoundedLoop};
 use jurist_engine::show::layout::{short, visible};
 use jurist_engine::stability::{Cause, End, ParametricPolynomial, Rounding, StableSet, SymbolicPolynomial};
 pub use range::locus_range;
@@ -68,10 +68,15 @@ pub struct DrawnLocus {
 enum Polynomial<'p> {
     Exact(Option<&'p ParametricPolynomial>),
     Rounded(Option<Rounding>),
+    /// Of many modes behind holds: a polynomial at each value.
+    AtValues(RoundedLoop),
 }
 
 impl Polynomial<'_> {
     fn of<'p>(problem: &'p Problem, budget: &Budget) -> Result<Polynomial<'p>, Error> {
+        if let Some(rounded) = problem.rounded_loop(budget)? {
+            return Ok(Polynomial::AtValues(rounded));
+        }
         if problem.algebra_over_symbols(budget)?.symbols().is_empty() {
             return Ok(Polynomial::Exact(problem.parametric(budget)?));
         }
@@ -83,6 +88,7 @@ impl Polynomial<'_> {
         match self {
             Polynomial::Exact(p) => p.filter(|p| !p.is_undefined_at(value)).map(|p| p.specialised(value)),
             Polynomial::Rounded(p) => p.as_ref()?.at(value),
+            Polynomial::AtValues(p) => p.at(value),
         }
     }
 
@@ -91,6 +97,7 @@ impl Polynomial<'_> {
         match self {
             Polynomial::Exact(p) => p.map(|p| Cow::Borrowed(p.polynomial())),
             Polynomial::Rounded(p) => p.as_ref()?.whole().map(Cow::Owned),
+            Polynomial::AtValues(_) => None,
         }
     }
 }

@@ -1,14 +1,15 @@
 //! A loop whose parameters all have values, decided by enclosures of its numbers.
 
-use super::{Bound, Problem, Region};
+use super::{Bound, Problem, Region, exact_or_enclosed};
 use crate::error::Error;
 use crate::model::{ClosedLoop, InNumbers, Symbols, quotient_at};
 use crate::precisions::LOOP_IN_NUMBERS;
 use crate::stability::{AtPoint, EnclosedLoop, Shape, open_equation};
 use jurist_algebra::ball::{Ball, BallMatrix};
 use jurist_algebra::limits::Budget;
+use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
+use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction, UniPoly};
 
 /// What enclosures say of a loop.
 #[derive(Clone, Debug)]
@@ -70,9 +71,81 @@ impl Problem {
     }
 }
 
+/// A loop behind holds in one parameter, for pictures: rounded coefficients at any value.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_engine::model::{BlockBuilder, Model, ParameterBuilder, Time};
+/// let plant = BlockBuilder::new("plant", "K*(r - y)", "y").transfer("1/(s + 1)").discretize("zoh", "1");
+/// let (model, _) = Model::builder(Time::Discrete)
+///     .inputs(["r"])
+///     .outputs(["y"])
+///     .parameter(ParameterBuilder::new("K").nominal("1"))
+///     .block(plant)
+///     .build()?;
+/// // One mode is short enough for exact polynomials.
+/// assert!(model.ask().free("K").problem()?.rounded_loop(&Budget::unlimited())?.is_none());
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct RoundedLoop {
+    a: RationalMatrix,
+    poles: Vec<MultiPoly>,
+    /// The values of the symbols, which follow the parameter.
+    symbols: Vec<Ball>,
+    region: Region,
+}
+
+/// Bits of rounded coefficients.
+const PICTURE_BITS: u64 = 512;
+
+impl RoundedLoop {
+    /// The characteristic polynomial at a value of the parameter, times a power of two and rounded; `None` where it is not defined.
+    ///
+    /// Cost: that of the characteristic polynomial of a matrix of numbers.
+    pub fn at(&self, value: &Rational) -> Option<UniPoly> {
+        let values: Vec<Ball> =
+            std::iter::once(Ball::from_rational(value, PICTURE_BITS)).chain(self.symbols.iter().cloned()).collect();
+        let polynomial = enclosed(&self.a, &self.poles, &values, &self.region, PICTURE_BITS)?;
+        Some(UniPoly::new(polynomial.iter().map(Ball::middle_units).collect()))
+    }
+}
+
+impl Problem {
+    /// The loop in its one free parameter for pictures, where exact polynomials over the constants of its holds would be long; `None` where
+    /// they are short, and where the parameter is inside of the constants.
+    ///
+    /// Cost: less than a second of exact algebra, and then the closed loop without a characteristic polynomial.
+    ///
+    /// # Errors
+    /// As [`Problem::closed_loop_over_symbols`].
+    pub fn rounded_loop(&self, budget: &Budget) -> Result<Option<RoundedLoop>, Error> {
+        let [free] = self.free() else { return Ok(None) };
+        if !self.model().has_holds() || self.evaluated().is_some() {
+            return Ok(None);
+        }
+        let kept = [free.name.clone()];
+        exact_or_enclosed(
+            budget,
+            |budget| self.algebra_over_symbols(budget).map(|_| None),
+            |budget| {
+                let found = budget.enter(|| self.model().closed_loop_in_numbers(&kept, self.set(), budget))??;
+                let Some(found) = found.filter(|found| found.symbols.has_flows()) else { return Ok(None) };
+                let values = budget.enter(|| found.symbols.without_kept()?.enclosed(PICTURE_BITS))?;
+                Ok(values.map(|symbols| {
+                    let InNumbers { closed_loop: ClosedLoop { a, poles, .. }, .. } = found;
+                    Some(RoundedLoop { a, poles, symbols, region: self.region().clone() })
+                }))
+            },
+        )
+    }
+}
+
 /// What is known with so many bits.
 fn attempt(of: &InNumbers, region: &Region, shape: Shape, bits: u64) -> FromNumbers {
-    let Some(polynomial) = enclosed(of, region, bits) else {
+    let polynomial = of.symbols.enclosed(bits);
+    let polynomial = polynomial.and_then(|v| enclosed(&of.closed_loop.a, &of.closed_loop.poles, &v, region, bits));
+    let Some(polynomial) = polynomial else {
         return FromNumbers::Open("whether something is divided by zero".to_owned());
     };
     match EnclosedLoop::of(&polynomial, shape) {
@@ -85,16 +158,14 @@ fn attempt(of: &InNumbers, region: &Region, shape: Shape, bits: u64) -> FromNumb
 }
 
 /// The characteristic polynomial with the bound of the region put in, as balls; `None` where a divisor may vanish.
-fn enclosed(of: &InNumbers, region: &Region, bits: u64) -> Option<Vec<Ball>> {
-    let values = of.symbols.enclosed(bits)?;
-    let a = &of.closed_loop.a;
-    let mut poles = of.closed_loop.poles.iter().chain(a.entries().iter().map(RationalFunction::denominator));
-    let may_vanish = |p: &MultiPoly| quotient_at(&p.clone().into(), &values, bits).is_none_or(|v| v.contains_zero());
+fn enclosed(a: &RationalMatrix, poles: &[MultiPoly], values: &[Ball], region: &Region, bits: u64) -> Option<Vec<Ball>> {
+    let mut poles = poles.iter().chain(a.entries().iter().map(RationalFunction::denominator));
+    let may_vanish = |p: &MultiPoly| quotient_at(&p.clone().into(), values, bits).is_none_or(|v| v.contains_zero());
     if poles.any(|p| !p.is_one() && may_vanish(p)) {
         return None;
     }
     let n = a.rows();
-    let entries = a.entries().iter().map(|f| quotient_at(f, &values, bits)).collect::<Option<Vec<Ball>>>()?;
+    let entries = a.entries().iter().map(|f| quotient_at(f, values, bits)).collect::<Option<Vec<Ball>>>()?;
     let matrix = BallMatrix::from_fn(n, |i, j| entries[i * n + j].clone());
     Some(match region {
         Region::Disc(Bound::Number(r)) if !r.is_one() => in_disc(matrix.characteristic_polynomial(bits), r, bits),

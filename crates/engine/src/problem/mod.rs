@@ -25,6 +25,7 @@ pub(crate) use delayed::refused;
 pub use delayed::{BaseDelay, DelayedLoop};
 pub use evaluation::Algebra;
 pub(crate) use in_numbers::FromNumbers;
+pub use in_numbers::RoundedLoop;
 pub(crate) use over_symbols::{fixed_symbols, moving_symbols};
 pub use plan::Plan;
 pub use question::Question;

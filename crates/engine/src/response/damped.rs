@@ -7,6 +7,7 @@ use crate::stability::{Bracket, Cause, End, StableInterval};
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
+use jurist_algebra::poly::simplest_between;
 use jurist_algebra::real::{Enclosing, Origin, Real, Transcendental};
 
 /// Bits of the search.
@@ -17,6 +18,8 @@ const ARCS: u64 = 24;
 const MOST_OPEN: usize = 24;
 /// A value is enclosed with so many bits after the point at first.
 const PLACE_BITS: u64 = 64;
+/// Of a number that may be one at which a root is on the edge, above and below the line together.
+const SHORT_BITS: u64 = 24;
 /// Boxes of the parameter are halved so often at most.
 const BOXES: u32 = 24;
 /// An interval without end is looked at so many times as far as its other end and the usual value.
@@ -66,6 +69,12 @@ pub(super) fn changes(p: &OnSpiral, interval: &StableInterval, budget: &Budget) 
                 decided.push((part.sides[0].clone(), value));
                 Look::Decided(())
             }
+            Seen::Beside(place) => {
+                let [from, to] = &part.sides[0];
+                decided.push(([from.clone(), place.lower().clone()], None));
+                decided.push(([place.upper().clone(), to.clone()], None));
+                Look::Decided(())
+            }
             Seen::Cut => Look::Cut(0),
         })
     };
@@ -111,6 +120,8 @@ fn far_from(interval: &StableInterval, usual: &Rational) -> Rational {
 enum Seen {
     /// All is known, with the one value that it may have.
     Decided(Option<Real>),
+    /// All is known but for what is in here: a root may be on the edge at a short number, which nothing proves.
+    Beside(Enclosure),
     Cut,
 }
 
@@ -151,6 +162,13 @@ impl Search<'_> {
             }
             let change = Change { p: self.p.clone(), angles, within: [low, high], count_below: counts[0] };
             let place = self.budget.enter(|| change.enclose(PLACE_BITS, None))?;
+            let is_short = |q: &Rational| q.numerator().bit_length() + q.denominator().bit_length() <= SHORT_BITS;
+            if let Some(q) = simplest_between(place.lower(), place.upper()).filter(is_short) {
+                match self.p.count_at(&q, self.budget) {
+                    Err(stopped) if stopped.stop.is_precision() => return Ok(Some(Seen::Beside(place))),
+                    counted => drop(counted?),
+                }
+            }
             return Ok(Some(Seen::Decided(Some(Transcendental::within(change, place).into()))));
         }
         Ok((part.halvings[0] < BOXES).then_some(Seen::Cut))
