@@ -180,3 +180,17 @@ fn a_damping_that_is_met_with_equality_is_a_bracket() {
     assert!(set.intervals.iter().any(|i| i.contains(&number("-1/10"))));
     assert!(!set.intervals.iter().any(|i| i.contains(&number("1/10"))));
 }
+
+/// The damping `1/sqrt(4 + (k - 1)^2)` reaches 1/2 at one value; `verdict` says the same there.
+#[test]
+fn a_damping_that_is_reached_once_is_met_at_that_value() {
+    let requirement = Requirement::damping(number("1/2")).unwrap();
+    for square in ["(k - 1)^2", "sqrt(2)*(k - 1)^2"] {
+        let model = continuous(&format!("s^2 + 2*s + 4 + {square}"), "");
+        let set = set_on(&model, "k", ["-5", "5"], &requirement);
+        assert_eq!(ends(&set, 9), [["1".to_owned(), "1".to_owned()]], "{square}");
+        assert!(set.intervals[0].contains(&number("1")) && !set.intervals[0].contains(&number("1.01")));
+        let point = model.ask().set("k", number("1")).problem().unwrap();
+        assert!(point.requirements_met(std::slice::from_ref(&requirement), None, &Budget::unlimited()).unwrap()[0].met);
+    }
+}

@@ -210,46 +210,33 @@ fn phase_margins_are_nested_in_the_document_and_in_the_picture() {
     assert!(refused.status == 2 && refused.stderr.contains("E-require"), "{}", refused.stderr);
 }
 
-/// A PI controller and a lag behind a hold, and a continuous loop with a constant that is not rational.
-const HELD: &str = "time = 'discrete'
-sample_time = '1/10'
-[parameters]
-K = { nominal = 1, min = 0, max = 20 }
-b = { nominal = 0.5, min = 0, max = 20 }
-[loop]
-inputs = ['r']
-outputs = ['y']
-[[block]]
-name = 'controller'
-input = 'r - y'
-output = 'u'
-transfer = 'K + b/10/(z - 1)'
-[[block]]
-name = 'plant'
-input = 'u'
-output = 'y'
-transfer = '1/(s + 1)'
-discretize = 'zoh'
-";
+/// The loop of [`PI`] in samples, with one lag behind a hold.
+fn held() -> String {
+    PI.replace("time = 'continuous'", "time = 'discrete'\nsample_time = '1/10'")
+        .replace("min = 0 }", "min = 0, max = 20 }")
+        .replace("K_i/s", "K_i/10/(z - 1)")
+        .replace("transfer = '2/((s + 1)*(s + 2))'", "transfer = '1/(s + 1)'\ndiscretize = 'zoh'")
+}
 
 #[test]
 fn regions_over_constants_are_the_sets_on_lines() {
-    let continuous = "time = 'continuous'\nparameters.K = { nominal = 1, min = 0, max = 20 }\n\
-                      parameters.b = { nominal = 1, min = 0, max = 20 }\nloop.characteristic = 's^2 + sqrt(2)*b*s + K + b'\n";
+    let held = held();
+    let continuous = "time = 'continuous'\nparameters.K_p = { nominal = 1, min = 0, max = 20 }\n\
+                      parameters.K_i = { nominal = 1, min = 0, max = 20 }\nloop.characteristic = 's^2 + sqrt(2)*K_i*s + K_p + K_i'\n";
     let cases = [
-        (HELD, Requirement::modulus_margin(number("1/2")).unwrap()),
-        (HELD, Requirement::gain_margin(&number("2")).unwrap()),
+        (held.as_str(), Requirement::modulus_margin(number("1/2")).unwrap()),
+        (held.as_str(), Requirement::gain_margin(&number("2")).unwrap()),
         (continuous, Requirement::damping(number("1/2")).unwrap()),
     ];
     let mut random = Random::new(5);
     for (text, requirement) in cases {
         let model = load(text);
         let list = std::slice::from_ref(&requirement);
-        let answer = required(&model, &["K", "b"], list);
+        let answer = required(&model, &["K_p", "K_i"], list);
         let mut seen = [0; 2];
         for _ in 0..4 {
             let x = ratio(1 + random.below(19_999) as i64, 1000);
-            let line = keeping(&model, &["b"]).set("K", x.clone()).problem().unwrap();
+            let line = keeping(&model, &["K_i"]).set("K_p", x.clone()).problem().unwrap();
             let set = line.required_set(list, None, &Budget::unlimited()).unwrap().into_value();
             // Near 0, and where a zero of the controller cancels the plant's pole.
             let is_short =

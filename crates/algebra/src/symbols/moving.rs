@@ -295,6 +295,8 @@ impl MovingSymbols {
     /// let [value, slope] = &symbols.jets(&[p], &Ball::zero(64)).unwrap()[0];
     /// assert!(value.contains(&3.into()) && slope.contains(&3.into()));
     /// ```
+    ///
+    /// Cost: that of [`MovingSymbols::series`] with two terms, and a product for each factor of each term.
     pub fn jets(&self, list: &[MultiPoly], parameter: &Ball) -> Option<Vec<[Ball; 2]>> {
         let one = Ball::from_integer(&Integer::ONE, parameter.bits());
         let values = self.series(&Series::linear(parameter, &one, 2))?;

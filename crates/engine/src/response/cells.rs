@@ -203,7 +203,15 @@ where
                     out.push(RequiredInterval { lower, upper: Some(end) });
                 }
             }
-            (false, false) => {}
+            (false, false) => {
+                // Roots that only touch the edge from outside meet a closed requirement at one value.
+                if let Some(exact) = value.exact()
+                    && unmet(&exact)?.is_empty()
+                {
+                    let end = RequiredEnd::Requirement { value: value.clone(), names: after.clone(), closed: true };
+                    out.push(RequiredInterval { lower: Some(end.clone()), upper: Some(end) });
+                }
+            }
         }
     }
     if let Some(lower) = begun {

@@ -13,6 +13,7 @@ use crate::stability::{
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use jurist_algebra::real::Real;
+use jurist_algebra::symbols::merged;
 
 /// A requirement on the roots of a closed loop in one parameter, or none.
 pub(super) enum OnRoots {
@@ -23,7 +24,8 @@ pub(super) enum OnRoots {
 }
 
 impl OnRoots {
-    /// `None` of a requirement that is not about roots, and of a loop of which only enclosures are known.
+    /// Brings the requirement's region back to the disc or the half plane, or makes a spiral of it. Returns `None` if the requirement
+    /// is not about roots, or if the coefficients of the loop are known by enclosures alone.
     pub fn of(requirement: &Requirement, p: &SymbolicPolynomial, shape: Shape) -> Option<OnRoots> {
         Some(match requirement.rule() {
             Rule::Sector(least) if shape == Shape::UnitDisc => OnRoots::Spiral(OnSpiral::of(p, least)?),
@@ -73,8 +75,8 @@ impl OnRoots {
         Ok(found)
     }
 
-    /// True if a root of the other polynomial is on the boundary at several values: then it may be there at all of them, and its boundary
-    /// conditions tell nothing.
+    /// True if roots of the other polynomial are on the boundary at several values. Then they may be there at all values, and the boundary
+    /// functions may vanish identically. One value without a root on the boundary proves that they do not.
     fn has_roots_on_boundary_throughout(&self, interval: &StableInterval, budget: &Budget) -> Result<bool, Exhausted> {
         let OnRoots::Region { polynomial, shape } = self else { return Ok(false) };
         let mut below = interval.bare();
@@ -111,7 +113,14 @@ impl OnRoots {
                 Err(stopped) => return Err(stopped),
             }
         }
-        Ok((values, open))
+        // At other zeros of the boundary roots touch it; a rational one is decided by itself.
+        let mut touched = Vec::new();
+        for zero in set.cells().iter().flat_map(|cells| &cells.zeros).filter(|zero| zero.exact().is_some()) {
+            if interval.bare().has_inside(zero, budget)? {
+                touched.push(zero.clone());
+            }
+        }
+        Ok((merged(values, touched, budget)?, open))
     }
 
     fn cells(

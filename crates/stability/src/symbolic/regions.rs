@@ -25,6 +25,8 @@ impl SymbolicPolynomial {
     /// let set = symbolic_stable_set(&p, &Range::all(), Shape::UnitDisc, &Budget::unlimited()).unwrap();
     /// assert_eq!(set.intervals()[0].upper.as_ref().unwrap().value.decimal(8), "0.36787944");
     /// ```
+    ///
+    /// Cost: `O(n)` products of coefficients.
     #[must_use]
     pub fn scaled_by_exponential(&self, exponent: &Rational) -> SymbolicPolynomial {
         let definition = Definition::exponential(exponent.clone());
@@ -46,14 +48,17 @@ impl SymbolicPolynomial {
         SymbolicPolynomial { symbols, polynomial: Poly::new(scaled), ..self.clone() }
     }
 
-    /// The polynomial that has its roots in the left half plane just when those of this one are in the sector of at least this damping.
+    /// The polynomial, of twice the degree, whose roots are in the left half plane just when the roots of this one are in the sector of at
+    /// least this damping; see [`in_sector`].
+    ///
+    /// Cost: `O(n^2)` products of coefficients.
     #[must_use]
     pub fn in_sector(&self, damping: &Rational) -> SymbolicPolynomial {
         let polynomial = in_sector(&self.polynomial, damping);
         SymbolicPolynomial { polynomial, formal_degree: 2 * self.formal_degree, ..self.clone() }
     }
 
-    /// The stable set; as [`stable_set`] where there are no symbols, else as [`symbolic_stable_set`].
+    /// The stable set: [`stable_set`] decides a loop without symbols, [`symbolic_stable_set`] any other.
     ///
     /// Cost: that of these.
     ///
@@ -76,7 +81,10 @@ impl SymbolicPolynomial {
         Some(ParametricPolynomial::new(&coefficients, self.formal_degree, poles))
     }
 
-    /// The symbols as functions of the parameter, which numbers are, too. `None` for numbers of which only enclosures are known.
+    /// The table of symbols as functions of the parameter; a constant becomes a constant function. Returns `None` if a constant is known by
+    /// enclosures alone.
+    ///
+    /// Cost: a copy of the table.
     pub fn moving_symbols(&self) -> Option<Arc<MovingSymbols>> {
         let symbols = match &self.symbols {
             Table::Fixed(symbols) => symbols,

@@ -41,7 +41,7 @@ fn meaning(written: &Written<'_>) -> Result<Meaning, Error> {
                 Ok(Some(step)) => step,
                 Ok(None) => return Err(not_understood(KIND.name, "a settling time needs the loop's sample time")),
                 Err(Error::Undefined(_)) => {
-                    let why = "a settling time needs a sample time that is a number, and here it depends on what is asked about";
+                    let why = "a settling time needs a number as the sample time; this sample time depends on the free parameter";
                     return Err(not_understood(KIND.name, why));
                 }
                 Err(error) => return Err(error),
