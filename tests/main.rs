@@ -49,6 +49,9 @@ mod loops {
     mod margins;
     mod paper;
     mod peaks;
+    mod pwm;
+    mod pwm_oracle;
+    mod rates;
     mod requirements;
     mod root_requirements;
     mod sensitivity;

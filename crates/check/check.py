@@ -753,19 +753,21 @@ class Loop:
         u = [Value({name: p for name, p in e.tops.items() if name not in self.inputs}, e.bottom) for e in u]
         y = [signals[name] for name in several(block["output"])]
         up, down, inner = Z, ONE, self.z
-        hold = None
+        hold, pulses = None, []
         if "discretize" in block:  # s = up / down
             need(self.z == "z", "a continuous loop has nothing to discretise")
             need("transfer" not in block or "s" not in self.taken, "s has two meanings")
             rule, inner = block["discretize"], "s"
-            rule = {"method": rule} if isinstance(rule, str) else dict(table(rule, "method T c prewarp delay"))
+            rule = {"method": rule} if isinstance(rule, str) else dict(table(rule, "method T c prewarp delay edge duty"))
             method = text_of(rule.get("method"))
+            pulses = self.pulses(method, rule, u)
             if "T" not in rule and "c" not in rule and self.sample_time is not None:
                 rule["T"] = self.sample_time
             t, c, w, delay = (scope.value(rule[k]) if k in rule else None for k in ("T", "c", "prewarp", "delay"))
-            need(method in ("zoh", "foh") or not delay, "only a hold has a delay")
+            is_hold = method in ("zoh", "foh", "pwm")
+            need(is_hold or not delay, "only a hold has a delay")
             need(not w or method == "tustin" and t and not c, "'prewarp' goes with tustin and a sample time, without 'c'")
-            if method in ("zoh", "foh"):
+            if is_hold:
                 need(t and not c, "'discretize' does not fit")
                 if isinstance(block.get("transfer"), str) and not isinstance(block["transfer"], Number) and "exp" not in scope.known:
                     rest, exponents = without_exponentials(tokens_of(block["transfer"]))
@@ -781,6 +783,8 @@ class Loop:
                 elif self.values is not None:
                     hold = method == "foh", self.number(t), self.number(delay) if delay else Fraction(0)
                     need(hold[1] > 0 and hold[2] >= 0, "the times of a hold are not positive")
+                    pulses = [p and [self.number(f) for f in p] for p in pulses]
+                    need(all(0 < p[0] < 1 for p in pulses if p), "a duty ratio is not between 0 and 1")
             elif w and (c := self.prewarped(w, t)) is None:
                 pass  # only what is written is looked at
             elif method == "tustin" and (c or t):
@@ -805,7 +809,7 @@ class Loop:
                 c = c if c is not None else one if a is not None else [[]] * len(y)
                 self.states = self.states + (several(block["output"]) if a is not None and "C" not in block else [])
                 need(n == len(y) or "C" in block or a is None, "without C the outputs are the states")
-                return self.held(hold, a or [], b or [], c, d, x, u, y)
+                return self.held(hold, pulses, a or [], b or [], c, d, x, u, y)
             if n:
                 self.state_space(a, b, x, u, up, down)
             if n and "discretize" in block:
@@ -847,7 +851,7 @@ class Loop:
             a[-1:] = [[-c for c in below]] if order else []
             b = [[of_number(Fraction(int(i == order - 1)))] for i in range(order)]
             c = [[whole[k] + -(whole[order] * below[k]) for k in range(order)]]
-            return self.held(hold, a, b, c, [[whole[order]]], [self.unknown() for _ in range(order)], u, y)
+            return self.held(hold, pulses, a, b, c, [[whole[order]]], [self.unknown() for _ in range(order)], u, y)
         if "discretize" in block:
             num, den = (sum((c * up ** k * down ** (order - k) for k, c in enumerate(p.coefficients(0))), ZERO)
                         for p in (num, den))
@@ -894,10 +898,45 @@ class Loop:
         self.scope.divisors.append(x.scalar())
         return Value({"": x.bottom}, x.scalar())
 
-    def held(self, hold, a, b, c, d, x, u, y):
+    def pulses(self, method, rule, u):
+        """For each input its duty ratio and where the edges of its pulse stand; None where it is held.  With one word for all, an input
+        that no signal of the loop is in is held."""
+        if method != "pwm":
+            need("edge" not in rule and "duty" not in rule, "only 'pwm' has an edge and a duty ratio")
+            return []
+        need(not {"T", "c", "prewarp"} & set(rule), "a modulator has no sample time of its own")
+        need("edge" in rule and "duty" in rule, "a modulator has one edge and one duty ratio, or one for each input")
+        edges, duties = several(rule["edge"]), [self.scope.value(e) for e in several(rule["duty"])]
+        need({len(edges), len(duties)} <= {1, len(u)}, "a modulator has one edge and one duty ratio, or one for each input")
+        need(all(text_of(edge) in EDGES for edge in edges), "a modulator has an edge that is not known")
+        need(all(d.number() is None or 0 < d.number() < 1 for d in duties), "a duty ratio is not between 0 and 1")
+        out = []
+        for j, e in enumerate(u):
+            is_external = len(edges) == 1 and len(u) > 1 and not any(p for name, p in e.tops.items() if name)
+            duty, places = duties[j % len(duties)], EDGES[edges[j % len(edges)]]
+            places = [of_number(Fraction(begin, 2)) + of_number(Fraction(slope, 2)) * duty for begin, slope in places]
+            out.append(None if is_external or not places else [duty, *places])
+        need(any(out), "no input of a modulator is a pulse")
+        return out
+
+    def held(self, hold, pulses, a, b, c, d, x, u, y):
         """over x[k+1] = state x[k] + sum of matrix B u[k - age], and the states of past inputs."""
         a = a if self.moving else [[self.number(e) for e in row] for row in a]
-        state, enters, over, past = self.symbols.held(a, *hold, self)
+        held = [j for j in range(len(u)) if not pulses or pulses[j] is None]
+        if held:
+            state, enters, over, past = self.symbols.held(a, *hold, self)
+        else:
+            (state, over), enters, past = self.symbols.flow(a, hold[1], None, None, self), [], 0
+        columns = []
+        for j, (duty, *edges) in ((j, pulse) for j, pulse in enumerate(pulses) if pulse):
+            for edge in edges:
+                age, rest = self.symbols.placed(edge, hold)
+                if rest == 1:  # a sample stands on the edge: no output may change there
+                    step = [dot(row, [r[j] for r in b]) if b else NOTHING for row in c] + ([row[j] for row in d] if d else [])
+                    need(not any(e.scalar() for e in step), "a sample stands on an edge of a pulse")
+                columns.append((age, j, self.symbols.flow(a, hold[1], rest, duty, self), len(edges)))
+                past = max(past, age)
+        weight = hold[1] if self.moving else of_number(hold[1])
         p = [[self.unknown() for _ in u] for _ in range(past)]
 
         def aged(age):
@@ -906,7 +945,11 @@ class Loop:
         for i in range(len(x)):
             next_x = dot([scalar(e) for e in state[i]], x)
             for age, matrix, _ in enters:
-                next_x = next_x + dot([scalar(e) for e in matrix[i]], [dot(row, aged(age)) for row in b])
+                held_inputs = [dot([row[j] for j in held], [aged(age)[j] for j in held]) for row in b]
+                next_x = next_x + dot([scalar(e) for e in matrix[i]], held_inputs)
+            for age, j, (matrix, own), edges in columns:  # of a pulse T/edges times the flow behind the edge
+                share = dot([Value({"": e * over}, own) for e in matrix[i]], [row[j] for row in b])
+                next_x = next_x + share * weight * of_number(Fraction(1, edges)) * aged(age)[j]
             self.equations.append(x[i] * scalar(Z * over) + -next_x)
         for k in range(past):
             self.equations += [q * scalar(Z) + -e for q, e in zip(p[k], aged(k))]
@@ -915,8 +958,11 @@ class Loop:
             seen = dot(c[i], x)
             for age, _, share in enters:
                 if d and share:
-                    seen = seen + dot(d[i], aged(age)) * of_number(share)
+                    seen = seen + dot([d[i][j] for j in held], [aged(age)[j] for j in held]) * of_number(share)
             self.equations.append(y[i] + -seen)
+
+# Of pulses in a period of 1, twice the places of their edges: what each has without the duty ratio, and its factor.
+EDGES = {"hold": [], "trailing": [(0, 2)], "leading": [(2, -2)], "double": [(1, -1), (1, 1)], "double-ends": [(0, 1), (2, -1)]}
 
 def of_number(x):
     return Value({"": number(x.numerator)}, number(x.denominator))
@@ -1013,25 +1059,29 @@ class Table:
         return [(i, *s[1:]) for i, s in enumerate(self.symbols) if s[0] == kind]
 
     def exponential(self, x, first):
-        for i, of in self.find("exp"):
-            if x and of and (x / of).denominator == 1 and abs(x / of) <= 200:
-                power = scalar(P({abs(int(x / of)) << FIELD * (first + i): 1}))
-                return power if x / of > 0 else Value({"": ONE}, power.scalar())
-        need(not x, f"exp({x}) is not among the symbols")
-        return scalar(ONE)
+        if not x:
+            return scalar(ONE)
+        found = [(abs(x / of), i, x / of) for i, of in self.find("exp") if of and (x / of).denominator == 1 and abs(x / of) <= 200]
+        need(found, f"exp({x}) is not among the symbols")
+        _, i, k = min(found)  # that of which it is the least multiple
+        power = scalar(P({abs(int(k)) << FIELD * (first + i): 1}))
+        return power if k > 0 else Value({"": ONE}, power.scalar())
 
     def tangent(self, w, t, first, divisors):
         """tan(sqrt(w) t)/sqrt(w), by sums of a symbol's angle."""
+        found = []
         for i, of, at in self.find("tan"):
             r = square_root(w / of)
             if r and (k := r * t / at).denominator == 1 and 0 < abs(k) <= 200:
-                x = total = scalar(P({1 << FIELD * (first + i): 1}))
-                for _ in range(abs(int(k)) - 1):
-                    below = scalar(ONE) + -(total * x * of_number(of))
-                    divisors.append(below.scalar())
-                    total = (total + x) * Value({"": below.bottom}, below.scalar())
-                return total * of_number((1 if k > 0 else -1) / r)
-        raise Rejected("a tangent is not among the symbols")
+                found.append((abs(k), i, k, r, of))
+        need(found, "a tangent is not among the symbols")
+        _, i, k, r, of = min(found)  # that of which the angle is the least multiple
+        x = total = scalar(P({1 << FIELD * (first + i): 1}))
+        for _ in range(abs(int(k)) - 1):
+            below = scalar(ONE) + -(total * x * of_number(of))
+            divisors.append(below.scalar())
+            total = (total + x) * Value({"": below.bottom}, below.scalar())
+        return total * of_number((1 if k > 0 else -1) / r)
 
     def basis(self, monic, t, index, first, divisors):
         """A fundamental solution of a mode at a time."""
@@ -1088,6 +1138,18 @@ class Table:
         else:
             early, now, late, shares = by(d, product(s0, r1)), by(r_over * number(d), s1), [], (Fraction(1), Fraction(0))
         return state, [(samples, now, shares[1]), (samples + 1, early, shares[0]), *late], over, samples + 1
+
+    @staticmethod
+    def placed(edge, hold):
+        """How many samples an edge stands behind what commands it, and the rest of its period."""
+        place = hold[2] / hold[1] + edge
+        need(place // 1 <= MAX_ORDER, "a dead time has too many samples")
+        return int(place // 1), 1 - place % 1
+
+    def flow(self, a, time, rest, duty, loop):
+        """exp(A r T), over one denominator."""
+        (whole, _, _), over = self.response(a, time, time if rest is None else rest * time, 1, loop)
+        return whole, over
 
     def response(self, a, time, span, zeros, loop):
         """exp(A t), its integral, and that one's integral over the sample time, over one denominator: the first row of exp(M t)
@@ -2290,12 +2352,35 @@ class Moving:
             enters.append((samples + 1, others[-1], share if first_order else Fraction(1)))
         return state, enters, ONE, samples + bool(share)
 
+    @staticmethod
+    def placed(edge, hold):
+        """How many samples an edge stands behind what commands it, and the rest of its period."""
+        ratio, at = hold[2], edge.number()
+        if at is None:  # within the period, as long as the duty ratio is between 0 and 1
+            need(ratio.denominator == 1, "an edge of a pulse may pass a sample")
+            at, rest = ratio, of_number(Fraction(1)) + -edge
+        else:
+            at, rest = ratio + at, 1 - (ratio + at) % 1
+        need(at // 1 <= MAX_ORDER, "a dead time has too many samples")
+        return int(at // 1), rest
+
+    def flow(self, a, time, rest, duty, loop):
+        """exp(A r T) for the rest of a period behind an edge, where the duty ratio is between 0 and 1."""
+        rest = of_number(Fraction(1) if rest is None else rest) if rest is None or isinstance(rest, Fraction) else rest
+        duty = duty or of_number(Fraction(1, 2))
+        n = len(a)
+        source = "flow", [[self.argument(f) for f in row] for row in a], *map(self.argument, (time, rest, duty))
+        first = self.variables(source, n * n)
+        return [[P({1 << FIELD * (first + i * n + j): 1}) for j in range(n)] for i in range(n)], ONE
+
     def given(self, values):
         """With the values of the parameters that have one."""
         def quotient(f):
             return f and cleared([p.at(values) for p in f])
         for (name, *of), _ in self.known:
-            if name == "hold":
+            if name == "flow":
+                of = [[quotient(f) for f in row] for row in of[0]], *map(quotient, of[1:])
+            elif name == "hold":
                 of = [[quotient(f) for f in row] for row in of[0]], quotient(of[1]), *of[2:]
             else:
                 of = map(quotient, of)
@@ -2312,6 +2397,14 @@ class Moving:
             if name == "hold":
                 a, time, share, first_order = of
                 known += self.matrices([[over(f) for f in row] for row in a], over(time), share, first_order, models)
+                continue
+            if name == "flow":
+                time, rest, duty = map(over, of[1:])
+                if min(sign_of(time), sign_of(duty), sign_of(summed(models.units(models.one), duty, -1))) <= 0:
+                    raise TooWide
+                span = models.times(time, rest)
+                whole = models.exponentials([[models.times(over(f), span) for f in row] for row in of[0]])[0]
+                known += [f for row in whole for f in row]
                 continue
             f, *others = (over(f) if f else None for f in of)
             if name == "prewarp":

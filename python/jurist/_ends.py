@@ -31,6 +31,7 @@ class Cause(str, enum.Enum):
     POLE = "pole"
     SQUARE_ROOT = "square root"
     NEUTRAL = "neutral"
+    DUTY = "duty"
     DOMAIN = "domain"
     UNDECIDED = "undecided"
 

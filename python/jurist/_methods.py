@@ -4,5 +4,5 @@ from __future__ import annotations
 
 from typing import Literal
 
-Method = Literal["zoh", "foh", "tustin", "forward", "backward"]
+Method = Literal["zoh", "foh", "pwm", "tustin", "forward", "backward"]
 """By which rule or hold a continuous block is made discrete."""

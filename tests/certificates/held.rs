@@ -28,7 +28,7 @@ fn loop_of(plant: &str) -> String {
 
 /// What plants can be like: real, complex and repeated modes, integrators, several rates, modes of third order, dead time, direct
 /// feedthrough, matrices by their name.
-const PLANTS: [&str; 12] = [
+const PLANTS: [&str; 17] = [
     "transfer = '1/(s + 1)'\ndiscretize = 'zoh'",
     "transfer = '1/(s*(s + 1))'\ndiscretize = { method = 'zoh', T = 1 }",
     "transfer = '1/(s + 1)^2'\ndiscretize = 'zoh'",
@@ -41,6 +41,12 @@ const PLANTS: [&str; 12] = [
     "transfer = '-(exp(-T*s/4)*(s + 3))/(s + 1)*-exp(-T*s/4)'\ndiscretize = 'zoh'",
     "transfer = '1/(s^2*(s + 1))'\ndiscretize = { method = 'zoh', delay = 'T/2' }",
     "A = [[0, 1], [-5, -2]]\nB = [[0], [1]]\nC = [[1, 'K/7']]\ndiscretize = 'zoh'",
+    "transfer = '1/(s + 1)'\ndiscretize = { method = 'pwm', edge = 'trailing', duty = '1/3' }",
+    "transfer = '(2 - s)/(s^2 + s/2 + 3)'\ndiscretize = { method = 'pwm', edge = 'double', duty = '2/5', delay = '0.6*T' }",
+    "transfer = '1/(s*(s + 1))'\ndiscretize = { method = 'pwm', edge = 'leading', duty = '1/4', delay = '3*T/4' }",
+    "transfer = '1/(s + 1)^2'\ndiscretize = { method = 'pwm', edge = 'double-ends', duty = '1/7', delay = '2*T' }",
+    // Its own angle and a tenth of it are both symbols.
+    "transfer = '(2 - s)/(s^2 + s/2 + 3)'\ndiscretize = { method = 'zoh', delay = 'T/10' }",
 ];
 
 #[test]
@@ -139,11 +145,56 @@ fn what_no_checker_knows_gets_no_certificate() {
     }
 }
 
+/// Another edge, duty ratio or dead time is another loop.
+#[test]
+fn certificates_of_pulses_are_about_these_pulses() {
+    let model = loop_of(
+        "transfer = '1/(s + 1)'\ndiscretize = { method = 'pwm', edge = 'double', duty = '2/5', delay = '0.6*T' }",
+    );
+    let certificate = emitted(&model, "K");
+    accept(&model, &certificate);
+    for (part, other) in [
+        ("'double'", "'double-ends'"),
+        ("'double'", "'trailing'"),
+        ("'2/5'", "'3/5'"),
+        ("'0.6*T'", "'0.5*T'"),
+        ("method = 'pwm', edge = 'double', duty = '2/5',", "method = 'zoh',"),
+        (", edge = 'double'", ""),
+        (", duty = '2/5'", ", duty = '7/5'"),
+        ("delay = '0.6*T'", "delay = '0.6*T', T = 'T'"),
+    ] {
+        let changed = model.replace(part, other);
+        assert_ne!(changed, model, "{part}");
+        assert!(check(&changed, &certificate, &LIMITS).is_err(), "{part}");
+        assert!(!matches!(python(&changed, &certificate), Some(Ok(_))), "{part}");
+    }
+}
+
+/// The duty ratio as the question, and the sample time of a plant behind a modulator: by boxes.
+#[test]
+fn certificates_of_boxes_hold_pulses() {
+    let model = loop_of("transfer = '1/(s + 1)^2'\ndiscretize = { method = 'pwm', edge = 'trailing', duty = 'D' }");
+    let model = model
+        .replace("constants.T = '1/5'", "constants.T = '1/5'\nconstants.D = '2/5'")
+        .replace("nominal = 1 ", "nominal = 40 ");
+    for (name, domain) in [("D", ["1/10", "9/10"]), ("T", ["1/20", "2/5"])] {
+        let domain = Range::between(Some(number(domain[0])), Some(number(domain[1])));
+        let answer = read(&model).ask().free(name).domain(name, domain).stable_set(&Budget::unlimited()).expect(name);
+        let certified =
+            jurist::certify_intervals(&answer, &Budget::unlimited()).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let certificate = &certified.text;
+        accept(&model, certificate);
+        let changed = model.replace("'trailing'", "'leading'");
+        assert!(check(&changed, certificate, &LIMITS).is_err(), "{name}");
+        assert!(!matches!(python(&changed, certificate), Some(Ok(_))), "{name}");
+    }
+}
+
 /// Nothing that is changed in a certificate makes another statement pass; and what passes, passes both checkers. Of each
 /// certificate a part of the mutations, of the long ones a small one.
 #[test]
 fn no_mutation_of_a_held_certificate_changes_what_is_proved() {
-    for (plant, every) in [(PLANTS[0], 6), (PLANTS[4], 94), (PLANTS[7], 94)] {
+    for (plant, every) in [(PLANTS[0], 6), (PLANTS[4], 94), (PLANTS[7], 94), (PLANTS[12], 12)] {
         let model = loop_of(plant);
         let original = Json::parse(&emitted(&model, "K")).expect("JSON");
         let (mut tried, mut accepted) = (0, 0);

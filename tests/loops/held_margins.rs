@@ -37,7 +37,7 @@ fn the_servo_behind_a_hold_has_these_margins_to_thirty_digits() {
     let angle = real::enclosed(30, |bits| held.frequency(bits)?.angle).unwrap();
     assert_eq!(angle, "0.0894977118834207719569449133608");
     let text = answer.text(12);
-    assert!(text.contains("less than 0.0222569480872 s of dead time behind the hold of 'motor'"), "{text}");
+    assert!(text.contains("less than 0.0222569480872 s of dead time at the input of 'motor'"), "{text}");
     assert!(text.contains("PM/omega 11.12851 samples = 0.02225702 s"), "{text}");
     let document = serde_json::to_value(answer.json(18)).unwrap();
     assert_eq!(document["delay"]["seconds"], "0.0222569480871918508");

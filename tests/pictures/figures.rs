@@ -222,7 +222,7 @@ fn the_block_model_gives_the_circuit_and_the_matrix_model_the_sampled_loop() {
     let (blocks, _) = Model::from_toml(&jurist_engine::error::Source::new("drive-blocks.toml", text)).unwrap();
     let budget = Budget::unlimited();
     let [blocks, drive] = [blocks, Model::drive()].map(|model| model.ask().problem().unwrap());
-    let circuit = SwitchedModel::from_loop(&blocks, Pulse::Beginning, &budget).unwrap();
+    let circuit = SwitchedModel::from_loop(&blocks, Some(Pulse::Beginning), &budget).unwrap();
     let expected = switched_drive(110.0, 1e-4, Pulse::Beginning);
     let r = DVector::from_vec(vec![80.0, 0.0]);
     let (a, b) = (circuit.periodic_steady_state(&r).unwrap(), expected.periodic_steady_state(&r).unwrap());
@@ -232,7 +232,7 @@ fn the_block_model_gives_the_circuit_and_the_matrix_model_the_sampled_loop() {
     for z in x.iter().filter(|z| z.norm() > 1e-6) {
         assert!(y.iter().any(|w| (z - w).norm() < 1e-7), "{z} {y:?}");
     }
-    assert!(SwitchedModel::from_loop(&drive, Pulse::End, &budget).is_err());
+    assert!(SwitchedModel::from_loop(&drive, Some(Pulse::End), &budget).is_err());
     let sampled = SampledModel::from_loop(&drive, 1.0, &budget).unwrap();
     let fixture = sampled_drive(110.0, 1e-4);
     assert!((&sampled.transition - &fixture.transition).norm() < 1e-15);

@@ -24,7 +24,7 @@ fn four_digits(found: f64, expected: f64) -> bool {
 
 #[test]
 fn the_steady_state_repeats_itself_at_the_reference_speed() {
-    for pulse in [Pulse::Beginning, Pulse::End, Pulse::Centre] {
+    for pulse in [Pulse::Beginning, Pulse::End, Pulse::Centre, Pulse::Ends] {
         let drive = switched_drive(110.0, 1e-4, pulse);
         let operating = drive.periodic_steady_state(&inputs()).unwrap();
         assert!(operating.residual < 1e-11);
@@ -45,7 +45,7 @@ fn a_voltage_below_the_back_emf_has_no_unclamped_steady_state() {
 
 #[test]
 fn the_linearised_map_is_the_derivative() {
-    for pulse in [Pulse::Beginning, Pulse::End, Pulse::Centre] {
+    for pulse in [Pulse::Beginning, Pulse::End, Pulse::Centre, Pulse::Ends] {
         let drive = switched_drive(300.0, 3e-4, pulse);
         let state = drive.periodic_steady_state(&inputs()).unwrap().state;
         let base = state.stacked();

@@ -9,6 +9,7 @@
 
 mod hold_rows;
 mod prewarp;
+mod pulses;
 
 use super::characteristic::Form;
 use super::clock::Clock;
@@ -140,7 +141,7 @@ impl Diagram<'_, '_> {
         }
         let substitution = match block.get("discretize") {
             Some(_) if !self.declared.discrete => return Err("a continuous loop has nothing to discretise".into()),
-            Some(how) => Some(self.rule(how, &exponents)?),
+            Some(how) => Some(self.rule(how, &exponents, &inputs)?),
             None => None,
         };
         let inner = if substitution.is_some() { "s" } else { self.declared.variable() };
@@ -207,12 +208,12 @@ impl Diagram<'_, '_> {
             Some(Rule::Quotient(substitution)) => Some(substitution),
             Some(Rule::Hold(hold)) => {
                 let matrices = self.realised(&num, &den)?;
-                let of = self.enclosed(&matrices[0], &hold)?;
+                let of = self.enclosed(&matrices[0], inputs.len(), &hold)?;
                 return self.held(matrices, of, &inputs, outputs);
             }
             Some(Rule::Moving(hold)) => {
                 let matrices = self.realised(&num, &den)?;
-                let of = self.moving(&matrices[0], hold)?;
+                let of = self.moving(&matrices[0], inputs.len(), &hold)?;
                 return self.held(matrices, of, &inputs, outputs);
             }
         };
@@ -344,8 +345,8 @@ impl Diagram<'_, '_> {
             sized(d, outputs.len(), inputs.len())?;
         }
         let of = match &rule {
-            Some(Rule::Hold(hold)) => Some(self.enclosed(&a, hold)?),
-            Some(Rule::Moving(hold)) => Some(self.moving(&a, hold.clone())?),
+            Some(Rule::Hold(hold)) => Some(self.enclosed(&a, inputs.len(), hold)?),
+            Some(Rule::Moving(hold)) => Some(self.moving(&a, inputs.len(), hold)?),
             _ => None,
         };
         if let Some(of) = of {

@@ -7,6 +7,8 @@
 
 #![expect(clippy::needless_range_loop, reason = "matrix indices, as in the formulas")]
 
+mod pulses;
+
 use super::clock::Clock;
 use super::moving::{HeldMatrix, Moving};
 use super::multivariate::{Fraction, Multi};
@@ -14,6 +16,8 @@ use super::number::{Q, power};
 use super::symbols::Table;
 use super::univariate::common_denominator;
 use num_traits::{One, ToPrimitive, Zero};
+pub(super) use pulses::{Pulse, Pulses};
+use pulses::{held_inputs, moving_with_pulses, with_pulses};
 
 /// A product of rational numbers and a sum are so many operations: their common divisors are looked for.
 const RATIONAL: usize = 20;
@@ -31,6 +35,8 @@ pub(super) struct Hold {
     pub is_first_order: bool,
     pub time: Q,
     pub delay: Q,
+    /// Inputs that are pulses; none of a mere hold.
+    pub pulses: Pulses<Q>,
 }
 
 /// A hold whose sample time, and whose plant, may depend on the parameters of a box; the delay is a multiple of the sample time.
@@ -39,13 +45,17 @@ pub(super) struct MovingHold {
     pub is_first_order: bool,
     pub time: Fraction,
     pub ratio: Q,
+    /// Inputs that are pulses; none of a mere hold.
+    pub pulses: Pulses<Fraction>,
 }
 
-/// How an input of some age, in samples, enters: the matrix before `B`, and the share of it that passes on at once.
+/// How inputs of some age, in samples, enter: the matrix before `B`, and the share of it that passes on at once.
 pub(super) struct Enters {
     pub age: i64,
     pub matrix: Entries,
     pub direct: Q,
+    /// The inputs that enter so.
+    pub inputs: Vec<usize>,
 }
 
 /// `over x[k+1] = state x[k] + sum matrix B u[k - age]`.
@@ -58,6 +68,8 @@ pub(super) struct Held {
     pub past: usize,
     /// What was divided by.
     pub divisors: Vec<Multi>,
+    /// Inputs with a sample on an edge of their pulse: no output may change there.
+    pub on_edge: Vec<usize>,
 }
 
 /// `exp(A t)`, its integral, and the integral's integral over `T`, all over one denominator.
@@ -80,7 +92,27 @@ fn samples_of(ratio: &Q) -> Result<(usize, Q), String> {
 }
 
 /// The same with matrices as variables.
-pub(super) fn moving(a: &[Vec<Fraction>], hold: &MovingHold, moving: &mut Moving) -> Result<Held, String> {
+pub(super) fn moving(
+    a: &[Vec<Fraction>],
+    inputs: usize,
+    hold: &MovingHold,
+    moving: &mut Moving,
+    clock: &Clock,
+) -> Result<Held, String> {
+    if hold.pulses.is_empty() {
+        return moving_hold(a, (0..inputs).collect(), hold, moving);
+    }
+    let held = held_inputs(&hold.pulses);
+    let of = if held.is_empty() { None } else { Some(moving_hold(a, held, hold, moving)?) };
+    moving_with_pulses(of, a, hold, moving, clock)
+}
+
+fn moving_hold(
+    a: &[Vec<Fraction>],
+    inputs: Vec<usize>,
+    hold: &MovingHold,
+    moving: &mut Moving,
+) -> Result<Held, String> {
     let (samples, fraction) = samples_of(&hold.ratio)?;
     let kinds = match (fraction.is_zero(), hold.is_first_order) {
         (true, false) => vec![HeldMatrix::State, HeldMatrix::Now],
@@ -101,15 +133,39 @@ pub(super) fn moving(a: &[Vec<Fraction>], hold: &MovingHold, moving: &mut Moving
         of([HeldMatrix::Now, HeldMatrix::NowOfRamp]),
         of([HeldMatrix::LateOfRamp; 2]),
     ];
-    Ok(assembled(found[0].clone(), Multi::one(), parts, samples, &fraction, hold.is_first_order, Vec::new()))
+    let shares = Shares { samples, fraction, is_first_order: hold.is_first_order, inputs };
+    Ok(assembled(found[0].clone(), Multi::one(), parts, shares, Vec::new()))
 }
 
-/// Symbols are the variables from `first` on.
-pub(super) fn held(a: &Numbers, hold: &Hold, table: &Table, first: usize, clock: &Clock) -> Result<Held, String> {
+/// Of a block with so many inputs; symbols are the variables from `first` on.
+pub(super) fn held(
+    a: &Numbers,
+    inputs: usize,
+    hold: &Hold,
+    table: &Table,
+    first: usize,
+    clock: &Clock,
+) -> Result<Held, String> {
     let zero = Q::zero();
     if hold.time <= zero || hold.delay < zero {
         return Err("the times of a hold are not positive".into());
     }
+    if hold.pulses.is_empty() {
+        return behind_hold(a, (0..inputs).collect(), hold, table, first, clock);
+    }
+    let held = held_inputs(&hold.pulses);
+    let of = if held.is_empty() { None } else { Some(behind_hold(a, held, hold, table, first, clock)?) };
+    with_pulses(of, a, hold, table, first, clock)
+}
+
+fn behind_hold(
+    a: &Numbers,
+    inputs: Vec<usize>,
+    hold: &Hold,
+    table: &Table,
+    first: usize,
+    clock: &Clock,
+) -> Result<Held, String> {
     let (samples, fraction) = samples_of(&(&hold.delay / &hold.time))?;
     let mut divisors = Vec::new();
     let mut respond = |share: &Q| response(a, hold, &(share * &hold.time), table, first, &mut divisors, clock);
@@ -121,7 +177,8 @@ pub(super) fn held(a: &Numbers, hold: &Hold, table: &Table, first: usize, clock:
             true => [nothing, minus(&whole, &slope), slope],
             false => [nothing.clone(), whole, nothing],
         };
-        return Ok(assembled(state, over, parts, samples, &fraction, hold.is_first_order, divisors));
+        let shares = Shares { samples, fraction, is_first_order: hold.is_first_order, inputs };
+        return Ok(assembled(state, over, parts, shares, divisors));
     }
     let (r, s) = (respond(&fraction)?, respond(&(&one - &fraction))?);
     let [[r0, r1, r2], [s0, s1, s2]] = [&r.parts, &s.parts];
@@ -139,7 +196,16 @@ pub(super) fn held(a: &Numbers, hold: &Hold, table: &Table, first: usize, clock:
         let nothing = scaled(s1, &Multi::default(), clock)?;
         [scaled(&product(s0, r1, clock)?, &d, clock)?, scaled(s1, &by, clock)?, nothing]
     };
-    Ok(assembled(state, over, parts, samples, &fraction, hold.is_first_order, divisors))
+    let shares = Shares { samples, fraction, is_first_order: hold.is_first_order, inputs };
+    Ok(assembled(state, over, parts, shares, divisors))
+}
+
+/// The dead time of inputs: whole samples and the share of one that is left.
+struct Shares {
+    samples: usize,
+    fraction: Q,
+    is_first_order: bool,
+    inputs: Vec<usize>,
 }
 
 /// The parts by the age of the input, `early`, `now` and `late` in this order.
@@ -147,9 +213,7 @@ fn assembled(
     state: Entries,
     over: Multi,
     [early, now, late]: [Entries; 3],
-    samples: usize,
-    fraction: &Q,
-    is_first_order: bool,
+    Shares { samples, fraction, is_first_order, inputs }: Shares,
     divisors: Vec<Multi>,
 ) -> Held {
     // What passes on at once is the input at the sample.
@@ -157,18 +221,35 @@ fn assembled(
     let shares = match (fraction.is_zero(), is_first_order) {
         (true, _) => [zero.clone(), one],
         (false, false) => [one, zero.clone()],
-        (false, true) => [fraction.clone(), Q::one() - fraction],
+        (false, true) => [fraction.clone(), Q::one() - &fraction],
     };
     let [early_share, now_share] = shares;
     let age = samples as i64;
-    let mut enters = vec![Enters { age, matrix: now, direct: now_share }];
+    let mut enters = vec![Enters { age, matrix: now, direct: now_share, inputs: inputs.clone() }];
     if is_first_order {
-        enters.push(Enters { age: age - 1, matrix: late, direct: zero });
+        enters.push(Enters { age: age - 1, matrix: late, direct: zero, inputs: inputs.clone() });
     }
     if !fraction.is_zero() {
-        enters.push(Enters { age: age + 1, matrix: early, direct: early_share });
+        enters.push(Enters { age: age + 1, matrix: early, direct: early_share, inputs });
     }
-    Held { state, enters, over, past: samples + usize::from(!fraction.is_zero()), divisors }
+    let past = samples + usize::from(!fraction.is_zero());
+    Held { state, enters, over, past, divisors, on_edge: Vec::new() }
+}
+
+/// Matrices with a denominator each, over one.
+fn common_over(parts: Vec<(Entries, Multi)>, clock: &Clock) -> Result<(Vec<Entries>, Multi), String> {
+    let mut over = Multi::one();
+    for (_, own) in &parts {
+        let g = over.gcd(own, clock)?;
+        let rest = own.divided(&g, clock)?.ok_or("internal: a gcd does not divide")?;
+        over = over.times(&rest, clock)?;
+    }
+    let whole = |(matrix, own): (Entries, Multi)| {
+        let factor = over.divided(&own, clock)?.ok_or("internal: a common multiple is none")?;
+        scaled(&matrix, &factor, clock)
+    };
+    let parts = parts.into_iter().map(whole).collect::<Result<_, String>>()?;
+    Ok((parts, over))
 }
 
 /// The characteristic polynomial, monic and without the leading coefficient, by Faddeev and LeVerrier; and the powers of the matrix

@@ -10,7 +10,7 @@ const LOOP: [&str; 10] = ["characteristic", "matrix", "A", "B", "C", "K", "state
 const SIMULATION: [&str; 4] = ["inputs", "initial", "duration", "units"];
 const BLOCK: [&str; 14] =
     ["name", "input", "output", "discretize", "pwm", "transfer", "num", "den", "gain", "delay", "A", "B", "C", "D"];
-const DISCRETIZE: [&str; 5] = ["method", "T", "c", "prewarp", "delay"];
+const DISCRETIZE: [&str; 7] = ["method", "T", "c", "prewarp", "delay", "edge", "duty"];
 const PWM: [&str; 3] = ["amplitude", "carrier", "period"];
 
 /// Refuses unknown keys wherever known ones have a meaning, missing ones, and what is no table or no text where one must be.

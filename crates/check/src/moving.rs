@@ -10,7 +10,7 @@ use super::number::Q;
 use super::over_symbols::substituted;
 use super::taylor::{Precision, Taylor};
 pub(super) use exponential::pi;
-use exponential::{Matrix, exponential, held, prewarped, turned};
+use exponential::{Matrix, exponential, flow, held, prewarped, turned};
 use num_traits::{One, Signed};
 
 /// A function that expressions know.
@@ -54,6 +54,13 @@ enum Source<F> {
         time: F,
         share: Q,
         matrices: Vec<HeldMatrix>,
+    },
+    /// `exp(A r T)`, row by row, where the duty ratio of a modulator is between 0 and 1.
+    Flow {
+        a: Vec<Vec<F>>,
+        time: F,
+        rest: F,
+        duty: F,
     },
 }
 
@@ -151,6 +158,14 @@ impl Moving {
         (0..count).map(|k| (0..n).map(|i| (0..n).map(|j| entry(k, i, j)).collect()).collect()).collect()
     }
 
+    /// `exp(A r T)` for the rest `r` of a sample time behind an edge of a pulse with this duty ratio, as variables.
+    pub fn flow(&mut self, a: &[Vec<Fraction>], time: &Fraction, rest: &Fraction, duty: &Fraction) -> Vec<Vec<Multi>> {
+        let n = a.len();
+        let source = Source::Flow { a: a.to_vec(), time: time.clone(), rest: rest.clone(), duty: duty.clone() };
+        let first = self.variables(source, n * n);
+        (0..n).map(|i| (0..n).map(|j| Multi::variable(first + i * n + j)).collect()).collect()
+    }
+
     /// With values for the parameters: these variables are left out, so that others come before.
     pub fn with_values(self, values: &[Q], clock: &Clock) -> Result<Sources, String> {
         let quotient = |f: &Fraction| -> Result<Quotient, String> {
@@ -172,6 +187,12 @@ impl Moving {
                     time: quotient(time)?,
                     share: share.clone(),
                     matrices: matrices.clone(),
+                },
+                Source::Flow { a, time, rest, duty } => Source::Flow {
+                    a: a.iter().map(|row| row.iter().map(quotient).collect()).collect::<Result<_, _>>()?,
+                    time: quotient(time)?,
+                    rest: quotient(rest)?,
+                    duty: quotient(duty)?,
                 },
             });
         }
@@ -226,6 +247,22 @@ impl Sources {
                         return Err("a sample time is not shown to be positive".into());
                     }
                     held(&a, &time, share, matrices, p, clock)?
+                }
+                Source::Flow { a, time, rest, duty } => {
+                    let a: Matrix = a
+                        .iter()
+                        .map(|row| row.iter().map(|f| f.over(&known, p, clock)).collect())
+                        .collect::<Result<_, _>>()?;
+                    let [time, rest, duty] = [time, rest, duty].map(|f| f.over(&known, p, clock));
+                    let (time, duty) = (time?, duty?);
+                    if time.sign() != Some(true) {
+                        return Err("a sample time is not shown to be positive".into());
+                    }
+                    let pause = Taylor::number(&Q::one(), p).minus(&duty);
+                    if duty.sign() != Some(true) || pause.sign() != Some(true) {
+                        return Err("a duty ratio is not shown to be between 0 and 1".into());
+                    }
+                    flow(&a, &time.times(&rest?, p, clock)?, p, clock)?
                 }
             };
             known.extend(new);

@@ -78,43 +78,48 @@ impl Table {
         Fraction::variable(first + i)
     }
 
+    /// The symbol of which something is the least multiple, the first of several, and the multiple.
+    fn nearest(&self, multiple_of: impl Fn(&Symbol) -> Option<i64>) -> Option<(usize, i64)> {
+        let multiples = self.symbols.iter().enumerate().filter_map(|(i, symbol)| Some((i, multiple_of(symbol)?)));
+        multiples.min_by_key(|(_, k)| k.unsigned_abs())
+    }
+
     /// `exp(x)` over the symbols, which are the variables from `first` on.
     pub fn exponential(&self, x: &Q, first: usize, clock: &Clock) -> Result<Fraction, String> {
         if x.is_zero() {
             return Ok(Fraction::number(&Q::one()));
         }
-        for (i, symbol) in self.symbols.iter().enumerate() {
-            if let Symbol::Exponential(of) = symbol
-                && let Some(k) = multiple(x, of)
-            {
-                let power = Table::variable(i, first).power(k.unsigned_abs() as u32, clock)?;
-                return if k < 0 { power.inverse(clock) } else { Ok(power) };
-            }
-        }
-        Err(format!("exp({x}) is not among 'symbols'"))
+        let of = |symbol: &Symbol| match symbol {
+            Symbol::Exponential(of) => multiple(x, of),
+            _ => None,
+        };
+        let Some((i, k)) = self.nearest(of) else { return Err(format!("exp({x}) is not among 'symbols'")) };
+        let power = Table::variable(i, first).power(k.unsigned_abs() as u32, clock)?;
+        if k < 0 { power.inverse(clock) } else { Ok(power) }
     }
 
     /// `tan(sqrt(w) t)/sqrt(w)`, and everything that is divided by for it.
     pub fn tangent(&self, w: &Q, t: &Q, first: usize, clock: &Clock) -> Result<(Fraction, Vec<Multi>), String> {
-        for (i, symbol) in self.symbols.iter().enumerate() {
-            if let Symbol::Tangent { w: of, t: at } = symbol
-                && let Some(root) = rational_root(&(w / of))
-                && let Some(k) = multiple(&(&root * t), at)
-            {
-                // Sums of angles: tan(a + b) = (tan a + tan b)/(1 - tan a tan b).
-                let x = Table::variable(i, first);
-                let (mut sum, mut divisors) = (x.clone(), Vec::new());
-                for _ in 1..k.unsigned_abs() {
-                    let product = sum.times(&x, clock)?.times(&Fraction::number(of), clock)?;
-                    let below = Fraction::number(&Q::one()).plus(&product.negated(), clock)?;
-                    divisors.push(below.numerator.clone());
-                    sum = sum.plus(&x, clock)?.times(&below.inverse(clock)?, clock)?;
-                }
-                let factor = if k < 0 { -root.recip() } else { root.recip() };
-                return Ok((sum.times(&Fraction::number(&factor), clock)?, divisors));
-            }
+        let nearest = self.nearest(|symbol| match symbol {
+            Symbol::Tangent { w: of, t: at } => multiple(&(rational_root(&(w / of))? * t), at),
+            _ => None,
+        });
+        let Some((i, k)) = nearest else {
+            return Err(format!("the tangent of {t} times the root of {w} is not among 'symbols'"));
+        };
+        let Symbol::Tangent { w: of, .. } = &self.symbols[i] else { return Err("internal: no tangent".into()) };
+        let root = rational_root(&(w / of)).ok_or("internal: no rational root")?;
+        // Sums of angles: tan(a + b) = (tan a + tan b)/(1 - tan a tan b).
+        let x = Table::variable(i, first);
+        let (mut sum, mut divisors) = (x.clone(), Vec::new());
+        for _ in 1..k.unsigned_abs() {
+            let product = sum.times(&x, clock)?.times(&Fraction::number(of), clock)?;
+            let below = Fraction::number(&Q::one()).plus(&product.negated(), clock)?;
+            divisors.push(below.numerator.clone());
+            sum = sum.plus(&x, clock)?.times(&below.inverse(clock)?, clock)?;
         }
-        Err(format!("the tangent of {t} times the root of {w} is not among 'symbols'"))
+        let factor = if k < 0 { -root.recip() } else { root.recip() };
+        Ok((sum.times(&Fraction::number(&factor), clock)?, divisors))
     }
 
     /// A solution of an equation of higher order.

@@ -27,6 +27,8 @@ pub enum Cause {
     Pole,
     /// The loop has no value beyond: the number under a square root is negative there. At the end itself it is zero.
     SquareRoot,
+    /// The loop has no value beyond: the pulses of a modulator fill their period there, or have no length.
+    Duty,
     /// The parameter's domain ends there.
     Domain,
     /// Nothing is known beyond: the end of what was decided, not a limit.
@@ -45,6 +47,7 @@ impl Cause {
             Cause::Neutral => "neutral",
             Cause::Pole => "pole",
             Cause::SquareRoot => "square root",
+            Cause::Duty => "duty",
             Cause::Domain => "domain",
             Cause::Undecided => "undecided",
         }

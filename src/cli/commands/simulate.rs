@@ -22,15 +22,16 @@ use jurist_engine::show::documents::to_text;
 const DRIVE_BLOCKS: &str = include_str!("../../../examples/drive-blocks.toml");
 
 /// Where in its period a pulse lies.
-#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+#[derive(Clone, Copy, Debug, ValueEnum)]
 pub(in crate::cli) enum PulsePlace {
     /// On from the period's beginning
-    #[default]
     Beginning,
     /// On until the period's end
     End,
     /// Around the middle of the period
     Centre,
+    /// Halves at the beginning and at the end of the period
+    Ends,
 }
 
 /// Options of `jurist simulate`.
@@ -51,9 +52,9 @@ pub(in crate::cli) struct Options {
     /// Simulates the switching circuit, for every block with a 'pwm' entry
     #[arg(long)]
     pub switched: bool,
-    /// Where the pulse lies in its period
-    #[arg(long, value_enum, default_value_t, requires = "switched")]
-    pub pulse: PulsePlace,
+    /// Where the pulse lies in its period [default: where the model's modulator says, else at the beginning]
+    #[arg(long, value_enum, requires = "switched")]
+    pub pulse: Option<PulsePlace>,
     /// Starts in the periodic steady state instead of the initial state
     #[arg(long, requires = "switched", conflicts_with = "initial")]
     pub steady: bool,
@@ -171,11 +172,12 @@ fn switched(
     course: &Course,
     context: &Context,
 ) -> Result<SimulationAnswer, Error> {
-    let pulse = match options.pulse {
+    let pulse = options.pulse.map(|pulse| match pulse {
         PulsePlace::Beginning => Pulse::Beginning,
         PulsePlace::End => Pulse::End,
         PulsePlace::Centre => Pulse::Centre,
-    };
+        PulsePlace::Ends => Pulse::Ends,
+    });
     let system = SwitchedModel::from_loop(problem, pulse, &context.budget)?;
     let at = |name: &str| system.state_named(name);
     let steps = course.steps(system.period());

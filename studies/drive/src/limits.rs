@@ -71,7 +71,7 @@ pub(super) fn limits(model: &Model, blocks: &Model, printed: [&Model; 2], budget
     let inputs = DVector::from_vec(vec![SPEED_REFERENCE, 0.0]);
     let circuit = |k: f64, t: f64, pulse| {
         let problem = at(blocks, &Rational::from_f64(k)?, &Rational::from_f64(t)?).ok()?;
-        SwitchedModel::from_loop(&problem, pulse, budget).ok()
+        SwitchedModel::from_loop(&problem, Some(pulse), budget).ok()
     };
     for (pulse, word) in [(Pulse::Beginning, "beginning"), (Pulse::End, "end")] {
         let eigenvalue =

@@ -66,7 +66,7 @@ fn one_case(
 ) -> Result<String, Error> {
     let linear = SampledModel::from_loop(sampled, 1.0, budget)?;
     let model = sampled.model();
-    let circuit = SwitchedModel::from_loop(blocks, Pulse::Beginning, budget)?;
+    let circuit = SwitchedModel::from_loop(blocks, Some(Pulse::Beginning), budget)?;
     let period = linear.sample_time;
     let growth = eigenvalues(&linear.transition).and_then(|v| v.first().map(|z| z.norm())).unwrap_or(f64::NAN);
     let trace = linear.simulate(&reference(), (2.0f64.max(case.duration) / period).round() as usize);
@@ -140,7 +140,7 @@ fn largest_control(model: &Model, trace: &Trace) -> f64 {
 
 /// The ripple of the current over four periods of the nominal steady state.
 pub(super) fn ripple(blocks: &Model, budget: &Budget) -> Result<Option<NamedFigure>, Error> {
-    let circuit = SwitchedModel::from_loop(&*blocks.ask().problem()?, Pulse::Beginning, budget)?;
+    let circuit = SwitchedModel::from_loop(&*blocks.ask().problem()?, Some(Pulse::Beginning), budget)?;
     let inputs = DVector::from_vec(vec![SPEED_REFERENCE, 0.0]);
     Ok(circuit.periodic_steady_state(&inputs).map(|operating| {
         let run = circuit.simulate(&operating.state, &reference(), 4, Record::Waveform(3));

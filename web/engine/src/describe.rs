@@ -81,7 +81,7 @@ fn block(block: &Block) -> Value {
         Dynamics::Static(m) => format!("matrix {} x {}", m.size().0, m.size().1),
     };
     if let Some(rule) = &block.discretization {
-        does.push_str(&format!(", {}", rule.method.words));
+        does.push_str(&format!(", {}", rule.words()));
         if let Some(delay) = &rule.delay {
             does.push_str(&format!(", dead time {delay}"));
         }

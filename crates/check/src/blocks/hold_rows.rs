@@ -2,7 +2,7 @@
 
 use super::{Diagram, Matrices, Row, Rule, Values};
 use crate::clock::Clock;
-use crate::hold::{self, Held, Hold, MovingHold};
+use crate::hold::{self, Held, Hold, MovingHold, Pulse};
 use crate::multivariate::{Fraction, Multi};
 use crate::number::Q;
 use crate::over_symbols::substituted;
@@ -13,11 +13,12 @@ use std::ops::Range;
 impl Diagram<'_, '_> {
     /// The rule of a block. Its sample time is that of the loop unless it has its own. To the dead time of a hold come exponents of the
     /// transfer function.
-    pub(super) fn rule(&mut self, how: &Toml, exponents: &[String]) -> Result<Rule, String> {
+    pub(super) fn rule(&mut self, how: &Toml, exponents: &[String], inputs: &[Row]) -> Result<Rule, String> {
         let clock = self.scope.clock;
         let mut get = |key: &str| how.get(key).map(|t| self.scope.scalar(t)).transpose();
         let (mut time, factor, prewarp, mut delay) = (get("T")?, get("c")?, get("prewarp")?, get("delay")?);
         let method = method(how)?;
+        let pulses = self.pulses(how, method, inputs)?;
         for exponent in exponents {
             let own = self.scope.time_of_exponent(exponent)?;
             delay = Some(delay.map_or(Ok(own.clone()), |delay| delay.plus(&own, clock))?);
@@ -41,11 +42,21 @@ impl Diagram<'_, '_> {
         let Some(values) = self.values else { return Ok(Rule::Unknown) };
         if self.scope.moving.is_some() {
             let ratio = delay.map_or(Ok(Q::zero()), |delay| ratio(&delay, &time, &values, clock))?;
-            return Ok(Rule::Moving(MovingHold { is_first_order: method == "foh", time, ratio }));
+            return Ok(Rule::Moving(MovingHold { is_first_order: method == "foh", time, ratio, pulses }));
         }
         let time = numbered(&time, &values, clock)?;
         let delay = delay.map_or(Ok(Q::zero()), |delay| numbered(&delay, &values, clock))?;
-        Ok(Rule::Hold(Hold { is_first_order: method == "foh", time, delay }))
+        let number = |f: &Fraction| numbered(f, &values, clock);
+        let pulse = |pulse: &Option<Pulse<Fraction>>| {
+            let Some(Pulse { duty, edges }) = pulse else { return Ok(None) };
+            let duty = number(duty)?;
+            if duty <= Q::zero() || duty >= Q::one() {
+                return Err("the duty ratio of a modulator is not between 0 and 1".to_owned());
+            }
+            Ok(Some(Pulse { duty, edges: edges.iter().map(number).collect::<Result<_, _>>()? }))
+        };
+        let pulses = pulses.iter().map(pulse).collect::<Result<_, _>>()?;
+        Ok(Rule::Hold(Hold { is_first_order: method == "foh", time, delay, pulses }))
     }
 
     /// States of `num/den`: the companion matrix of the denominator.
@@ -85,19 +96,20 @@ impl Diagram<'_, '_> {
     }
 
     /// What a block does behind a hold with its numbers.
-    pub(super) fn enclosed(&mut self, a: &[Vec<Fraction>], hold: &Hold) -> Result<Held, String> {
+    pub(super) fn enclosed(&mut self, a: &[Vec<Fraction>], inputs: usize, hold: &Hold) -> Result<Held, String> {
         let clock = self.scope.clock;
         let Some(values) = self.values else { return Err("internal: a hold without values".into()) };
         let number = |f: &Fraction| numbered(f, &values, clock);
         let numbers = a.iter().map(|row| row.iter().map(number).collect()).collect::<Result<Vec<Vec<Q>>, _>>()?;
-        let of = hold::held(&numbers, hold, values.table, values.numbers.len(), clock)?;
+        let of = hold::held(&numbers, inputs, hold, values.table, values.numbers.len(), clock)?;
         self.scope.divisors.extend(of.divisors.iter().filter(|m| !m.is_constant()).cloned());
         Ok(of)
     }
 
     /// The same where it depends on the parameters of a box.
-    pub(super) fn moving(&mut self, a: &[Vec<Fraction>], hold: MovingHold) -> Result<Held, String> {
-        hold::moving(a, &hold, self.scope.moving.as_mut().ok_or("internal: a hold with numbers")?)
+    pub(super) fn moving(&mut self, a: &[Vec<Fraction>], inputs: usize, hold: &MovingHold) -> Result<Held, String> {
+        let clock = self.scope.clock;
+        hold::moving(a, inputs, hold, self.scope.moving.as_mut().ok_or("internal: a hold with numbers")?, clock)
     }
 
     /// The rows of a block behind a hold: its states, then the past inputs it remembers.
@@ -120,6 +132,17 @@ impl Diagram<'_, '_> {
             -1 | 0 => diagram.feed(row, &factor.times(&z(age), clock)?, &inputs[j]),
             k => diagram.add(row, past + (k as usize - 1) * m + j, factor.clone()),
         };
+        for &j in &of.on_edge {
+            for i in 0..outputs.len() {
+                let mut step = Fraction::number(&Q::zero());
+                for k in 0..n {
+                    step = step.plus(&c[i][k].times(&b[k][j], clock)?, clock)?;
+                }
+                if !step.numerator.is_zero() || !d[i][j].numerator.is_zero() {
+                    return Err("a sample stands on an edge of a pulse".into());
+                }
+            }
+        }
         for i in 0..n {
             // z x - state x - sum matrix B u = 0
             let mut row = Row::new();
@@ -128,7 +151,7 @@ impl Diagram<'_, '_> {
                 self.add(&mut row, states + j, over(&of.state[i][j]).negated())?;
             }
             for enters in &of.enters {
-                for j in 0..m {
+                for &j in &enters.inputs {
                     for k in (0..n).filter(|&k| !enters.matrix[i][k].is_zero() && !b[k][j].numerator.is_zero()) {
                         let factor = over(&enters.matrix[i][k]).times(&b[k][j], clock)?.negated();
                         feed_aged(self, &mut row, &factor, enters.age, j)?;
@@ -153,7 +176,7 @@ impl Diagram<'_, '_> {
                 self.add(&mut row, states + j, c[i][j].clone().negated())?;
             }
             for enters in of.enters.iter().filter(|enters| !enters.direct.is_zero()) {
-                for j in (0..m).filter(|&j| !d[i][j].numerator.is_zero()) {
+                for &j in enters.inputs.iter().filter(|&&j| !d[i][j].numerator.is_zero()) {
                     let factor = d[i][j].times(&Fraction::number(&-enters.direct.clone()), clock)?;
                     feed_aged(self, &mut row, &factor, enters.age, j)?;
                 }
@@ -172,7 +195,7 @@ fn method(how: &Toml) -> Result<&str, String> {
 }
 
 pub(super) fn is_hold(how: &Toml) -> Result<bool, String> {
-    Ok(matches!(method(how)?, "zoh" | "foh"))
+    Ok(matches!(method(how)?, "zoh" | "foh" | "pwm"))
 }
 
 /// The delay over the sample time, a number that is not negative.

@@ -139,6 +139,12 @@ pub(super) fn held(
     Ok(out)
 }
 
+/// The entries of `exp(A t)`.
+pub(super) fn flow(a: &Matrix, span: &Taylor, p: &Precision, clock: &Clock) -> Result<Vec<Taylor>, String> {
+    let [whole, ..] = exponential(&by(a, span, p, clock)?, p, clock)?;
+    Ok(whole.into_iter().flatten().collect())
+}
+
 /// The factor `c = w/tan(w T/2)` of Tustin's rule that is exact at `w`, as `w cos(w T/2)/sin(w T/2)`; an error unless `w > 0`, `T > 0` and
 /// `w T < pi` are seen at all points of the box.
 pub(super) fn prewarped(w: &Taylor, time: &Taylor, p: &Precision, clock: &Clock) -> Result<Taylor, String> {

@@ -48,16 +48,16 @@ fn value(value: &Rational, unit: &str) -> String {
 /// `motor, filter: Tustin's rule`, for each rule that is used.
 fn rules(model: &Model) -> Vec<String> {
     let Form::Blocks(diagram) = model.form() else { return Vec::new() };
-    let mut used: Vec<(&str, Vec<&str>)> = Vec::new();
+    let mut used: Vec<(String, Vec<&str>)> = Vec::new();
     for block in &diagram.blocks {
         let Some(discretization) = &block.discretization else { continue };
-        let words = discretization.method.words;
+        let words = discretization.words();
         match used.iter_mut().find(|u| u.0 == words) {
             Some(u) => u.1.push(&block.name),
             None => used.push((words, vec![&block.name])),
         }
     }
-    let line = |(words, blocks): &(&str, Vec<&str>)| {
+    let line = |(words, blocks): &(String, Vec<&str>)| {
         let names: Vec<String> = blocks.iter().map(|b| visible(b).into_owned()).collect();
         format!("{} made discrete by: {words}", names.join(", "))
     };

@@ -168,6 +168,7 @@ fn gloss(cause: &str) -> &'static str {
         "complex pair" => " (oscillation)",
         "infinity" => " (the degree is lost)",
         "pole" => " (undefined: a division by zero)",
+        "duty" => " (no pulse, or no pause, is left)",
         "square root" => " (undefined beyond: the number under it is negative)",
         "domain" => " (end of what was asked, no limit of the loop)",
         _ => "",

@@ -148,13 +148,13 @@ fn does(model: &Model, block: &Block) -> String {
         Dynamics::Static(_) => "constant matrix, below".to_owned(),
     };
     if block.pwm.is_some() {
-        text.push_str("; a pulse-width modulator, here its mean value");
+        text.push_str("; a pulse-width modulator, here the mean of its pulses");
     }
     text
 }
 
 fn made_discrete(model: &Model, d: &Discretization) -> String {
-    let mut text = d.method.words.to_owned();
+    let mut text = d.words();
     let mut add = |word: &str, e: &Option<Expression>| {
         if let Some(e) = e {
             text.push_str(&format!(", {word} {}", written(model, e)));

@@ -1,7 +1,7 @@
 //! What is proved, what is only drawn, and what the model leaves out.
 
 use crate::page::{escaped, math};
-use jurist_engine::model::{Form, Model, Time};
+use jurist_engine::model::{Block, Form, Model, Time};
 
 pub(super) fn section(model: &Model) -> String {
     let mut html = String::from(
@@ -28,7 +28,8 @@ fn left_out(model: &Model) -> Vec<String> {
             let Some(method) = block.discretization.as_ref().map(|d| d.method) else { continue };
             out.push(format!("{}: {}", block.name, method.caveat()));
         }
-        if diagram.blocks.iter().any(|b| b.pwm.is_some()) {
+        let modulated = |b: &Block| b.discretization.as_ref().is_some_and(|d| d.method.is_modulated());
+        if diagram.blocks.iter().any(|b| b.pwm.is_some()) && !diagram.blocks.iter().any(modulated) {
             out.push(
                 "Modulators act by their mean value: no ripple, no switching instants (a run of the circuit: simulate, with \
                  the option switched)."

@@ -145,17 +145,20 @@ struct Parts<'m> {
 
 impl SwitchedModel {
     /// The circuit behind a model made of blocks: every block with a `pwm` entry becomes a source
-    /// with pulses at `pulse`, every block with a `discretize` entry the continuous system it was,
+    /// with pulses where the modulator before the plant has them, else at `pulse` or at the beginning of the period; every block with a `discretize` entry the continuous system it was,
     /// all other blocks run once per period.
     ///
     /// # Errors
     /// [`Error`]; `E-simulation` where the model has no such parts, where a continuous block is
-    /// driven by a sampled one without a modulator between, or where periods differ.
-    pub fn from_loop(problem: &Problem, pulse: Pulse, budget: &Budget) -> Result<SwitchedModel, Error> {
+    /// driven by a sampled one without a modulator between, where periods differ, or where `pulse` contradicts the model.
+    pub fn from_loop(problem: &Problem, pulse: Option<Pulse>, budget: &Budget) -> Result<SwitchedModel, Error> {
         let model = problem.model();
         let Form::Blocks(diagram) = model.form() else {
             return Err(simulation_error("a switched simulation needs a model made of blocks").into());
         };
+        if model.hyperperiod() > 1 {
+            return Err(simulation_error("the switched simulation has one rate for all blocks").into());
+        }
         let parts = Parts::of(diagram)?;
         if let Some(late) =
             parts.continuous.iter().find(|b| b.discretization.as_ref().is_some_and(|d| d.delay.is_some()))
@@ -176,7 +179,7 @@ impl SwitchedModel {
                 name: block.outputs[0].name.clone(),
                 amplitude: value(&pwm.amplitude)?.to_f64_approximate(),
                 carrier: value(&pwm.carrier)?.to_f64_approximate(),
-                pulse,
+                pulse: parts.pulse(&block.outputs[0].name, pulse)?,
             });
         }
         let period = period.ok_or_else(|| Error::from(simulation_error("no block has a 'pwm' entry")))?;
@@ -271,6 +274,27 @@ impl<'m> Parts<'m> {
         Ok(parts)
     }
 
+    /// Where the pulses of a source lie: as the modulator before the plant says, else as is asked, else at the beginning of the period.
+    fn pulse(&self, source: &str, asked: Option<Pulse>) -> Result<Pulse, Diagnostics> {
+        let mut said = Vec::new();
+        for block in &self.continuous {
+            let Some(pulses) = block.discretization.as_ref().and_then(|d| d.pulses.as_ref()) else { continue };
+            let reads = |e: &jurist_engine::model::Expression| e.names().contains(source);
+            for (j, _) in block.inputs.iter().enumerate().filter(|(_, e)| reads(e)) {
+                let edges = pulses.edges[if pulses.edges.len() == 1 { 0 } else { j }];
+                said.extend(edges.map(|edges| (edges.name, pulse_of(edges.name))));
+            }
+        }
+        let Some((edge, pulse)) = said.first().copied() else { return Ok(asked.unwrap_or_default()) };
+        let contradicts = |other: Option<Pulse>| other.is_some_and(|other| other != pulse);
+        if contradicts(asked) || said.iter().any(|(_, other)| contradicts(Some(*other))) {
+            let message =
+                format!("the pulses of '{source}' have edge = \"{edge}\" in the model, and another place here");
+            return Err(simulation_error(message));
+        }
+        Ok(pulse)
+    }
+
     /// The continuous blocks as they are, open: external inputs, pulses, sampled signals go in, all
     /// their own signals come out.
     fn plant(&self, diagram: &Diagram) -> Diagram {
@@ -294,6 +318,16 @@ impl<'m> Parts<'m> {
         });
         let blocks = self.sampled.iter().map(|b| (*b).clone()).collect();
         Diagram { inputs: inputs.collect(), outputs: read.collect(), blocks }
+    }
+}
+
+/// The pulse whose edges are called so in a model.
+fn pulse_of(edge: &str) -> Pulse {
+    match edge {
+        "leading" => Pulse::End,
+        "double" => Pulse::Centre,
+        "double-ends" => Pulse::Ends,
+        _ => Pulse::Beginning,
     }
 }
 

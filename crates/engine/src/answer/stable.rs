@@ -49,6 +49,14 @@ impl Problem {
                 answer.value = set.with_value(End::new(end.clone(), Cause::Domain.into(), None));
             }
         }
+        let free = self.parameter();
+        for (bound, _) in [&free.domain.lower, &free.domain.upper].into_iter().zip(free.is_duty).filter(|(_, is)| *is) {
+            let is_there = |end: &&mut End| end.causes.contains(Cause::Domain) && end.value.exact() == *bound;
+            for end in answer.value.ends_mut().filter(is_there) {
+                end.causes.remove(Cause::Domain);
+                end.causes.insert(Cause::Duty);
+            }
+        }
         Ok(answer)
     }
 

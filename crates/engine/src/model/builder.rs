@@ -335,6 +335,20 @@ impl BlockBuilder {
         self.key("discretize", &value)
     }
 
+    /// What a continuous block does behind a pulse-width modulator with this edge and duty ratio.
+    ///
+    /// ```
+    /// use jurist_engine::model::{BlockBuilder, Model, ParameterBuilder, Time};
+    /// let plant = BlockBuilder::new("plant", "-K*y", "y").transfer("1/s").modulated("trailing", "1/3");
+    /// let builder = Model::builder(Time::Discrete).sample_time("1").parameter(ParameterBuilder::new("K").nominal("1"));
+    /// assert_eq!(builder.block(plant).build()?.0.rules(), "plant: PWM, trailing edge, duty 1/3");
+    /// # Ok::<(), jurist_engine::error::Diagnostics>(())
+    /// ```
+    pub fn modulated(self, edge: &str, duty: &str) -> Self {
+        let value = format!("{{ method = \"pwm\", edge = {}, duty = {} }}", quoted(edge), quoted(duty));
+        self.key("discretize", &value)
+    }
+
     /// What a continuous block does behind a zero-order hold, its inputs delayed by dead time in units of time.
     pub fn held(self, sample_time: &str, delay: &str) -> Self {
         let value = format!("{{ method = \"zoh\", T = {}, delay = {} }}", quoted(sample_time), quoted(delay));

@@ -1,6 +1,6 @@
 //! From a loop and a question to polynomials and matrices.
 
-use super::connect::state_space::{NotConnected, assemble};
+use super::connect::state_space::{Connecting, NotConnected, assemble};
 use super::definition::{Model, Time};
 use super::evaluate::scalar::{Scope, Symbol, Variable};
 use super::evaluate::symbolic::{Values, Wiring, symbolic};
@@ -147,7 +147,10 @@ pub(super) struct Answer<'m> {
     pub images: Vec<RationalFunction>,
     pub symbols: RefCell<Symbols>,
     poles: Vec<MultiPoly>,
+    /// The time from one state to the next: of a loop with several rates its hyperperiod.
     pub sample_time: Option<RationalFunction>,
+    /// At which sample a hyperperiod begins, where that matters.
+    pub start: Option<u64>,
 }
 
 impl Answer<'_> {
@@ -312,7 +315,9 @@ impl Model {
         let (Some(values), true) = (values, failures.is_empty()) else { return Err(self.failed(failures)) };
         let (images, symbols) = Model::images(&scope.variables, kept, given)?;
         let symbols = RefCell::new(symbols);
-        let mut answer = Answer { wiring, values, images, symbols, poles: Vec::new(), sample_time };
+        let steps = RationalFunction::from(Rational::from(self.hyperperiod() as i64));
+        let sample_time = sample_time.map(|time| &time * &steps);
+        let mut answer = Answer { wiring, values, images, symbols, poles: Vec::new(), sample_time, start: None };
         let divisors = std::mem::take(&mut scope.divisors);
         for divisor in divisors {
             budget.check()?;
@@ -421,7 +426,8 @@ impl Model {
     ) -> Result<(ClosedLoop, Option<RationalFunction>, Symbols), Error> {
         let substitution = |f: &RationalFunction| answer.substituted(f);
         let symbols = Some(&answer.symbols);
-        let assembled = match assemble(self, &answer.wiring, &answer.values, &substitution, symbols, budget) {
+        let how = Connecting { set: &substitution, symbols, start: answer.start, budget };
+        let assembled = match assemble(self, &answer.wiring, &answer.values, &how) {
             Ok(assembled) => assembled,
             Err(NotConnected::Exhausted(exhausted)) => return Err(exhausted.into()),
             Err(NotConnected::Undefined(diagnostic)) => return Err(Error::Undefined(diagnostic.message)),

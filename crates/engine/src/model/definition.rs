@@ -1,6 +1,6 @@
 //! What a model says, as plain data.
 
-use super::discretization::Method;
+use super::discretization::{Edges, Method};
 use super::text::Expression;
 use super::tolerance::Tolerance;
 use crate::error::{Source, Span};
@@ -223,6 +223,10 @@ pub struct Block {
     pub dynamics: Dynamics,
     /// How a continuous block is made discrete.
     pub discretization: Option<Discretization>,
+    /// At which samples it is active.
+    pub rate: Rate,
+    /// Its own sample time, if it is given so.
+    pub sample_time: Option<Expression>,
     /// What a switched simulation needs to know of a pulse-width modulator.
     pub pwm: Option<Pwm>,
 }
@@ -260,6 +264,52 @@ pub enum Dynamics {
     Static(Matrix),
 }
 
+/// At which of the loop's samples a block is active.
+///
+/// ```
+/// use jurist_engine::model::Rate;
+/// let slow = Rate { every: 10, phase: 3 };
+/// assert!(slow.is_active(13) && !slow.is_active(10));
+/// assert_eq!(slow.with(4), 20);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Rate {
+    /// Once in so many samples.
+    pub every: u64,
+    /// At which of them.
+    pub phase: u64,
+}
+
+impl Default for Rate {
+    fn default() -> Self {
+        Rate { every: 1, phase: 0 }
+    }
+}
+
+impl Rate {
+    /// `every 10`, with the phase where it is not 0.
+    pub fn words(&self) -> String {
+        match self.phase {
+            0 => format!("every {}", self.every),
+            phase => format!("every {}, phase {phase}", self.every),
+        }
+    }
+
+    /// Whether the block computes its outputs at a sample; at others it holds them.
+    pub fn is_active(&self, sample: u64) -> bool {
+        sample % self.every == self.phase
+    }
+
+    /// The least common multiple of its period and another one, in samples.
+    pub fn with(&self, steps: u64) -> u64 {
+        let (mut a, mut b) = (steps, self.every);
+        while b > 0 {
+            (a, b) = (b, a % b);
+        }
+        (steps / a).saturating_mul(self.every)
+    }
+}
+
 /// How a continuous block is made discrete.
 #[derive(Clone, Debug)]
 pub struct Discretization {
@@ -267,13 +317,50 @@ pub struct Discretization {
     pub method: &'static Method,
     /// The sample time; that of the loop where the block names none. Tustin's rule with a factor needs none.
     pub sample_time: Option<Expression>,
+    /// Whether that is the loop's.
+    pub is_sample_time_of_loop: bool,
     /// The factor of the bilinear map, `2/T` when missing.
     pub factor: Option<Expression>,
     /// The angular frequency at which the bilinear map is exact: its factor is `w/tan(w T/2)`.
     pub prewarp: Option<Expression>,
     /// The dead time of the inputs of a held block, in units of time.
     pub delay: Option<Expression>,
+    /// The pulses of a block behind a modulator.
+    pub pulses: Option<Pulses>,
     /// Where it stands.
+    pub span: Span,
+}
+
+impl Discretization {
+    /// The method in words, with what a modulator's pulses are: `PWM, trailing edge, duty 1/2`.
+    ///
+    /// ```
+    /// use jurist_engine::error::Source;
+    /// use jurist_engine::model::{Form, Model};
+    /// let text = "time = 'discrete'\nsample_time = 1\n[parameters]\nK = 1\n[loop]\n[[block]]\ninput = '-K*y'\noutput = 'y'\n\
+    ///     transfer = '1/s'\ndiscretize = { method = 'pwm', edge = 'trailing', duty = 0.5 }\n";
+    /// let (model, _) = Model::from_toml(&Source::new("loop.toml", text)).unwrap();
+    /// let Form::Blocks(diagram) = model.form() else { panic!() };
+    /// assert_eq!(diagram.blocks[0].discretization.as_ref().unwrap().words(), "PWM, trailing edge, duty 0.5");
+    /// ```
+    pub fn words(&self) -> String {
+        let Some(pulses) = &self.pulses else { return self.method.words.to_owned() };
+        let mut edges: Vec<&str> = pulses.edges.iter().map(|edges| edges.map_or("held", |edges| edges.words)).collect();
+        edges.dedup();
+        let mut duties: Vec<String> = pulses.duties.iter().map(ToString::to_string).collect();
+        duties.dedup();
+        format!("PWM, {}, duty {}", edges.join("; "), duties.join("; "))
+    }
+}
+
+/// The pulses of the inputs of a block behind a modulator.
+#[derive(Clone, Debug)]
+pub struct Pulses {
+    /// Which edges move, once for all inputs or for each; `None` for an input that is held.
+    pub edges: Vec<Option<&'static Edges>>,
+    /// Duty ratios, one for all inputs or one for each.
+    pub duties: Vec<Expression>,
+    /// Where the edges stand.
     pub span: Span,
 }
 
@@ -493,23 +580,39 @@ impl Model {
         /// Blocks of one kind that are named.
         const NAMED: usize = 4;
         let Form::Blocks(diagram) = &self.form else { return String::new() };
-        let method = |b: &Block| b.discretization.as_ref().map(|d| d.method);
-        let mut methods: Vec<&Method> = Vec::new();
+        let method = |b: &Block| b.discretization.as_ref().map(Discretization::words);
+        let mut methods: Vec<String> = Vec::new();
         for found in diagram.blocks.iter().filter_map(method) {
             if !methods.contains(&found) {
                 methods.push(found);
             }
         }
-        let group = |m: &&Method| {
+        let group = |m: &String| {
             let blocks: Vec<&str> =
-                diagram.blocks.iter().filter(|b| method(b) == Some(*m)).map(|b| b.name.as_str()).collect();
+                diagram.blocks.iter().filter(|b| method(b).as_ref() == Some(m)).map(|b| b.name.as_str()).collect();
             let mut text = blocks[..blocks.len().min(NAMED)].join(", ");
             if blocks.len() > NAMED {
                 text.push_str(&format!(" and {} more", blocks.len() - NAMED));
             }
-            format!("{text}: {}", m.words)
+            format!("{text}: {m}")
         };
-        methods.iter().map(group).collect::<Vec<_>>().join("; ")
+        let slow =
+            diagram.blocks.iter().filter(|b| b.rate.every > 1).map(|b| format!("{}: {}", b.name, b.rate.words()));
+        let mut all: Vec<String> = methods.iter().map(group).chain(slow.take(NAMED)).collect();
+        match self.hyperperiod() {
+            1 => {}
+            steps => all.push(format!("z is one step of {steps} samples")),
+        }
+        all.join("; ")
+    }
+
+    /// After how many samples everything comes again: 1 unless a block is slower than the loop, or the edges of pulses alternate.
+    pub fn hyperperiod(&self) -> u64 {
+        let Form::Blocks(diagram) = &self.form else { return 1 };
+        let pulses = |block: &Block| block.discretization.as_ref().and_then(|d| d.pulses.clone());
+        let alternates = |pulses: Pulses| pulses.edges.iter().flatten().any(|edges| edges.alternate());
+        let first = if diagram.blocks.iter().filter_map(pulses).any(alternates) { 2 } else { 1 };
+        diagram.blocks.iter().fold(first, |steps, block| block.rate.with(steps))
     }
 
     /// The constants, each after those it uses.

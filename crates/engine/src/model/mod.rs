@@ -30,10 +30,10 @@ pub(crate) mod tolerance;
 pub use builder::{BlockBuilder, ModelBuilder, ParameterBuilder};
 pub use closed_loop::{ClosedLoop, Evaluated, TransferFunction};
 pub use definition::{
-    Block, Constant, Diagram, Discretization, Dynamics, Form, Matrix, Model, Name, Output, Parameter, Ports, Pwm,
-    RequirementText, Simulation, Time,
+    Block, Constant, Diagram, Discretization, Dynamics, Form, Matrix, Model, Name, Output, Parameter, Ports, Pulses,
+    Pwm, Rate, RequirementText, Simulation, Time,
 };
-pub use discretization::Method;
+pub use discretization::{Edges, Method};
 pub(crate) use in_numbers::InNumbers;
 pub use loop_line::LoopLine;
 pub(crate) use nominal::Nominal;

@@ -8,7 +8,7 @@ use super::symbols::Symbols;
 use super::text::names::{did_you_mean, list, shorten};
 use crate::error::{Code, Diagnostic, Diagnostics, Error};
 use jurist_algebra::limits::Budget;
-use jurist_algebra::number::Rational;
+use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::RationalFunction;
 use std::cell::RefCell;
 
@@ -64,25 +64,30 @@ pub(crate) struct Opened {
     pub symbols: Symbols,
 }
 
-/// The only hold of a diagram.
+/// The only hold, or the only modulator, of a diagram.
 pub(crate) struct OnlyHold {
     /// The block behind it.
     pub block: String,
     /// The sample time.
     pub period: Rational,
-    /// Dead time of the block's input, in samples.
-    pub samples: Rational,
+    /// Behind a sample, in samples, where what it commands begins, or where the edges of its pulse stand.
+    pub places: Vec<Rational>,
+}
+
+impl OnlyHold {
+    /// The next dead time beyond this one at which one of the places is a whole number of samples: another loop begins there.
+    pub fn next_break(&self, more: &Rational) -> Option<Rational> {
+        let next = |place: &Rational| &Rational::from((place + more).floor() + Integer::ONE) - place;
+        self.places.iter().map(next).min()
+    }
 }
 
 /// Dead time added at a hold, in samples.
 pub(crate) enum MoreDeadTime {
     /// So much.
     Samples(Rational),
-    /// A variable, with so many whole samples in the sum.
-    Free {
-        /// How many.
-        whole: usize,
-    },
+    /// A variable, near this number.
+    Near(Rational),
 }
 
 impl Model {
@@ -185,11 +190,52 @@ impl Model {
             answer.wiring.inputs = vec![PLANT_INPUT];
             return self.opened_with(answer, PLANT_INPUT, budget);
         }
+        answer.start = self.start_at(cut)?;
         open_diagram(&mut answer, cut, self)?;
         self.opened_with(answer, cut.name(), budget)
     }
 
-    /// The only block behind a hold, if it has one input: what its dead time in samples is.
+    /// At which sample a hyperperiod begins in which what is cut is used once: with several rates only such a loop has a transfer function
+    /// from one hyperperiod to the next.
+    fn start_at(&self, cut: &Cut) -> Result<Option<u64>, Error> {
+        let steps = self.hyperperiod();
+        let Form::Blocks(diagram) = &self.form else { return Ok(None) };
+        if steps == 1 {
+            return Ok(None);
+        }
+        let is_once = |block: &&Block| block.rate.every == steps;
+        let once = match cut {
+            Cut::Input(name) => diagram.blocks.iter().find(|b| b.name == *name).filter(is_once),
+            _ => {
+                let signal = cut.name();
+                let driver = diagram.blocks.iter().find(|b| b.outputs.iter().any(|o| o.name == signal));
+                let mut readers = diagram.blocks.iter().filter(|b| b.inputs.iter().any(|e| e.names().contains(signal)));
+                let first = readers.next();
+                let same = first.filter(|first| readers.all(|other| other.rate == first.rate));
+                driver.filter(is_once).or(same.filter(is_once))
+            }
+        };
+        if let Some(block) = once {
+            return Ok(Some(block.rate.phase));
+        }
+        let slow: Vec<&str> =
+            diagram.blocks.iter().filter(is_once).flat_map(|b| &b.outputs).map(|o| o.name.as_str()).collect();
+        let message = format!(
+            "'{}' is used more than once in {steps} samples: the loop has no transfer function there",
+            shorten(cut.name())
+        );
+        let error = Diagnostic::error(Code::RateMargin, message);
+        let error = error.help(match slow.is_empty() {
+            true => "a gain margin is 'intervals' with a factor at that place".to_owned(),
+            false => format!(
+                "--at one of {}; elsewhere a gain margin is 'intervals' with a factor at that place",
+                list(slow)
+            ),
+        });
+        Err(Diagnostics::new(Some(self.source().clone()), vec![error]).into())
+    }
+
+    /// The only block behind a hold or a modulator, if it has one input: what its dead time in samples is.
     ///
     /// # Errors
     /// As [`Model::evaluate`].
@@ -204,12 +250,15 @@ impl Model {
         let number = |f: &RationalFunction| answer.substituted(f).and_then(|f| f.as_constant());
         let (Some(period), Some(delay)) = (number(&hold.time), number(&hold.delay)) else { return Ok(None) };
         let one_input = block.inputs.len() == 1;
-        let samples = delay.checked_div(&period).filter(|_| one_input);
-        Ok(samples.map(|samples| OnlyHold { block: block.name.clone(), period, samples }))
+        let Some(samples) = delay.checked_div(&period).filter(|_| one_input) else { return Ok(None) };
+        let edges = hold.pulses.iter().flatten().flat_map(|pulse| pulse.edges.iter().flatten());
+        let Some(edges) = edges.map(number).collect::<Option<Vec<Rational>>>() else { return Ok(None) };
+        let edges = if edges.is_empty() { vec![Rational::ZERO] } else { edges };
+        let places = edges.iter().map(|edge| edge + &samples).collect();
+        Ok(Some(OnlyHold { block: block.name.clone(), period, places }))
     }
 
-    /// The closed loop with more dead time at the only hold: a number of samples, or, with `whole` samples in the sum, one
-    /// that is the only variable before the symbols.
+    /// The closed loop with more dead time at the only hold: a number of samples, or one that is the only variable before the symbols.
     ///
     /// # Errors
     /// As [`Model::evaluate`].
@@ -224,22 +273,22 @@ impl Model {
     ) -> Result<(ClosedLoop, Symbols), Error> {
         let kept = match more {
             MoreDeadTime::Samples(_) => Vec::new(),
-            MoreDeadTime::Free { .. } => vec!["more samples".to_owned()],
+            MoreDeadTime::Near(_) => vec!["more samples".to_owned()],
         };
         let mut answer = self.answer(&kept, values, budget)?;
         // One more variable of the values, whose image is the number or the variable that is free.
         let variable = RationalFunction::variable(answer.images.len());
         answer.images.push(match more {
             MoreDeadTime::Samples(samples) => samples.clone().into(),
-            MoreDeadTime::Free { .. } => RationalFunction::variable(0),
+            MoreDeadTime::Near(_) => RationalFunction::variable(0),
         });
+        if let MoreDeadTime::Near(near) = more {
+            answer.symbols = RefCell::new(answer.symbols.into_inner().near(std::slice::from_ref(near)));
+        }
         let Values::Blocks { blocks, .. } = &mut answer.values else { return Err(self.has_no_states()) };
         for block in blocks {
             if let Some(DiscretizationValues::Hold(hold)) = &mut block.discretization {
                 hold.delay = &hold.delay + &(&hold.time * &variable);
-                if let MoreDeadTime::Free { whole } = more {
-                    hold.whole = Some(*whole);
-                }
             }
         }
         let (closed_loop, _, symbols) = self.connected(answer, budget)?;

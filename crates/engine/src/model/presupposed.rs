@@ -1,5 +1,5 @@
 //! What a model presupposes of its parameters beside divisors that are not zero: sample times are positive, frequencies below
-//! half the sampling rate.
+//! half the sampling rate, duty ratios between 0 and 1.
 
 use super::closed_loop::substituted;
 use super::definition::{Form, Model};
@@ -17,6 +17,8 @@ pub(crate) enum Presupposed {
     SampleTime,
     /// A frequency: positive.
     Frequency,
+    /// The duty ratio of a modulator, and what is left to 1: positive.
+    Duty,
     /// The angle `w T` by which a frequency turns in a sample: between 0 and pi.
     Angle,
 }
@@ -36,6 +38,8 @@ impl Presupposition {
             Presupposed::SampleTime => {
                 Diagnostic::error(Code::Value, "the sample time of a hold must be positive").at(self.span, "this hold")
             }
+            Presupposed::Duty => Diagnostic::error(Code::Duty, "the duty ratio of a modulator must be between 0 and 1")
+                .at(self.span, "not between 0 and 1"),
             Presupposed::Frequency | Presupposed::Angle => {
                 Diagnostic::error(Code::Discretize, "the frequency of 'prewarp' must be positive")
                     .at(self.span, "not positive")
@@ -54,6 +58,7 @@ impl Presupposition {
     pub fn not_known(&self) -> Diagnostic {
         let message = match self.of {
             Presupposed::SampleTime => "it is not known for which values the sample time of this hold is positive",
+            Presupposed::Duty => "it is not known for which values the duty ratio of this modulator is between 0 and 1",
             Presupposed::Frequency | Presupposed::Angle => {
                 "it is not known for which values the frequency of 'prewarp' is below half the sampling rate"
             }
@@ -114,6 +119,11 @@ impl Model {
             let mut own = Vec::new();
             if rule.method.is_hold() {
                 own.push((Presupposed::SampleTime, value(time)?, rule.span));
+                for duty in rule.pulses.iter().flat_map(|pulses| &pulses.duties) {
+                    let d = value(duty)?;
+                    let rest = &RationalFunction::one() - &d;
+                    own.extend([(Presupposed::Duty, d, duty.span), (Presupposed::Duty, rest, duty.span)]);
+                }
             } else if let Some(frequency) = &rule.prewarp {
                 let (w, time) = (value(frequency)?, value(time)?);
                 let angle = &w * &time;

@@ -19,8 +19,8 @@ const MOST_WORK: u64 = 200_000_000;
 /// Bits of its enclosure.
 const BITS: u64 = 256;
 
-/// Functions of what is free that are positive where the model's holds and rules have a meaning; `first` is the number of the first
-/// kept name among what is free.
+/// Functions of what is free that are positive where the model's holds and rules have a meaning, and those among them that are duty
+/// ratios, or what these leave to 1; `first` is the number of the first kept name among what is free.
 ///
 /// Cost: that of evaluating the expressions of sample times and frequencies.
 ///
@@ -31,21 +31,28 @@ pub(super) fn positive_functions(
     kept: &[String],
     set: &[(String, Rational)],
     first: usize,
-) -> Result<Vec<RationalFunction>, Diagnostic> {
+) -> Result<(Vec<RationalFunction>, Vec<RationalFunction>), Diagnostic> {
     let budget = Budget::with_work(MOST_WORK);
     let found = || {
         let presuppositions = model.presuppositions(kept, set, &budget).map_err(|_| too_long())?;
-        let mut found: Vec<RationalFunction> = Vec::new();
-        let Some((presuppositions, symbols)) = presuppositions else { return Ok(found) };
+        let (mut found, mut duties) = (Vec::new(), Vec::new());
+        let Some((presuppositions, symbols)) = presuppositions else { return Ok((found, duties)) };
         for presupposition in &presuppositions {
+            if presupposition.of == Presupposed::Duty && kept.is_empty() && presupposition.function.is_constant() {
+                // The loop is undefined there, which is a verdict.
+                continue;
+            }
             for f in positive(presupposition, symbols.clone(), &budget)? {
                 let f = f.map_variables(|i| i + first).expect("no two variables become one");
+                if presupposition.of == Presupposed::Duty {
+                    duties.push(f.clone());
+                }
                 if !found.contains(&f) {
                     found.push(f);
                 }
             }
         }
-        Ok(found)
+        Ok((found, duties))
     };
     budget.enter(found).map_err(|_| too_long())?
 }

@@ -50,6 +50,10 @@ impl Model {
     }
 }
 
+/// Where the model has a meaning.
+const MEANT: &str = "the sample time of a hold is positive, the duty ratio of a modulator between 0 and 1, and the frequency of \
+    'prewarp' below half the sampling rate";
+
 impl Question {
     /// Gives a parameter another value than its nominal one, or a constant another number.
     ///
@@ -189,6 +193,11 @@ impl Question {
     /// frequencies that have no meaning.
     pub fn problem(self) -> Result<Arc<Problem>, Error> {
         let (free, region) = self.region_and_free()?;
+        let is_unit = |region: &Region| matches!(region.bound(), Bound::Number(r) if r.is_one());
+        if self.model.hyperperiod() > 1 && !is_unit(&region) {
+            let error = Diagnostic::error(Code::Rate, "a radius is not asked of a loop with several rates");
+            return Err(error.help("a settling time is, and means the same (--settling-time)").into());
+        }
         let nominal = self.nominal_values();
         let set = self.resolve(&free, &nominal)?;
         let mut described = Vec::with_capacity(free.len() + 1);
@@ -200,7 +209,14 @@ impl Question {
                 Some(range) => Range { lower: range.lower.clone().max(least), upper: range.upper.clone() },
                 None => Range::between(Some(Rational::ZERO), None),
             };
-            described.push(Free { name: name.to_owned(), unit: None, nominal: None, domain, closed: [false; 2] });
+            described.push(Free {
+                name: name.to_owned(),
+                unit: None,
+                nominal: None,
+                domain,
+                closed: [false; 2],
+                is_duty: [false; 2],
+            });
         }
         // Axes of maps have windows, and tolerances ranges of their own.
         let is_alone = free.len() == 1 && !region.is_free();
@@ -227,6 +243,7 @@ impl Question {
                 nominal: parameter.nominal,
                 domain,
                 closed,
+                is_duty: [false; 2],
             });
         }
         for one in &described {
@@ -251,25 +268,30 @@ impl Question {
     ) -> Result<Vec<RationalFunction>, Error> {
         let first = free.len() - kept.len();
         let sourced = |d: Diagnostic| Error::from(Diagnostics::new(Some(self.model.source().clone()), vec![d]));
-        let positive = positive_functions(&self.model, kept, set, first).map_err(sourced)?;
+        let (positive, duties) = positive_functions(&self.model, kept, set, first).map_err(sourced)?;
         for (i, one) in free.iter_mut().enumerate() {
             let Some((domain, has_others)) = trimmed(one, i, &positive).map_err(sourced)? else {
-                let message =
-                    format!("nowhere in the domain of '{}' have the model's sample times a meaning", one.name);
-                let help = "the sample time of a hold is positive, and the frequency of 'prewarp' below half the sampling rate";
-                return Err(Diagnostic::error(Code::EmptyDomain, message).help(help).into());
+                let message = format!("nowhere in the domain of '{}' has the model a meaning", one.name);
+                return Err(Diagnostic::error(Code::EmptyDomain, message).help(MEANT).into());
             };
             let is_cut = |asked: &Option<Rational>, left: &Option<Rational>| asked.is_some() && asked != left;
             if has_others || is_cut(&one.domain.lower, &domain.lower) || is_cut(&one.domain.upper, &domain.upper) {
                 let message =
                     format!("the domain of '{}' is larger than the values for which the model has a meaning", one.name);
-                let help = "the sample time of a hold is positive, and the frequency of 'prewarp' below half the sampling rate; the answer is about these";
+                let help = format!("{MEANT}; the answer is about these");
                 warnings.push(Diagnostic::warning(Code::DomainWarning, message).help(help));
             }
             // Where the model has a meaning up to a value, that is no value of it.
             one.closed[0] &= one.domain.lower == domain.lower;
             one.closed[1] &= one.domain.upper == domain.upper;
             one.domain = domain;
+            one.is_duty = [&one.domain.lower, &one.domain.upper].map(|end| {
+                let is_zero = |f: &RationalFunction| match end {
+                    Some(x) if f.variables() == [i] => f.substitute(i, x).is_some_and(|y| y.is_zero()),
+                    _ => false,
+                };
+                duties.iter().any(is_zero)
+            });
         }
         Ok(positive)
     }

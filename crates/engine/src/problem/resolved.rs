@@ -40,6 +40,8 @@ pub struct Free {
     pub domain: Range,
     /// Whether the lower and the upper end of the domain themselves belong to it: only where the model says so.
     pub closed: [bool; 2],
+    /// Whether the domain ends where the pulses of a modulator have no length, or no pause between them.
+    pub is_duty: [bool; 2],
 }
 
 impl Free {
@@ -399,7 +401,14 @@ impl Problem {
         assert_eq!((base.len(), step.len()), (self.free.len(), self.free.len()), "each free parameter moves");
         let algebra = self.algebra_over_symbols(budget)?;
         let algebra = budget.enter(|| algebra.on_ray(name, base, step))?;
-        let free = vec![Free { name: name.to_owned(), unit: None, nominal: None, domain, closed: [false; 2] }];
+        let free = vec![Free {
+            name: name.to_owned(),
+            unit: None,
+            nominal: None,
+            domain,
+            closed: [false; 2],
+            is_duty: [false; 2],
+        }];
         let problem = Problem::new(Arc::clone(&self.model), self.set.clone(), free, self.region.clone(), Vec::new());
         problem.algebra.get_or_init(|| algebra);
         Ok(problem)

@@ -120,7 +120,7 @@ fn of_box(
     ]);
     let certificate = object([
         ("schema", SCHEMA.into()),
-        ("model", about(problem)),
+        ("model", about(problem)?),
         ("statement", statement),
         ("characteristic", polynomials(&primitive(&p.coefficients_in_region()))),
         ("factors", factors.collect()),

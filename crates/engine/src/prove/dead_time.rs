@@ -79,7 +79,7 @@ pub(super) fn of_set(answer: &Answer<StableSet>, delayed: &DelayedLoop, budget: 
     };
     Ok(to_text(&object([
         ("schema", SCHEMA.into()),
-        ("model", about(problem)),
+        ("model", about(problem)?),
         ("statement", statement::intervals(problem, stable)),
         ("bits", BITS.into()),
         ("delay", number(slope)),

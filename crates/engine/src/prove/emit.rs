@@ -60,7 +60,7 @@ impl Answer<StableSet> {
             let line = proof.line.as_ref().map(line_json).unwrap_or_default();
             let certificate = object([
                 ("schema", SCHEMA.into()),
-                ("model", about(problem)),
+                ("model", about(problem)?),
                 ("statement", statement::intervals(problem, stable.collect())),
                 ("characteristic", polynomials(&proof.characteristic)),
                 ("boundary", boundary(proof.identity.as_ref(), polynomial)),
@@ -97,7 +97,7 @@ impl Answer<PointVerdict> {
             };
             let certificate = object([
                 ("schema", SCHEMA.into()),
-                ("model", about(problem)),
+                ("model", about(problem)?),
                 ("statement", statement::verdict(problem, verdict)),
                 ("characteristic", polynomials(&characteristic)),
             ]);

@@ -73,7 +73,7 @@ pub(super) fn of_set(answer: &Answer<StableSet>, delayed: &DelayedLoop, budget: 
         ("region", region(problem.region())),
         ("cells", Value::Array(list)),
     ]);
-    Ok(certificate(problem, statement, tau))
+    certificate(problem, statement, tau)
 }
 
 /// The certificate of a point at which no root is on the axis.
@@ -92,17 +92,17 @@ pub(super) fn of_verdict(answer: &Answer<PointVerdict>, delayed: &DelayedLoop) -
         ("verdict", verdict.verdict.name().into()),
         ("right", right.into()),
     ]);
-    Ok(certificate(problem, statement, tau))
+    certificate(problem, statement, tau)
 }
 
-fn certificate(problem: &Problem, statement: Value, tau: &Rational) -> String {
-    to_text(&object([
+fn certificate(problem: &Problem, statement: Value, tau: &Rational) -> Result<String, Error> {
+    Ok(to_text(&object([
         ("schema", SCHEMA.into()),
-        ("model", about(problem)),
+        ("model", about(problem)?),
         ("statement", statement),
         ("bits", BITS.into()),
         ("delay", number(tau)),
-    ]))
+    ])))
 }
 
 /// The part of the domain that is spoken of, twice as far as the largest limit where it has no end, and the size of the limits.

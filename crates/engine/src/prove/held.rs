@@ -176,7 +176,7 @@ fn certificate<const N: usize>(
 ) -> Result<String, Error> {
     let mut certificate = object([
         ("schema", SCHEMA.into()),
-        ("model", about(problem)),
+        ("model", about(problem)?),
         ("statement", statement),
         ("bits", (bits + SPARE_BITS).min(MOST_OF_CHECKERS).into()),
         ("symbols", definitions(symbols)?),

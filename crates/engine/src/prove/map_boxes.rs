@@ -58,7 +58,7 @@ impl Problem {
         ]);
         Ok(to_text(&object([
             ("schema", SCHEMA.into()),
-            ("model", about(self)),
+            ("model", about(self)?),
             ("statement", statement),
             ("order", order.into()),
             ("bits", bits.into()),

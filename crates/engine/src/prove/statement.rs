@@ -2,7 +2,9 @@
 
 use super::cofactors::Identity;
 use super::digest::sha256;
+use super::no_certificate;
 use crate::answer::PointVerdict;
+use crate::error::Error;
 use crate::problem::{Bound, Problem, Region};
 use jurist_algebra::number::Rational;
 use serde_json::Value;
@@ -28,10 +30,16 @@ pub(super) fn region(region: &Region) -> Value {
 }
 
 /// Title and digest of the model, for people: the check reads the model itself.
-pub(super) fn about(problem: &Problem) -> Value {
+///
+/// # Errors
+/// `E-no-certificate` where the checkers do not read such a model.
+pub(super) fn about(problem: &Problem) -> Result<Value, Error> {
+    if problem.model().hyperperiod() > 1 {
+        return Err(no_certificate("no certificate: the checkers read no loops of several rates yet"));
+    }
     let digest = sha256(&problem.model().source().text);
     let title = problem.title().map_or(Value::Null, Value::from);
-    object([("title", title), ("digest", format!("sha256:{digest}").into())])
+    Ok(object([("title", title), ("digest", format!("sha256:{digest}").into())]))
 }
 
 /// That these are the stable intervals of the problem's parameter.

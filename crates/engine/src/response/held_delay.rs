@@ -7,7 +7,7 @@ use crate::model::MoreDeadTime;
 use crate::problem::{Problem, fixed_symbols, moving_symbols};
 use crate::stability::{AtPoint, ComplexPair, Range, StableSet, SymbolicPolynomial, symbolic_stable_set};
 use jurist_algebra::limits::Budget;
-use jurist_algebra::number::{Enclosure, Integer, Rational};
+use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::real::Real;
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct HeldDelay {
-    /// The block behind the hold.
+    /// The block behind the hold or the modulator.
     pub block: String,
     /// The sample time.
     pub period: Rational,
@@ -57,12 +57,9 @@ impl HeldDelay {
             Ok(Some(HeldDelay { block: hold.block.clone(), period: hold.period.clone(), samples, pair }))
         };
         let mut from = Rational::ZERO;
-        let mut whole = hold.samples.floor();
         for _ in 0..=HeldDelay::LOOKED_AT {
-            let Some(count) = whole.to_i64().and_then(|n| usize::try_from(n).ok()) else { return Ok(None) };
-            whole += Integer::ONE;
-            let to = Rational::from(&whole) - &hold.samples;
-            let more = MoreDeadTime::Free { whole: count };
+            let Some(to) = hold.next_break(&from) else { return Ok(None) };
+            let more = MoreDeadTime::Near(from.midpoint(&to));
             let set = stable_fractions(problem, &more, Range::between(Some(from.clone()), Some(to.clone())), budget)?;
             let first = set.intervals().first();
             let begins = |end: &Real| end.compare_rational(&from).is_eq();
@@ -115,7 +112,11 @@ fn stable_fractions(problem: &Problem, more: &MoreDeadTime, range: Range, budget
 /// Whether the loop is stable with a dead time that is a number of samples.
 fn is_stable_with(problem: &Problem, samples: &Rational, budget: &Budget) -> Result<bool, Error> {
     let more = MoreDeadTime::Samples(samples.clone());
-    let (closed_loop, symbols) = problem.model().with_dead_time(&more, problem.set(), budget)?;
+    let (closed_loop, symbols) = match problem.model().with_dead_time(&more, problem.set(), budget) {
+        // A sample stands on an edge of a pulse.
+        Err(Error::Undefined(_)) => return Ok(false),
+        found => found?,
+    };
     let mut d = closed_loop.characteristic_polynomial(budget)?;
     d.poles = Vec::new();
     let p = SymbolicPolynomial::new(&d, 0, &Arc::new(fixed_symbols(&symbols)?));

@@ -8,7 +8,7 @@ use super::place::modulus_squared;
 use super::value::square_root;
 use crate::answer::{Answer, Frequency, PointVerdict, Verdict};
 use crate::coverage::refusals::FEEDBACK;
-use crate::error::Error;
+use crate::error::{Code, Diagnostic, Error};
 use crate::problem::{Problem, Question};
 use crate::stability::Shape;
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -109,6 +109,11 @@ impl Problem {
     /// # Panics
     /// When a parameter is free.
     pub fn norm(self: &Arc<Self>, input: &str, output: &str, budget: &Budget) -> Result<Answer<Norm>, Error> {
+        if self.model().hyperperiod() > 1 {
+            let message = "a loop of several rates has no transfer function from sample to sample, so no peak gain";
+            let error = Diagnostic::error(Code::RateMargin, message);
+            return Err(error.help("'margins' has the loop at a signal that is used once in a hyperperiod").into());
+        }
         budget.enter(|| {
             let verdict = self.verdict(budget)?.into_value();
             let (closed_loop, symbols) = self.closed_loop_over_symbols(budget)?;

@@ -256,6 +256,8 @@ fn end_cells(end: &End, decimal: String, problem: &Problem, digits: usize) -> Ve
         cause.push_str(": the model is undefined here");
     } else if end.causes.contains(Cause::SquareRoot) {
         cause.push_str(": the number under it is negative beyond");
+    } else if end.causes.contains(Cause::Duty) {
+        cause.push_str(": no pulse, or no pause, is left");
     }
     let nominal = problem.parameter().nominal.as_ref();
     // A gain margin of a time means nothing in decibels.

@@ -64,7 +64,13 @@ fn named_at(causes: &Causes, time: Time, edge: &str) -> String {
         (Cause::ComplexPair, Time::Discrete) => format!("{cause} on |z|={edge}"),
         (Cause::ComplexPair, Time::Continuous) => format!("{cause} on Re s={edge}"),
         (
-            Cause::DegreeLost | Cause::Neutral | Cause::Pole | Cause::SquareRoot | Cause::Domain | Cause::Undecided,
+            Cause::DegreeLost
+            | Cause::Neutral
+            | Cause::Pole
+            | Cause::SquareRoot
+            | Cause::Duty
+            | Cause::Domain
+            | Cause::Undecided,
             _,
         ) => cause.to_string(),
     };

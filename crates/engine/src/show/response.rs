@@ -176,10 +176,10 @@ impl Writer<'_> {
     fn held(&self, held: &HeldDelay) -> String {
         let block = visible(&held.block);
         let Some(seconds) = real::enclosed(self.digits, |bits| held.seconds(bits)) else {
-            return format!("much dead time behind the hold of '{block}'");
+            return format!("much dead time at the input of '{block}'");
         };
         let place = frequency_text(|bits| held.frequency(bits)).map(|p| format!(", at {p}")).unwrap_or_default();
-        format!("less than {seconds} s of dead time behind the hold of '{block}'{place}")
+        format!("less than {seconds} s of dead time at the input of '{block}'{place}")
     }
 
     fn disk(&self, disk: &response::DiskMargin) -> String {

@@ -42,7 +42,7 @@ pub fn mechanism_colour(causes: &Causes) -> (&'static str, &'static [f64]) {
         Some(Cause::RootAtOne | Cause::RootAtZero) => (COLOURS[1], &[9.0, 3.0]),
         Some(Cause::RootAtMinusOne) => (COLOURS[3], &[4.0, 3.0]),
         Some(Cause::DegreeLost | Cause::Neutral) => (COLOURS[5], &[9.0, 3.0, 2.0, 3.0]),
-        Some(Cause::Pole | Cause::SquareRoot) => ("#777777", &[2.0, 3.0]),
+        Some(Cause::Pole | Cause::SquareRoot | Cause::Duty) => ("#777777", &[2.0, 3.0]),
         Some(Cause::Domain | Cause::Undecided) | None => ("#999999", &[1.0, 3.0]),
     }
 }
@@ -69,6 +69,7 @@ pub fn mechanism_words(causes: &Causes, answer: &Answer<Map>) -> String {
         (Cause::Neutral, _) => "difference operator not stable".into(),
         (Cause::Pole, _) => "loop undefined".into(),
         (Cause::SquareRoot, _) => "loop undefined beyond".into(),
+        (Cause::Duty, _) => "no pulse, or no pause, beyond".into(),
         (Cause::Domain, _) => "end of the domain".into(),
         (Cause::Undecided, _) => "undecided beyond".into(),
     };

@@ -29,6 +29,8 @@ pub enum Pulse {
     End,
     /// Around the middle: both edges move, by half as much.
     Centre,
+    /// Halves at the beginning and at the end of the period: both edges move, by half as much.
+    Ends,
 }
 
 /// A pulse width modulated source.

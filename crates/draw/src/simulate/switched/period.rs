@@ -19,6 +19,15 @@ impl Pulse {
             Pulse::Beginning => (0.0, on_time),
             Pulse::End => (period - on_time, period),
             Pulse::Centre => ((period - on_time) / 2.0, (period + on_time) / 2.0),
+            Pulse::Ends => (period - on_time / 2.0, on_time / 2.0),
+        }
+    }
+
+    /// Whether the source is on at a time of the period, with this begin and end.
+    fn is_on(self, (begin, end): (f64, f64), time: f64) -> bool {
+        match self {
+            Pulse::Ends => time < end || begin < time,
+            _ => begin < time && time < end,
         }
     }
 
@@ -27,7 +36,7 @@ impl Pulse {
         match self {
             Pulse::Beginning => (0.0, 1.0),
             Pulse::End => (-1.0, 0.0),
-            Pulse::Centre => (-0.5, 0.5),
+            Pulse::Centre | Pulse::Ends => (-0.5, 0.5),
         }
     }
 }
@@ -54,7 +63,9 @@ impl SwitchedModel {
         instants.sort_by(f64::total_cmp);
         let stretch = |pair: &[f64]| {
             let middle = (pair[0] + pair[1]) / 2.0;
-            Stretch { length: pair[1] - pair[0], on: edges.iter().map(|(a, b)| *a < middle && middle < *b).collect() }
+            let on =
+                self.sources.iter().zip(&edges).map(|(source, edges)| source.pulse.is_on(*edges, middle)).collect();
+            Stretch { length: pair[1] - pair[0], on }
         };
         instants.windows(2).filter(|pair| pair[1] > pair[0]).map(stretch).collect()
     }

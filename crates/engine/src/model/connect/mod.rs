@@ -3,4 +3,5 @@
 mod exponential;
 mod factor;
 mod hold;
+mod rates;
 pub(in crate::model) mod state_space;

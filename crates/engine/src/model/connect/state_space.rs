@@ -4,8 +4,9 @@
 //! factors included: its characteristic polynomial is the denominator.
 
 use super::hold::held;
+use super::rates::{Lifted, lifted};
 use crate::error::{Code, Diagnostic, Span};
-use crate::model::definition::{Dynamics, Form, Model};
+use crate::model::definition::{Dynamics, Form, Model, Rate};
 use crate::model::discretization::Rule;
 use crate::model::evaluate::symbolic::{
     BlockValues, DiscretizationValues, DynamicValues, PortValues, Row, Values, Wiring,
@@ -59,6 +60,18 @@ pub(in crate::model) struct System {
     pub d: RationalMatrix,
 }
 
+/// With what parts are connected.
+pub(in crate::model) struct Connecting<'a> {
+    /// The values of what is not kept.
+    pub set: &'a Substitution<'a>,
+    /// Without symbols blocks behind a hold are replaced by systems that pass on at once what they do: enough for checks of what
+    /// divides by zero.
+    pub symbols: Option<&'a RefCell<Symbols>>,
+    /// The sample at which the hyperperiod of a loop with several rates begins, where that matters.
+    pub start: Option<u64>,
+    pub budget: &'a Budget,
+}
+
 /// A closed loop and where it is undefined beyond its expressions.
 pub(in crate::model) struct Assembled {
     pub system: System,
@@ -68,7 +81,7 @@ pub(in crate::model) struct Assembled {
     pub leading: RationalFunction,
 }
 
-fn undefined(message: String, span: Span) -> NotConnected {
+pub(super) fn undefined(message: String, span: Span) -> NotConnected {
     NotConnected::Undefined(Box::new(Diagnostic::error(Code::DivisionByZero, message).at(span, "undefined")))
 }
 
@@ -89,16 +102,15 @@ fn substituted_matrix(m: &RationalMatrix, substitution: &Substitution<'_>) -> Re
     Ok(RationalMatrix::from_fn(m.rows(), columns, |i, j| entries[i * columns + j].clone()))
 }
 
-/// Connects the parts of the model's form. `Characteristic` has no parts and gives order 0. Without `symbols` blocks behind
-/// a hold are replaced by systems that pass on at once what they do: enough for checks of what divides by zero.
+/// Connects the parts of the model's form. `Characteristic` has no parts and gives order 0. A loop of several rates is that of a
+/// hyperperiod.
 pub(in crate::model) fn assemble(
     model: &Model,
     wiring: &Wiring<'_>,
     values: &Values,
-    substitution: &Substitution<'_>,
-    symbols: Option<&RefCell<Symbols>>,
-    budget: &Budget,
+    how: &Connecting<'_>,
 ) -> Result<Assembled, NotConnected> {
+    let substitution = how.set;
     let set = |m: &RationalMatrix| substituted_matrix(m, substitution);
     let named = |n: usize| match &model.form {
         Form::Matrix { ports, .. } | Form::OutputFeedback { ports, .. } if ports.states.len() == n => {
@@ -139,7 +151,7 @@ pub(in crate::model) fn assemble(
             };
             with_ports(closed, ports)
         }
-        Values::Blocks { blocks, outputs } => connect(model, wiring, blocks, outputs, substitution, symbols, budget),
+        Values::Blocks { blocks, outputs } => connect(model, wiring, blocks, outputs, how),
     }
 }
 
@@ -316,13 +328,12 @@ fn connect(
     wiring: &Wiring<'_>,
     blocks: &[BlockValues],
     outputs: &[Row],
-    set: &Substitution<'_>,
-    symbols: Option<&RefCell<Symbols>>,
-    budget: &Budget,
+    how: &Connecting<'_>,
 ) -> Result<Assembled, NotConnected> {
+    let Connecting { set, symbols, start, budget } = *how;
     let (mut poles, mut leading) = (Vec::new(), RationalFunction::one());
     let mut systems = Vec::with_capacity(blocks.len());
-    let mut states = Vec::new();
+    let mut states: Vec<Vec<String>> = Vec::new();
     for (i, block) in blocks.iter().enumerate() {
         budget.check()?;
         let mut system = match &block.dynamics {
@@ -335,6 +346,7 @@ fn connect(
                 System { a: set(a)?, b: set(b)?, c: set(c)?, d: set(d)? }
             }
         };
+        let mut of_samples: Vec<System> = Vec::new();
         match &block.discretization {
             None => {}
             Some(DiscretizationValues::Rule { rule, value, prewarp }) => {
@@ -343,18 +355,56 @@ fn connect(
                 }
                 system = discretised(system, *rule, &substituted(value, set)?, block, &mut poles, budget)?;
             }
-            Some(DiscretizationValues::Hold(hold)) => system = held(system, hold, block, set, symbols, budget)?,
+            Some(DiscretizationValues::Hold(hold)) => {
+                of_samples = held(system.clone(), hold, block, set, symbols, budget)?
+            }
         }
-        let n = system.a.rows();
-        states.extend(state_names(model, i, block, n));
+        if of_samples.is_empty() {
+            of_samples.push(system);
+        }
+        let n = of_samples[0].a.rows();
+        states.push(state_names(model, i, block, n));
         // Matrices without rows or columns do not remember their other size.
         let (inputs, outputs) = (block.inputs.len(), block.outputs);
         if n == 0 {
-            system.b = RationalMatrix::zeros(0, inputs);
-            system.c = RationalMatrix::zeros(outputs, 0);
+            for system in &mut of_samples {
+                system.b = RationalMatrix::zeros(0, inputs);
+                system.c = RationalMatrix::zeros(outputs, 0);
+            }
         }
-        systems.push(system);
+        systems.push(of_samples);
     }
+    let rates: Vec<Rate> = blocks.iter().map(|block| block.rate).collect();
+    let mut closed = |systems: &[System]| -> Result<System, NotConnected> {
+        let (system, determinant) = closed(wiring, blocks, systems, outputs, set, budget)?;
+        poles.push(determinant.numerator().clone());
+        leading = &leading * &determinant;
+        Ok(system)
+    };
+    let first = || systems.iter().map(|of_samples| of_samples[0].clone()).collect::<Vec<System>>();
+    if model.hyperperiod() == 1 || symbols.is_none() {
+        let system = closed(&first())?;
+        return Ok(Assembled { system, states: states.concat(), poles, leading });
+    }
+    let Lifted { system, keeps_registers } =
+        lifted(&systems, &rates, model.hyperperiod(), start, symbols, budget, closed)?;
+    let Form::Blocks(diagram) = &model.form else { unreachable!("blocks are those of a diagram") };
+    for ((states, block), _) in states.iter_mut().zip(&diagram.blocks).zip(keeps_registers).filter(|(_, keeps)| *keeps)
+    {
+        states.extend(block.outputs.iter().map(|output| format!("{} held", output.name)));
+    }
+    Ok(Assembled { system, states: states.concat(), poles, leading })
+}
+
+/// The systems of all blocks at one sample as one, and the determinant that is divided by for it.
+fn closed(
+    wiring: &Wiring<'_>,
+    blocks: &[BlockValues],
+    systems: &[System],
+    outputs: &[Row],
+    set: &Substitution<'_>,
+    budget: &Budget,
+) -> Result<(System, RationalFunction), NotConnected> {
     let diagonal = |part: fn(&System) -> &RationalMatrix| block_diagonal(&systems.iter().map(part).collect::<Vec<_>>());
     let (a, b, c, d) = (diagonal(|s| &s.a), diagonal(|s| &s.b), diagonal(|s| &s.c), diagonal(|s| &s.d));
     let rows: Vec<Row> = blocks.iter().flat_map(|b| b.inputs.iter().cloned()).collect();
@@ -366,10 +416,8 @@ fn connect(
     let lc = product(&l, &c);
     let right = beside(&lc, &m);
     let Some((u, determinant)) = solve(&left, &right, budget)? else {
-        return Err(algebraic_loop(blocks, &systems));
+        return Err(algebraic_loop(blocks, systems));
     };
-    poles.push(determinant.numerator().clone());
-    leading = &leading * &determinant;
     let from_states = RationalMatrix::from_fn(rows.len(), n, |i, j| u[(i, j)].clone());
     let from_inputs = RationalMatrix::from_fn(rows.len(), m.columns(), |i, j| u[(i, n + j)].clone());
     // All signals, the external ones last.
@@ -383,7 +431,7 @@ fn connect(
         c: product(&s, &y_states),
         d: &product(&s, &y_inputs) + &direct,
     };
-    Ok(Assembled { system, states, poles, leading })
+    Ok((system, determinant))
 }
 
 fn beside(left: &RationalMatrix, right: &RationalMatrix) -> RationalMatrix {

@@ -1,6 +1,6 @@
 //! The first-order hold: inputs are straight between samples (triangle hold, not causal by itself).
 
-use super::{Kind, Method};
+use super::{Inputs, Kind, Method};
 
 pub(super) const METHOD: Method = Method {
     name: "foh",
@@ -10,5 +10,5 @@ pub(super) const METHOD: Method = Method {
     advice: "",
     keys: &["delay"],
     keeps_states: false,
-    kind: Kind::Hold { is_first_order: true, exact: "exact for inputs that are straight between the samples." },
+    kind: Kind::Hold { inputs: Inputs::Straight, exact: "exact for inputs that are straight between the samples." },
 };

@@ -8,15 +8,19 @@ mod foh;
 mod forward;
 #[cfg(test)]
 mod lists;
+mod pwm;
 mod tustin;
 mod zoh;
 
 use crate::model::connect::state_space::{NotConnected, System};
 use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::poly::RationalFunction;
+pub(crate) use pwm::EDGES;
+pub use pwm::Edges;
 
 /// All methods, in the order of model files.
-pub(crate) const LIST: &[&Method] = &[&zoh::METHOD, &foh::METHOD, &tustin::METHOD, &forward::METHOD, &backward::METHOD];
+pub(crate) const LIST: &[&Method] =
+    &[&zoh::METHOD, &foh::METHOD, &pwm::METHOD, &tustin::METHOD, &forward::METHOD, &backward::METHOD];
 
 /// A way to make a continuous block discrete: a rule that keeps rational functions rational, or what a block behind a hold does exactly.
 ///
@@ -50,13 +54,24 @@ pub struct Method {
 pub(in crate::model) enum Kind {
     /// The block is exact at the samples.
     Hold {
-        /// Whether the inputs are straight between samples, not constant.
-        is_first_order: bool,
+        /// What the inputs are between samples.
+        inputs: Inputs,
         /// What is exact, in words.
         exact: &'static str,
     },
     /// `s` is replaced by a rational function of `z`.
     Rule(Rule),
+}
+
+/// What the inputs of a block are between samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::model) enum Inputs {
+    /// Constant.
+    Constant,
+    /// Straight.
+    Straight,
+    /// Pulses, one in each sample time.
+    Pulses,
 }
 
 /// The inverse of a matrix, which the loop then divides by.
@@ -84,7 +99,7 @@ impl Method {
         LIST.iter().find(|method| method.name == word).copied()
     }
 
-    /// True if the block is behind a hold, and exact.
+    /// True if the block is behind a hold or a modulator, and exact.
     pub fn is_hold(&self) -> bool {
         matches!(self.kind, Kind::Hold { .. })
     }
@@ -104,6 +119,11 @@ impl Method {
                 self.words
             ),
         }
+    }
+
+    /// True if the inputs are pulses.
+    pub fn is_modulated(&self) -> bool {
+        matches!(self.kind, Kind::Hold { inputs: Inputs::Pulses, .. })
     }
 
     /// True if `discretize` has this key with it.

@@ -1,6 +1,6 @@
 //! The zero-order hold: inputs are constant between samples, and outputs exact at them.
 
-use super::{Kind, Method};
+use super::{Inputs, Kind, Method};
 
 pub(super) const METHOD: Method = Method {
     name: "zoh",
@@ -11,7 +11,7 @@ pub(super) const METHOD: Method = Method {
     keys: &["delay"],
     keeps_states: true,
     kind: Kind::Hold {
-        is_first_order: false,
+        inputs: Inputs::Constant,
         exact: "exact at the samples; what happens between them is not looked at.",
     },
 };

@@ -6,8 +6,10 @@ use super::transfer::{Fraction, MAX_ORDER, fraction, held_fraction, polynomial};
 use super::walk::{Failure, Meaning, division_by_zero};
 use super::zpoly::ZPoly;
 use crate::error::{Code, Diagnostic, Span};
-use crate::model::definition::{Block, Discretization, Dynamics, Form, Matrix, Model, Output, Ports, Time};
-use crate::model::discretization::{Kind, Rule};
+use crate::model::definition::{
+    Block, Discretization, Dynamics, Form, Matrix, Model, Output, Ports, Pulses, Rate, Time,
+};
+use crate::model::discretization::{Inputs, Kind, Rule};
 use crate::model::text::Expression;
 use crate::model::text::names::shorten;
 use jurist_algebra::matrix::RationalMatrix;
@@ -62,6 +64,7 @@ pub(in crate::model) struct BlockValues {
     pub span: Span,
     pub inputs: Vec<Row>,
     pub outputs: usize,
+    pub rate: Rate,
     pub dynamics: DynamicValues,
     pub discretization: Option<DiscretizationValues>,
 }
@@ -81,16 +84,25 @@ pub(in crate::model) struct Prewarp {
     pub span: Span,
 }
 
-/// A hold.
+/// A hold or a modulator.
 pub(in crate::model) struct Hold {
-    /// Whether inputs are straight between samples instead of constant.
-    pub is_first_order: bool,
+    pub inputs: Inputs,
+    /// For each input the edges of its pulses; `None` for one that is held.
+    pub pulses: Vec<Option<Pulse>>,
     pub time: RationalFunction,
     /// Dead time of the inputs, in units of time.
     pub delay: RationalFunction,
-    /// The whole samples in the dead time, where its fraction of a sample is not a number.
-    pub whole: Option<usize>,
     pub span: Span,
+}
+
+/// The pulse of an input.
+pub(in crate::model) struct Pulse {
+    pub duty: RationalFunction,
+    /// Where the edges stand that commands at even and at odd samples move, in sample times; each moves by the same share of a change of
+    /// the duty ratio.
+    pub edges: [Vec<RationalFunction>; 2],
+    /// Whether these are different.
+    pub alternates: bool,
 }
 
 pub(in crate::model) enum DynamicValues {
@@ -161,10 +173,15 @@ impl Evaluator<'_, '_> {
         let dynamics = self.dynamics(block, variable, &mut dead_time);
         let mut discretization = match &block.discretization {
             None => Some(None),
-            Some(d) => self.discretization(d).map(Some),
+            Some(d) => self.discretization(d, block.rate).map(Some),
         };
         if let Some(Some(DiscretizationValues::Hold(hold))) = &mut discretization {
             hold.delay = &hold.delay + &dead_time;
+            if let (Some(pulses), Some(inputs)) =
+                (block.discretization.as_ref().and_then(|d| d.pulses.as_ref()), &inputs)
+            {
+                hold.pulses = self.pulses(pulses, inputs, wiring.driven)?;
+            }
         }
         if let Some(pwm) = &block.pwm {
             for e in [&pwm.amplitude, &pwm.carrier, &pwm.period] {
@@ -176,12 +193,13 @@ impl Evaluator<'_, '_> {
             span: block.span,
             inputs: inputs?,
             outputs: block.outputs.len(),
+            rate: block.rate,
             dynamics: dynamics?,
             discretization: discretization?,
         })
     }
 
-    fn discretization(&mut self, d: &Discretization) -> Option<DiscretizationValues> {
+    fn discretization(&mut self, d: &Discretization, rate: Rate) -> Option<DiscretizationValues> {
         // All of them, so that every mistake is reported.
         let mut value = |e: &Option<Expression>| e.as_ref().map(|e| (self.scalar(e), e.span));
         let (time, factor, prewarp, delay) =
@@ -195,18 +213,20 @@ impl Evaluator<'_, '_> {
             (self.report)(error.at(d.span, "how long is a step?").help("give T = \"..\"").into());
             return None;
         };
-        let time = time?;
+        // The loop's sample time stands for the period of a block that is slower.
+        let own = if d.is_sample_time_of_loop { Rational::from(rate.every as i64) } else { Rational::ONE };
+        let time = &time? * &own.into();
         let rule = match d.method.kind {
-            Kind::Hold { is_first_order, .. } => {
+            Kind::Hold { inputs, .. } => {
                 let delay = match delay {
                     Some((delay, _)) => delay?,
                     None => RationalFunction::zero(),
                 };
                 return Some(DiscretizationValues::Hold(Hold {
-                    is_first_order,
+                    inputs,
+                    pulses: Vec::new(),
                     time,
                     delay,
-                    whole: None,
                     span: d.span,
                 }));
             }
@@ -230,6 +250,22 @@ impl Evaluator<'_, '_> {
         let tangent = self.scope.tangent_of_a_rule(half);
         let value = self.quotient(frequency, tangent, span)?;
         Some(DiscretizationValues::Rule { rule, value, prewarp: Some(Prewarp { angle, span }) })
+    }
+
+    /// The pulses of inputs, which are these expressions in signals; with one word for all of them, an input that no signal of the
+    /// loop is in is held: nothing controls it.
+    fn pulses(&mut self, pulses: &Pulses, inputs: &[Row], driven: usize) -> Option<Vec<Option<Pulse>>> {
+        let duties: Vec<RationalFunction> = pulses.duties.iter().map(|e| self.scalar(e)).collect::<Option<_>>()?;
+        let one_of = |len: usize, i: usize| if len == 1 { 0 } else { i };
+        let of = |(i, row): (usize, &Row)| {
+            let edges = pulses.edges[one_of(pulses.edges.len(), i)]?;
+            let is_external = |row: &Row| row.iter().all(|(signal, c)| *signal >= driven || c.is_zero());
+            let is_external = pulses.edges.len() == 1 && inputs.len() > 1 && is_external(row);
+            let duty = &duties[one_of(duties.len(), i)];
+            let alternates = edges.alternate();
+            (!is_external).then(|| Pulse { duty: duty.clone(), edges: edges.places(duty), alternates })
+        };
+        Some(inputs.iter().enumerate().map(of).collect())
     }
 
     /// A quotient, by whose divisor the model divides.

@@ -2,6 +2,8 @@
 
 use super::discretize::discretize;
 use super::keys;
+use super::pulses::fit;
+use super::rates::rate;
 use super::reader::{Meant, Reader, count};
 use crate::error::{Code, Diagnostic, Span};
 use crate::model::definition::{Block, Diagram, Dynamics, Pwm, Time};
@@ -100,6 +102,7 @@ fn block(value: &Value, time: Time, sample_time: Option<&Expression>, reader: &m
         entry => entry.and_then(|entry| discretize(entry, sample_time, reader)),
     };
     let dynamics = dynamics(table, &meant, value, &name, time, continuous, reader);
+    let (rate, own) = rate(table, &name, time, reader);
     let pwm = table.entry("pwm").and_then(|entry| pwm(entry, reader));
     let (inputs, outputs, dynamics) = (inputs?, outputs?, dynamics?);
     if reader.errors() > before || (continuous && discretization.is_none()) {
@@ -112,9 +115,10 @@ fn block(value: &Value, time: Time, sample_time: Option<&Expression>, reader: &m
         let message = format!("the block '{}' has no states: there is nothing to discretise", shorten(&name));
         reader.unused(message, entry.key_span);
     }
-    let block = Block { name, span, inputs, outputs, dynamics, discretization, pwm };
+    let block = Block { name, span, inputs, outputs, dynamics, discretization, rate, sample_time: own, pwm };
     let in_span = table.get("input").map_or(value.span, |v| v.span);
     let out_span = table.get("output").map_or(value.span, |v| v.span);
+    fit(&block, reader);
     sizes(&block, in_span, out_span, reader).then_some(block)
 }
 

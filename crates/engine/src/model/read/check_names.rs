@@ -408,8 +408,10 @@ fn check_block<'m>(names: &mut Names<'m, '_>, block: &'m Block, signals: &HashSe
         }
         Dynamics::Static(d) => names.matrix(d, &none),
     }
-    if let Some(Discretization { sample_time, factor, prewarp, delay, .. }) = &block.discretization {
-        [sample_time, factor, prewarp, delay].into_iter().flatten().for_each(|e| names.expression(e, &none, ""));
+    if let Some(Discretization { sample_time, factor, prewarp, delay, pulses, .. }) = &block.discretization {
+        let duties = pulses.iter().flat_map(|pulses| &pulses.duties);
+        let parts = [sample_time, factor, prewarp, delay].into_iter().flatten();
+        parts.chain(duties).for_each(|e| names.expression(e, &none, ""));
     }
     if let Some(pwm) = &block.pwm {
         [&pwm.amplitude, &pwm.carrier, &pwm.period].into_iter().for_each(|e| names.expression(e, &none, ""));

@@ -3,7 +3,7 @@
 
 use super::reader::Reader;
 use crate::error::{Code, Diagnostic};
-use crate::model::connect::state_space::assemble;
+use crate::model::connect::state_space::{Connecting, assemble};
 use crate::model::definition::Model;
 use crate::model::evaluate::scalar::{Scope, Symbol};
 use crate::model::evaluate::symbolic::{Wiring, symbolic};
@@ -11,6 +11,7 @@ use crate::model::evaluate::walk::Failure;
 use crate::model::text::names::shorten;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::RationalFunction;
 use std::collections::HashSet;
 
 /// Units of work that one evaluation for the check may take: about a second on an idle machine. It is counted, not
@@ -83,8 +84,10 @@ fn problems(model: &Model, symbol: &mut dyn FnMut(&str, bool) -> Option<Symbol>)
         let mut scope = Scope::new(model.parameters.iter(), model.ordered_constants(), symbol, &budget, &mut report);
         let wiring = Wiring::of(model);
         let form = symbolic(model, &wiring, &mut scope, &mut report);
+        let set = |f: &RationalFunction| Some(f.clone());
+        let how = Connecting { set: &set, symbols: None, start: None, budget: &budget };
         if let Some(form) = form
-            && let Err(stop) = assemble(model, &wiring, &form, &|f| Some(f.clone()), None, &budget)
+            && let Err(stop) = assemble(model, &wiring, &form, &how)
         {
             report(stop.into());
         }

@@ -1,6 +1,7 @@
 //! `discretize` of a block: the rule or the hold by which a continuous block becomes discrete.
 
 use super::keys;
+use super::pulses::pulses;
 use super::reader::Reader;
 use crate::error::{Code, Diagnostic, Span};
 use crate::model::definition::Discretization;
@@ -11,8 +12,13 @@ use crate::model::text::names::{did_you_mean, list, shorten};
 use crate::model::text::toml_value::{Entry, Kind, Table};
 
 /// The keys that some methods have, with what to do where another method is asked for.
-const METHOD_KEYS: [(&str, &str); 3] =
-    [("c", "leave it out"), ("prewarp", "leave it out"), ("delay", "add a block with 'delay' for whole samples")];
+const METHOD_KEYS: [(&str, &str); 5] = [
+    ("c", "leave it out"),
+    ("prewarp", "leave it out"),
+    ("delay", "add a block with 'delay' for whole samples"),
+    ("edge", "leave it out"),
+    ("duty", "leave it out"),
+];
 
 fn wrong(message: &str, span: Span, label: &str, help: &str) -> Diagnostic {
     Diagnostic::error(Code::Discretize, message).at(span, label).help(help)
@@ -25,14 +31,24 @@ pub(super) fn discretize(
     reader: &mut Reader,
 ) -> Option<Discretization> {
     let found = match &entry.value.kind {
-        Kind::String(word) => Discretization {
-            method: method(word, reader)?,
-            sample_time: None,
-            factor: None,
-            prewarp: None,
-            delay: None,
-            span: entry.key_span,
-        },
+        Kind::String(word) => {
+            let method = method(word, reader)?;
+            if method.is_modulated() {
+                let help = format!("discretize = {{ method = \"{}\", edge = \"trailing\", duty = 0.5 }}", method.name);
+                reader.report(wrong("a modulator has an edge and a duty ratio", word.span(), "incomplete", &help));
+                return None;
+            }
+            Discretization {
+                method,
+                sample_time: None,
+                is_sample_time_of_loop: false,
+                factor: None,
+                prewarp: None,
+                delay: None,
+                pulses: None,
+                span: entry.key_span,
+            }
+        }
         Kind::Table(table) => from_table(entry, table, reader)?,
         _ => {
             reader.wrong_type(&entry.value, "'discretize'", "a table or the name of a method");
@@ -47,7 +63,7 @@ pub(super) fn discretize(
         reader.report(wrong("'discretize' has no sample time", entry.key_span, "how long is a step?", help));
         return None;
     };
-    Some(Discretization { sample_time: Some(sample_time.clone()), ..found })
+    Some(Discretization { sample_time: Some(sample_time.clone()), is_sample_time_of_loop: true, ..found })
 }
 
 fn method(word: &Text, reader: &mut Reader) -> Option<&'static Method> {
@@ -89,11 +105,25 @@ fn from_table(entry: &Entry, table: &Table, reader: &mut Reader) -> Option<Discr
     }
     let mut part = |key: &str| table.get(key).and_then(|v| reader.expression(v, &format!("'{key}'")));
     let (sample_time, factor, prewarp, delay) = (part("T"), part("c"), part("prewarp"), part("delay"));
+    let pulses = if method.is_modulated() { pulses(entry, table, reader) } else { None };
+    if let Some(time) = table.entry("T").filter(|_| method.is_modulated()) {
+        let help = "leave it out: there is one pulse in each sample time of the loop";
+        reader.report(wrong("a modulator has no sample time of its own", time.key_span, "has no meaning here", help));
+    }
     if reader.errors() > before {
         return None;
     }
     if let (Some(time), Some(_)) = (table.entry("T"), &factor) {
         reader.unused("'T' says nothing beside 'c': the rule is s = c (z-1)/(z+1)", time.key_span);
     }
-    Some(Discretization { method, sample_time, factor, prewarp, delay, span: entry.key_span })
+    Some(Discretization {
+        method,
+        sample_time,
+        is_sample_time_of_loop: false,
+        factor,
+        prewarp,
+        delay,
+        pulses,
+        span: entry.key_span,
+    })
 }

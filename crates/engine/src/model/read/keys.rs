@@ -1,6 +1,6 @@
 //! The keys of a model file: what the reader knows, and what its JSON schema says.
 
-use crate::model::discretization::LIST as METHOD_LIST;
+use crate::model::discretization::{EDGES as EDGE_LIST, LIST as METHOD_LIST};
 use crate::response::LIST;
 
 /// A key of a table.
@@ -29,6 +29,8 @@ pub(super) enum Shape {
     Flag,
     /// A number, or an expression in constants and parameters.
     Expression,
+    /// One of these words or an array of them.
+    OneOrEach(&'static [&'static str]),
     /// One expression or an array of them.
     Expressions,
     /// One name or an array of names.
@@ -72,6 +74,20 @@ pub(super) const METHODS: [&str; METHOD_LIST.len()] = {
     }
     names
 };
+
+/// The words of `edge`.
+pub(super) const EDGES: [&str; EDGE_LIST.len() + 1] = {
+    let mut names = [HELD; EDGE_LIST.len() + 1];
+    let mut k = 0;
+    while k < EDGE_LIST.len() {
+        names[k] = EDGE_LIST[k].name;
+        k += 1;
+    }
+    names
+};
+
+/// The word for an input that is held beside others that are pulses.
+pub(super) const HELD: &str = "hold";
 
 /// The whole file.
 pub(super) const MODEL: [Key; 9] = [
@@ -137,7 +153,7 @@ pub(super) const LOOP: [Key; 10] = [
 ];
 
 /// An entry `[[block]]`.
-pub(super) const BLOCK: [Key; 14] = [
+pub(super) const BLOCK: [Key; 17] = [
     key("name", Shape::Text, "its name, for people"),
     needed("input", Shape::Expressions, "linear expressions in signals"),
     needed("output", Shape::Names, "the signals it drives"),
@@ -146,6 +162,13 @@ pub(super) const BLOCK: [Key; 14] = [
         Shape::TableOrWord(&DISCRETIZE),
         "how a continuous block is made discrete; the method alone takes the loop's sample_time",
     ),
+    key(
+        "every",
+        Shape::Number,
+        "once in how many of the loop's samples the block is active; it holds its outputs in between",
+    ),
+    key("phase", Shape::Number, "at which of these samples, from 0"),
+    key("sample_time", Shape::Expression, "in the place of 'every': a whole multiple of the loop's sample_time"),
     key("pwm", Shape::Table(&PWM), "what a switched simulation needs to know of a pulse-width modulator"),
     key("transfer", Shape::Expression, "a proper rational expression in z or s"),
     key("num", Shape::Expressions, "coefficients of the numerator, highest power first"),
@@ -159,12 +182,18 @@ pub(super) const BLOCK: [Key; 14] = [
 ];
 
 /// The table `discretize` of a block.
-pub(super) const DISCRETIZE: [Key; 5] = [
+pub(super) const DISCRETIZE: [Key; 7] = [
     needed("method", Shape::Method, "the rule or the hold"),
     key("T", Shape::Expression, "the sample time, that of the loop when missing"),
     key("c", Shape::Expression, "the factor of tustin, 2/T when missing"),
     key("prewarp", Shape::Expression, "the angular frequency at which tustin is exact, below half the sampling rate"),
     key("delay", Shape::Expression, "dead time of the inputs of a held block, in units of time"),
+    key(
+        "edge",
+        Shape::OneOrEach(&EDGES),
+        "which edges of the pulses of pwm move; one word, or one for each input, 'hold' for one that is held",
+    ),
+    key("duty", Shape::Expressions, "the duty ratio of the pulses of pwm, between 0 and 1; one, or one for each input"),
 ];
 
 /// The table `pwm` of a block.

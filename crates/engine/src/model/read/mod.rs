@@ -12,6 +12,8 @@ mod keys;
 mod loop_forms;
 mod model_file;
 mod nominal;
+mod pulses;
+mod rates;
 mod reader;
 mod require;
 mod schema;

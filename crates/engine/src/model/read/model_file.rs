@@ -4,7 +4,7 @@ use super::keys;
 use super::loop_forms::read_form;
 use super::reader::{Meant, NamedMatrix, Reader};
 use super::tolerance::read_tolerance;
-use super::{check_names, check_rules, check_values};
+use super::{check_names, check_rules, check_values, rates};
 use super::{domain, nominal, require, simulation};
 use crate::error::{Code, Diagnostic, Diagnostics, Severity, Source, Span};
 use crate::model::definition::{Constant, Diagram, Form, Model, Name, Parameter, Time};
@@ -134,6 +134,7 @@ fn read_model(root: &Table, source: &Arc<Source>, reader: &mut Reader) -> Option
     let mut index = HashMap::new();
     check_names::definitions(&constants, &parameters, time.unwrap_or(Time::Discrete), &mut index, reader);
     let order = check_names::order(&constants, &parameters, &index, reader);
+    let mut form = form;
     let mut model = Model {
         source: Arc::clone(source),
         title,
@@ -152,6 +153,10 @@ fn read_model(root: &Table, source: &Arc<Source>, reader: &mut Reader) -> Option
     check_names::names(&model, form_is_broken, reader);
     let broken = reader.diagnostics.iter().any(|d| d.severity == Severity::Error);
     if !broken {
+        if let Some(form) = &mut form {
+            rates::resolve(&model, form, reader);
+            model.form = form.clone();
+        }
         check_values::values(&model, reader);
         check_values::sample_time(&model, reader);
         check_rules::rules(&model, reader);

@@ -56,6 +56,9 @@ fn shape(shape: &Shape) -> Map<String, Value> {
         Shape::Interval => json!({ "type": "array", "items": number(), "minItems": 2, "maxItems": 2 }),
         Shape::Flag => json!({ "type": "boolean" }),
         Shape::Expressions => json!({ "type": ["number", "string", "array"], "items": number() }),
+        Shape::OneOrEach(words) => {
+            json!({ "type": ["string", "array"], "items": { "type": "string", "enum": words } })
+        }
         Shape::Names => json!({ "type": ["string", "array"], "items": { "type": "string" } }),
         Shape::Matrix => {
             json!({ "type": ["array", "string"], "items": { "type": "array", "items": number() } })

@@ -67,6 +67,25 @@ impl Symbols {
         })
     }
 
+    /// The same, but for entries in which a kept name occurs.
+    pub(in crate::model) fn shortened_beside_names(&mut self, m: &RationalMatrix) -> RationalMatrix {
+        let first = self.kept.len();
+        let short = self.shortened(&RationalMatrix::from_fn(m.rows(), m.columns(), |i, j| {
+            if m[(i, j)].variables().first().is_some_and(|v| *v < first) {
+                RationalFunction::zero()
+            } else {
+                m[(i, j)].clone()
+            }
+        }));
+        RationalMatrix::from_fn(m.rows(), m.columns(), |i, j| {
+            if m[(i, j)].variables().first().is_some_and(|v| *v < first) {
+                m[(i, j)].clone()
+            } else {
+                short[(i, j)].clone()
+            }
+        })
+    }
+
     /// A symbol that nobody sees, without a look for one that means the same.
     fn unnamed(&mut self, meaning: Meaning, name: String) -> RationalFunction {
         if let Meaning::Flow { .. } = meaning

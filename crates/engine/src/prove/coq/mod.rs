@@ -52,6 +52,7 @@ impl Answer<StableSet> {
             budget.step("theorem for Coq");
             let problem = self.problem();
             // A loop with exponentials says so itself; what is left are other ways to an answer.
+            one_rate(problem)?;
             let loop_ = Loop::of(problem, budget)?;
             if !self.value().is_algebraic() {
                 return Err(refused("the answer was not decided by polynomials over the integers", OTHERS));
@@ -90,11 +91,20 @@ impl Answer<PointVerdict> {
             if self.value().verdict == Verdict::Undefined {
                 return Err(refused("the model is undefined at the point", "choose another point with '--set'"));
             }
+            one_rate(problem)?;
             let loop_ = Loop::of(problem, budget)?;
             let (subject, definitions, _) = loop_.model(problem);
             let stable = self.value().verdict == Verdict::Stable;
             Ok(point::text(problem, loop_.order, subject, &definitions, stable))
         })?
+    }
+}
+
+/// Refuses loops of several rates: the theorem would be about a matrix that the reader has to trust.
+fn one_rate(problem: &Problem) -> Result<(), Error> {
+    match problem.model().hyperperiod() {
+        1 => Ok(()),
+        _ => Err(refused("the loop has several rates", "there is no certificate of such loops yet")),
     }
 }
 

@@ -72,7 +72,7 @@ impl Answer<Map> {
             }
             let certificate = object([
                 ("schema", SCHEMA.into()),
-                ("model", about(problem)),
+                ("model", about(problem)?),
                 ("statement", statement(problem, &map.decomposition)),
                 ("characteristic", polynomials(&characteristic)),
                 ("boundary", boundary(proof.identity.as_ref(), terms)),

@@ -90,7 +90,7 @@ pub struct End {
     pub number: Number,
     /// Why stability ends: `z=1`, `z=-1`, `complex pair`, `s=0`, `infinity` (the degree is lost), `neutral`
     /// (infinitely many roots reach the boundary), `pole` (undefined there), `square root` (undefined beyond: the
-    /// number under a square root is negative), `domain`; several are joined by `+` in this order.
+    /// number under a square root is negative), `duty` (no pulse, or no pause, of a modulator is left), `domain`; several are joined by `+` in this order.
     /// `undecided` alone: no limit, but where a bracket begins in which nothing is known.
     pub cause: String,
     /// The same with the points where the loop's own roots are; only where a smaller region is asked for.

@@ -374,7 +374,7 @@ fn point_table<E>(
         table: problem.time().into(),
         parameter: (),
         set: problem.set().into(),
-        region: problem.region().into(),
+        region: problem.into(),
         rows,
         conditions,
         holds,

@@ -306,7 +306,7 @@ impl MapQuestion {
             nominal: Pair { x: x.nominal.as_ref().map(Exact::from), y: y.nominal.as_ref().map(Exact::from) },
             set: problem.set().into(),
             domain: Pair { x: (&x.domain).into(), y: (&y.domain).into() },
-            region: problem.region().into(),
+            region: problem.into(),
             plan: Plan::of(problem),
         }
     }

@@ -68,7 +68,7 @@ pub use norm::{Norm, NormFound, NormName, NormOpen, PeakFound};
 pub use number::{Enclosure, Exact, Named, Number, NumberKind};
 pub use over::{AlgebraicPlace, Over};
 pub use plan::{Plan, PlannedMethod};
-pub use question::{ClosedEnds, ParameterQuestion, PointQuestion, RegionBound};
+pub use question::{ClosedEnds, Hyperperiod, ParameterQuestion, PointQuestion, RegionBound};
 pub use required_map::{RequiredCell, RequiredInPlane, RequiredRegion, RequiredSetOfRegions, RequiredStrip};
 pub use requirements::{RequirementAsked, RequirementFound};
 pub use tolerance::{

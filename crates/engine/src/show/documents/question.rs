@@ -7,7 +7,7 @@ use crate::model::Time;
 use crate::problem::{Free, Problem, Region};
 use serde::{Deserialize, Serialize};
 
-/// The region in which all roots have to lie, where it is smaller than that of plain stability.
+/// The region in which all roots have to lie, where it is smaller than that of plain stability; and of which step they are roots.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RegionBound {
@@ -18,11 +18,28 @@ pub struct RegionBound {
     /// rate is the parameter in question.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub decay: Option<Exact>,
+    /// Of a loop with several rates: a root is what a state grows by in a hyperperiod. Left out where all blocks run at the loop's samples.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hyperperiod: Option<Hyperperiod>,
 }
 
-impl From<&Region> for RegionBound {
-    fn from(region: &Region) -> Self {
-        RegionBound { radius: region.radius().map(Exact::from), decay: region.decay().map(Exact::from) }
+/// After how long everything in a loop comes again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Hyperperiod {
+    /// In samples of the loop.
+    pub steps: u64,
+}
+
+impl From<&Problem> for RegionBound {
+    fn from(problem: &Problem) -> Self {
+        let region: &Region = problem.region();
+        let steps = Some(problem.model().hyperperiod()).filter(|steps| *steps > 1);
+        RegionBound {
+            radius: region.radius().map(Exact::from),
+            decay: region.decay().map(Exact::from),
+            hyperperiod: steps.map(|steps| Hyperperiod { steps }),
+        }
     }
 }
 
@@ -84,7 +101,7 @@ impl ParameterQuestion {
             set: problem.set().into(),
             domain: (&free.domain).into(),
             domain_closed: ClosedEnds::of(free),
-            region: problem.region().into(),
+            region: problem.into(),
             plan: Plan::of(problem),
         }
     }
@@ -114,7 +131,7 @@ impl PointQuestion {
             title: title(problem),
             time: problem.time(),
             set: problem.set().into(),
-            region: problem.region().into(),
+            region: problem.into(),
             plan: Plan::of(problem),
         }
     }

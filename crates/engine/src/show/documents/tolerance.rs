@@ -195,7 +195,7 @@ impl Tolerance {
             title: title(problem),
             time: problem.time(),
             set: problem.set().into(),
-            region: problem.region().into(),
+            region: problem.into(),
             plan: Plan::of(problem),
             answer: Answered::of(answer, |answer| found(problem, answer, digits)),
         }
