@@ -3,7 +3,7 @@
 
 use crate::helpers::model::{example_text, load, read};
 use crate::helpers::number::ratio;
-use crate::helpers::program::jurist;
+use crate::helpers::program::{jurist, jurist_with_input};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::Verdict;
@@ -272,4 +272,32 @@ fn the_switched_circuit_agrees_with_the_exact_limit() {
     assert_eq!(wrong.status, 2);
     assert!(wrong.stderr.contains("edge = \"trailing\""), "{}", wrong.stderr);
     assert_eq!(run("551.7", &["--pulse", "beginning"]).status, 0);
+}
+
+/// Where a sample stands on an edge the loop is undefined: the value is none of the set, also where the loop is stable on both sides.
+#[test]
+fn a_value_with_a_sample_on_an_edge_is_left_out_of_the_set() {
+    let text = "time = 'discrete'\nsample_time = 1\n[parameters]\ng = 0.3\nD = 0.4\n[loop]\ninputs = ['r']\n[[block]]\ninput = 'g*(r - y)'\n\
+        output = 'y'\ntransfer = '1/(s + 1)'\ndiscretize = { method = 'pwm', edge = 'trailing', duty = 'D', delay = 0.5 }\n";
+    let half: Rational = "1/2".parse().unwrap();
+    let found = set(text, "D");
+    assert_eq!(found.intervals().len(), 2, "{found:?}");
+    assert!(
+        !found.contains(&half)
+            && found.contains(&"49/100".parse().unwrap())
+            && found.contains(&"51/100".parse().unwrap())
+    );
+    let end = found.intervals()[0].upper.as_ref().unwrap();
+    assert_eq!((end.value.exact(), end.causes.to_string()), (Some(half.clone()), "pole".to_owned()));
+    // The loop jumps there: unstable before, stable behind.
+    let jumps = set(&text.replace("g = 0.3", "g = 1.8"), "D");
+    assert_eq!(jumps.intervals().len(), 2, "{jumps:?}");
+    let lower = jumps.intervals()[1].lower.as_ref().unwrap();
+    assert_eq!((lower.value.exact(), lower.causes.to_string()), (Some(half), "pole".to_owned()));
+    // A hold's dead time passes a sample without a jump.
+    let hold =
+        text.replace("method = 'pwm', edge = 'trailing', duty = 'D', delay = 0.5", "method = 'zoh', delay = '2*D'");
+    assert_eq!(set(&hold, "D").intervals().len(), 1);
+    let map = jurist_with_input(&["map", "-", "-x", "D", "-y", "g"], text.as_bytes());
+    assert!(map.stderr.contains("an edge of the pulse of 'block' may pass a sample"), "{}", map.stderr);
 }

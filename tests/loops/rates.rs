@@ -265,3 +265,32 @@ fn random_rates_against_events_stepped_one_by_one() {
     println!("{cases} cases, {ends} ends, {looked_at} gains");
     assert!(looked_at > cases);
 }
+
+/// The rate was that of the file, whatever was set.
+#[test]
+fn a_sample_time_of_a_block_is_a_multiple_whatever_constants_are() {
+    let text = |own: &str| {
+        format!(
+            "time = 'discrete'\nsample_time = 'T'\n[constants]\nT = 0.1\nN = 10\nT_s = '10*T'\n[parameters]\nK = 1\n[loop]\n[[block]]\n\
+             input = '-y'\noutput = 'u'\ngain = 'K + N*0'\nsample_time = '{own}'\n[[block]]\ninput = 'u'\noutput = 'y'\n\
+             transfer = '1/s'\ndiscretize = 'zoh'\n"
+        )
+    };
+    for own in ["N*T", "1", "T + 0.9"] {
+        let found = Model::from_toml(&Source::new("model.toml", text(own)));
+        assert_eq!(found.unwrap_err().code(), Code::Rate, "{own}");
+    }
+    for own in ["10*T", "T_s"] {
+        let model = read(&text(own));
+        for (time, end) in [("0.1", "2"), ("0.2", "1")] {
+            let answer =
+                model.ask().set("T", time.parse::<Rational>().unwrap()).free("K").stable_set(&Budget::unlimited());
+            assert_eq!(ends(&answer.unwrap().into_value(), 6)[1].0, end, "{own}, {time}");
+        }
+    }
+    let other = read(&text("T_s")).ask().set("T_s", Rational::from(3)).free("K").stable_set(&Budget::unlimited());
+    let Err(jurist_engine::error::Error::Refused(diagnostics)) = other else { panic!("{other:?}") };
+    assert_eq!(diagnostics.code(), Code::NotANumber, "a constant that depends on another one is not set");
+    let unknown = Model::from_toml(&Source::new("model.toml", text("10*Ts")));
+    assert_eq!(unknown.unwrap_err().code(), Code::UnknownName);
+}

@@ -76,7 +76,7 @@ impl Problem {
             let first = found.intervals().first().and_then(|interval| interval.lower.as_ref());
             let begins_at = |x: &&Rational| domain.contains(x) && first.is_some_and(|end| is_at(end, x));
             let joint = match range.lower.as_ref().filter(begins_at) {
-                Some(before) if is_stable_at(before)? => Some(before),
+                Some(before) if is_stable_at(before)? && !self.is_undefined_at(before, budget)? => Some(before),
                 _ => None,
             };
             set = set.followed_by(found, joint);
@@ -85,8 +85,22 @@ impl Problem {
         let is_bound = |end: &End| [&domain.lower, &domain.upper].into_iter().flatten().any(|x| is_at(end, x));
         for end in set.ends_mut().filter(|end| !end.closed && !is_bound(end)) {
             end.causes.remove(Cause::Domain);
+            if end.causes.iter().next().is_none() {
+                // A sample stands on an edge of a pulse: the loops to both sides are different.
+                end.causes.insert(Cause::Pole);
+            }
         }
         Ok(Some(set))
+    }
+
+    /// Whether the model is undefined at a value of the one free parameter, as where a sample stands on an edge of a pulse.
+    fn is_undefined_at(&self, value: &Rational, budget: &Budget) -> Result<bool, Error> {
+        let mut values = self.set().to_vec();
+        values.push((self.parameter().name.clone(), value.clone()));
+        match budget.enter(|| self.model().closed_loop_in_numbers(&[], &values, budget))? {
+            Err(Error::Undefined(_)) => Ok(true),
+            found => found.map(|_| false),
+        }
     }
 }
 

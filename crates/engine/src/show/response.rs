@@ -30,6 +30,9 @@ impl Answer<Margins> {
         let (problem, margins) = (self.problem(), self.value());
         let place = cut_text(margins.open_loop.cut());
         let mut out = format!("{}\ncut {place}\n{}\n\n", heading(problem), verdict_line(problem, &margins.verdict));
+        if problem.model().hyperperiod() > 1 {
+            out.push_str(&format!("a sample is one step of {} samples here\n", problem.model().hyperperiod()));
+        }
         let writer = Writer { margins, digits };
         match &margins.stable {
             None => out.push_str("no margins: only a stable loop has them\n"),

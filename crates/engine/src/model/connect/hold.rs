@@ -286,6 +286,12 @@ fn samples(
         None => symbols.near_value(ratio),
     });
     let (Some(ratio), Some(near)) = (ratio, near) else {
+        if hold.inputs == Inputs::Pulses {
+            let message = format!("an edge of the pulse of '{name}' may pass a sample: the loop has no fixed order");
+            let error = Diagnostic::error(Code::Function, message).at(hold.span, "edge and dead time vary");
+            let help = "set the duty ratio, or give a dead time of whole samples; 'intervals' may ask about either";
+            return Err(NotConnected::Refused(Box::new(error.help(help))));
+        }
         let error = NO_FIXED_ORDER.diagnostic(&[("name", &name)]);
         let error = error.at(hold.span, "the dead time varies against the sample time");
         return Err(NotConnected::Refused(Box::new(error)));

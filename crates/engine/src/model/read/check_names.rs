@@ -413,6 +413,7 @@ fn check_block<'m>(names: &mut Names<'m, '_>, block: &'m Block, signals: &HashSe
         let parts = [sample_time, factor, prewarp, delay].into_iter().flatten();
         parts.chain(duties).for_each(|e| names.expression(e, &none, ""));
     }
+    block.sample_time.iter().for_each(|e| names.expression(e, &none, ""));
     if let Some(pwm) = &block.pwm {
         [&pwm.amplitude, &pwm.carrier, &pwm.period].into_iter().for_each(|e| names.expression(e, &none, ""));
     }

@@ -64,7 +64,9 @@ pub(super) fn resolve(model: &Model, form: &mut Form, reader: &mut Reader) {
                 continue;
             };
             let ratio = budget.enter(|| {
-                let symbol = |_: &str, constant: bool| (!constant).then_some(Symbol::Variable);
+                // A constant that is a number may be given another one.
+                let is_open = |name: &str| model.constant(name).is_some_and(|c| c.expression.names().is_empty());
+                let symbol = |name: &str, constant: bool| (!constant || is_open(name)).then_some(Symbol::Variable);
                 let (parameters, constants) = (model.parameters.iter(), model.ordered_constants());
                 let mut scope = Scope::new(parameters, constants, symbol, &budget, &mut |_| {});
                 let (own, of_loop) = (scope.scalar(own).ok()?, scope.scalar(of_loop).ok()?);
@@ -76,7 +78,7 @@ pub(super) fn resolve(model: &Model, form: &mut Form, reader: &mut Reader) {
                 None => {
                     let error = wrong(
                         format!(
-                            "the sample time of '{name}' is no whole multiple of the loop's, whatever the parameters are"
+                            "the sample time of '{name}' is no whole multiple of the loop's, whatever parameters and constants are"
                         ),
                         own.span,
                         "not a whole multiple",
@@ -88,7 +90,8 @@ pub(super) fn resolve(model: &Model, form: &mut Form, reader: &mut Reader) {
         }
         if block.rate.phase >= block.rate.every {
             let message = format!("'phase' of '{name}' is not below the {} samples of its period", block.rate.every);
-            reader.report(wrong(message, block.span, "this block"));
+            let error = wrong(message, block.span, "this block");
+            reader.report(error.help("'every' says how many samples the period has: 1 where it is missing"));
         }
         if block.rate.every > 1 && is_held(block) {
             let error =
