@@ -341,7 +341,7 @@ impl Discretization {
     ///     transfer = '1/s'\ndiscretize = { method = 'pwm', edge = 'trailing', duty = 0.5 }\n";
     /// let (model, _) = Model::from_toml(&Source::new("loop.toml", text)).unwrap();
     /// let Form::Blocks(diagram) = model.form() else { panic!() };
-    /// assert_eq!(diagram.blocks[0].discretization.as_ref().unwrap().words(), "PWM, trailing edge, duty 0.5");
+    /// assert_eq!(diagram.blocks[0].discretization.as_ref().unwrap().words(), "PWM, trailing edge, duty 1/2");
     /// ```
     pub fn words(&self) -> String {
         let Some(pulses) = &self.pulses else { return self.method.words.to_owned() };
