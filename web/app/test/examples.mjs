@@ -6,6 +6,8 @@ const LIMITS_TAKE_LONG = new Map([
   ["anti-alias-filter", ["w_f"]],
   ["dc-servo", ["T_m"]],
   ["drive-hold", ["T"]],
+  ["drive-pwm", ["K_pwm", "T"]],
+  ["drive-two-rates", ["K_ps"]],
   ["lcl-inverter", ["Lg"]],
   ["two-mass-drive", ["J_l"]],
 ]);
