@@ -1063,7 +1063,7 @@ class Table:
             return scalar(ONE)
         found = [(abs(x / of), i, x / of) for i, of in self.find("exp") if of and (x / of).denominator == 1 and abs(x / of) <= 200]
         need(found, f"exp({x}) is not among the symbols")
-        _, i, k = min(found)  # that of which it is the least multiple
+        _, i, k = min(found)  # the symbol with the smallest multiple
         power = scalar(P({abs(int(k)) << FIELD * (first + i): 1}))
         return power if k > 0 else Value({"": ONE}, power.scalar())
 
@@ -1075,7 +1075,7 @@ class Table:
             if r and (k := r * t / at).denominator == 1 and 0 < abs(k) <= 200:
                 found.append((abs(k), i, k, r, of))
         need(found, "a tangent is not among the symbols")
-        _, i, k, r, of = min(found)  # that of which the angle is the least multiple
+        _, i, k, r, of = min(found)  # the symbol with the smallest multiple
         x = total = scalar(P({1 << FIELD * (first + i): 1}))
         for _ in range(abs(int(k)) - 1):
             below = scalar(ONE) + -(total * x * of_number(of))

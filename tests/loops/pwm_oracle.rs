@@ -3,11 +3,10 @@
 //!
 //! `PWM_CASES=1000 cargo test --release --test it pwm_oracle -- --nocapture` asks for so many.
 
+use crate::helpers::loops::agrees_with_radius;
 use crate::helpers::model::read;
 use crate::helpers::random::Random;
 use jurist_algebra::limits::Budget;
-use jurist_algebra::number::Rational;
-use jurist_engine::answer::Verdict;
 use nalgebra::DMatrix;
 
 /// A plant, its pulse, and the controller's dynamics.
@@ -156,7 +155,7 @@ impl Case {
 fn random_plants_behind_a_modulator_against_their_pulses() {
     let cases = std::env::var("PWM_CASES").ok().and_then(|text| text.parse().ok()).unwrap_or(40);
     let (mut random, mut looked_at, mut ends, mut skipped) = (Random::new(38), 0, 0, 0);
-    for number in 0..cases {
+    for _ in 0..cases {
         let case = Case::random(&mut random);
         let model = read(&case.text());
         if case.radius(0.5).is_none() {
@@ -168,28 +167,9 @@ fn random_plants_behind_a_modulator_against_their_pulses() {
             skipped += 1;
             continue;
         };
-        let mut gains: Vec<f64> = (0..4).map(|_| random.below(4001) as f64 / 200.0 - 10.0).collect();
-        for end in set.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten() {
-            let end = end.value.decimal(17).parse::<f64>().unwrap();
-            gains.extend([end - 2e-3 * (end.abs() + 0.1), end + 2e-3 * (end.abs() + 0.1)]);
-            ends += 1;
-        }
-        for gain in gains {
-            let radius = case.radius(gain).unwrap();
-            if (radius - 1.0).abs() < 1e-6 {
-                continue;
-            }
-            looked_at += 1;
-            let exact: Rational = Rational::from_f64(gain).unwrap();
-            assert_eq!(set.contains(&exact), radius < 1.0, "case {number}, K = {gain}: {radius}\n{}", case.text());
-            let verdict = model.ask().set("K", exact).verdict(&Budget::unlimited()).unwrap().into_value().verdict;
-            assert_eq!(
-                verdict == Verdict::Stable,
-                radius < 1.0,
-                "case {number}, K = {gain}: {radius}\n{}",
-                case.text()
-            );
-        }
+        let gains = (0..4).map(|_| random.below(4001) as f64 / 200.0 - 10.0).collect();
+        let [new_ends, new_gains] = agrees_with_radius(&model, &set, gains, 2e-3, |gain| case.radius(gain).unwrap());
+        (ends, looked_at) = (ends + new_ends, looked_at + new_gains);
     }
     println!("{cases} cases, {skipped} left out, {ends} ends, {looked_at} gains");
     assert!(looked_at > cases);

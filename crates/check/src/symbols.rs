@@ -78,7 +78,8 @@ impl Table {
         Fraction::variable(first + i)
     }
 
-    /// The symbol of which something is the least multiple, the first of several, and the multiple.
+    /// `multiple_of` says which multiple of a symbol a number is. Returns the symbol with the smallest multiple, the first of equal ones, and
+    /// that multiple.
     fn nearest(&self, multiple_of: impl Fn(&Symbol) -> Option<i64>) -> Option<(usize, i64)> {
         let multiples = self.symbols.iter().enumerate().filter_map(|(i, symbol)| Some((i, multiple_of(symbol)?)));
         multiples.min_by_key(|(_, k)| k.unsigned_abs())

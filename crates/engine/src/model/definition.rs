@@ -287,7 +287,7 @@ impl Default for Rate {
 }
 
 impl Rate {
-    /// `every 10`, with the phase where it is not 0.
+    /// The rate in words: `every 10`, or `every 10, phase 3`.
     pub fn words(&self) -> String {
         match self.phase {
             0 => format!("every {}", self.every),
@@ -295,12 +295,14 @@ impl Rate {
         }
     }
 
-    /// Whether the block computes its outputs at a sample; at others it holds them.
+    /// True if the block computes its outputs at this sample of the loop, counted from 0; at other samples it holds them.
     pub fn is_active(&self, sample: u64) -> bool {
         sample % self.every == self.phase
     }
 
-    /// The least common multiple of its period and another one, in samples.
+    /// The least common multiple of the block's period and another one, both in samples; the greatest number where it is too large.
+    ///
+    /// Cost: Euclid's algorithm on machine integers.
     pub fn with(&self, steps: u64) -> u64 {
         let (mut a, mut b) = (steps, self.every);
         while b > 0 {
@@ -607,6 +609,12 @@ impl Model {
     }
 
     /// After how many samples everything comes again: 1 unless a block is slower than the loop, or the edges of pulses alternate.
+    ///
+    /// Cost: one greatest common divisor for each block.
+    ///
+    /// ```
+    /// assert_eq!(jurist_engine::model::Model::drive().hyperperiod(), 1);
+    /// ```
     pub fn hyperperiod(&self) -> u64 {
         let Form::Blocks(diagram) = &self.form else { return 1 };
         let pulses = |block: &Block| block.discretization.as_ref().and_then(|d| d.pulses.clone());

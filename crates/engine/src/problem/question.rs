@@ -209,14 +209,7 @@ impl Question {
                 Some(range) => Range { lower: range.lower.clone().max(least), upper: range.upper.clone() },
                 None => Range::between(Some(Rational::ZERO), None),
             };
-            described.push(Free {
-                name: name.to_owned(),
-                unit: None,
-                nominal: None,
-                domain,
-                closed: [false; 2],
-                is_duty: [false; 2],
-            });
+            described.push(Free::of(name, domain));
         }
         // Axes of maps have windows, and tolerances ranges of their own.
         let is_alone = free.len() == 1 && !region.is_free();

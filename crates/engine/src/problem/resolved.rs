@@ -45,6 +45,12 @@ pub struct Free {
 }
 
 impl Free {
+    /// A name with an open domain, without a unit and without a nominal value.
+    pub(super) fn of(name: &str, domain: Range) -> Free {
+        let neither = [false; 2];
+        Free { name: name.to_owned(), unit: None, nominal: None, domain, closed: neither, is_duty: neither }
+    }
+
     /// The same with an open domain: maps and the lines in them are about the inside of domains.
     fn open(&self) -> Free {
         Free { closed: [false; 2], ..self.clone() }
@@ -401,14 +407,7 @@ impl Problem {
         assert_eq!((base.len(), step.len()), (self.free.len(), self.free.len()), "each free parameter moves");
         let algebra = self.algebra_over_symbols(budget)?;
         let algebra = budget.enter(|| algebra.on_ray(name, base, step))?;
-        let free = vec![Free {
-            name: name.to_owned(),
-            unit: None,
-            nominal: None,
-            domain,
-            closed: [false; 2],
-            is_duty: [false; 2],
-        }];
+        let free = vec![Free::of(name, domain)];
         let problem = Problem::new(Arc::clone(&self.model), self.set.clone(), free, self.region.clone(), Vec::new());
         problem.algebra.get_or_init(|| algebra);
         Ok(problem)

@@ -60,9 +60,9 @@ pub(in crate::model) struct System {
     pub d: RationalMatrix,
 }
 
-/// With what parts are connected.
+/// What the connection of blocks needs beside their values.
 pub(in crate::model) struct Connecting<'a> {
-    /// The values of what is not kept.
+    /// Puts numbers in the place of the parameters that have a value.
     pub set: &'a Substitution<'a>,
     /// Without symbols blocks behind a hold are replaced by systems that pass on at once what they do: enough for checks of what
     /// divides by zero.

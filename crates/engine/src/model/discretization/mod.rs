@@ -121,7 +121,12 @@ impl Method {
         }
     }
 
-    /// True if the inputs are pulses.
+    /// True if the block's inputs are the pulses of a pulse-width modulator.
+    ///
+    /// ```
+    /// use jurist_engine::model::Method;
+    /// assert!(Method::named("pwm").unwrap().is_modulated());
+    /// ```
     pub fn is_modulated(&self) -> bool {
         matches!(self.kind, Kind::Hold { inputs: Inputs::Pulses, .. })
     }

@@ -23,7 +23,7 @@ pub(super) const METHOD: Method = Method {
     },
 };
 
-/// Which edges of the pulse move with the duty ratio.
+/// Which edges of the pulse move when the duty ratio changes. Places and duty ratios are shares of the sample time, from 0 to 1.
 ///
 /// ```
 /// use jurist_engine::model::Edges;
@@ -71,7 +71,7 @@ impl Edges {
         Edges { name, words, on, places, places_of_odd: places }
     }
 
-    /// Whether they are others after odd samples than after even ones.
+    /// True if samples with odd numbers move other edges than samples with even numbers.
     ///
     /// ```
     /// use jurist_engine::model::Edges;

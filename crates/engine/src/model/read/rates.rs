@@ -59,7 +59,7 @@ pub(super) fn resolve(model: &Model, form: &mut Form, reader: &mut Reader) {
         if let Some(own) = &block.sample_time {
             let Some(of_loop) = &model.sample_time else {
                 let error =
-                    wrong(format!("'{name}' has a sample time, and the loop has none"), own.span, "of which time?");
+                    wrong(format!("the loop of '{name}' has no sample time"), own.span, "a multiple of no sample time");
                 reader.report(error.help("give the loop its sample_time, or the block 'every'"));
                 continue;
             };
