@@ -246,6 +246,10 @@ fn mistakes_are_shown_where_they_stand() {
         let helps: Vec<String> = diagnostics.diagnostics().iter().filter_map(|d| d.help.clone()).collect();
         assert!(help.is_empty() || helps.iter().any(|text| text.contains(help)), "{how}: {helps:?}");
     }
+    let misspelled = with("{ method = \"pwm\", edg = \"trailing\", dity = 0.5 }");
+    let Err(diagnostics) = Model::from_toml(&Source::new("model.toml", misspelled)) else { panic!("it is accepted") };
+    let codes: Vec<Code> = diagnostics.diagnostics().iter().map(|d| d.code).collect();
+    assert_eq!(codes, [Code::UnknownKey; 2], "a misspelled key is not missing as well");
     let direct = plant("[[-1]]", "[[1]]", "[[1]]\nD = [[1]]", "{ method = 'pwm', edge = 'trailing', duty = 0.5 }");
     let (_, warnings) = Model::from_toml(&Source::new("model.toml", direct)).unwrap();
     assert!(warnings.iter().any(|w| w.code == Code::FeedthroughWarning), "{warnings:?}");

@@ -105,7 +105,7 @@ fn from_table(entry: &Entry, table: &Table, reader: &mut Reader) -> Option<Discr
     }
     let mut part = |key: &str| table.get(key).and_then(|v| reader.expression(v, &format!("'{key}'")));
     let (sample_time, factor, prewarp, delay) = (part("T"), part("c"), part("prewarp"), part("delay"));
-    let pulses = if method.is_modulated() { pulses(entry, table, reader) } else { None };
+    let pulses = if method.is_modulated() { pulses(entry, table, &meant, reader) } else { None };
     if let Some(time) = table.entry("T").filter(|_| method.is_modulated()) {
         let help = "leave it out: there is one pulse in each sample time of the loop";
         reader.report(wrong("a modulator has no sample time of its own", time.key_span, "has no meaning here", help));

@@ -1,7 +1,7 @@
 //! `edge` and `duty` of a block behind a pulse-width modulator.
 
 use super::keys::{EDGES, HELD};
-use super::reader::{Reader, count};
+use super::reader::{Meant, Reader, count};
 use crate::error::{Code, Diagnostic};
 use crate::model::definition::{Block, Dynamics, Pulses};
 use crate::model::discretization::Edges;
@@ -10,8 +10,9 @@ use crate::model::text::toml_value::{Entry, Kind, Table, Value};
 use crate::model::text::{Expression, Node, Text};
 
 /// The pulses that a table with the method `pwm` says.
-pub(super) fn pulses(entry: &Entry, table: &Table, reader: &mut Reader) -> Option<Pulses> {
+pub(super) fn pulses(entry: &Entry, table: &Table, meant: &Meant, reader: &mut Reader) -> Option<Pulses> {
     let edges = match table.entry("edge") {
+        None if meant.includes("edge") => None,
         None => {
             let error =
                 Diagnostic::error(Code::Edge, "the modulator has no 'edge'").at(entry.key_span, "which edge moves?");
@@ -25,6 +26,7 @@ pub(super) fn pulses(entry: &Entry, table: &Table, reader: &mut Reader) -> Optio
         }
     };
     let duties = match table.entry("duty") {
+        None if meant.includes("duty") => None,
         None => {
             let error =
                 Diagnostic::error(Code::Duty, "the modulator has no 'duty'").at(entry.key_span, "how long is a pulse?");
