@@ -104,6 +104,10 @@ mod certified_boxes;
 mod certified_intervals;
 #[cfg(feature = "commands")]
 pub mod cli;
+#[cfg(feature = "cli")]
+mod references;
+#[cfg(feature = "cli")]
+pub use references::model_in_folder;
 
 /// Pages of documentation.
 pub mod _documentation {

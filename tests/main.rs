@@ -115,6 +115,14 @@ mod certificates {
     mod smt;
 }
 
+/// What models are expected to be, and numbers that they take from other files.
+mod expectations {
+    mod claims;
+    mod folder;
+    mod headers;
+    mod locks;
+}
+
 /// Responses and root loci in floating point, against exact answers.
 mod simulation {
     mod linear;

@@ -37,8 +37,8 @@ class Loop(StabilityQuestions, ResponseQuestions):
         raise TypeError("use Loop.from_file, Loop.from_toml, Loop.characteristic, LoopBuilder, from_control or from_sympy")
 
     @classmethod
-    def _read(cls, name: str, content: bytes, said: str | None = None) -> Loop:
-        core, remarks = _jurist.Model.read(name, content)
+    def _read(cls, name: str, content: bytes, said: str | None = None, folder: str | None = None) -> Loop:
+        core, remarks = _jurist.Model.read(name, content, folder)
         warn(remarks)
         return cls._of(core, said)
 
@@ -67,9 +67,10 @@ class Loop(StabilityQuestions, ResponseQuestions):
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> Loop:
-        """Reads a model file."""
+        """Reads a model file, with the numbers that it takes from files below its folder (``from = "params.h#PID_KP"``)."""
+        name = os.fspath(path)
         with open(path, "rb") as file:
-            return cls._read(os.fspath(path), file.read(), f"Loop.from_file({os.fspath(path)!r})")
+            return cls._read(name, file.read(), f"Loop.from_file({name!r})", os.path.dirname(name) or ".")
 
     @classmethod
     def drive(cls) -> Loop:

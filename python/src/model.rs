@@ -7,6 +7,7 @@ use jurist::cli::captured;
 use jurist::documents::{Intervals, Verdict, to_text};
 use jurist::{Answer, Budget, Error, PointVerdict, StableSet};
 use pyo3::prelude::*;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Codes and texts of warnings.
@@ -23,10 +24,16 @@ pub(crate) struct Model(Arc<jurist::Model>);
 
 #[pymethods]
 impl Model {
-    /// Reads a model file.
+    /// Reads a model file; numbers of other files are read below its folder, where it has one.
     #[staticmethod]
-    fn read(py: Python<'_>, name: String, content: Vec<u8>) -> PyResult<(Model, Warnings)> {
-        let read = move |_: &Budget| Ok(jurist::Model::from_bytes(&name, &content)?);
+    #[pyo3(signature = (name, content, folder = None))]
+    fn read(py: Python<'_>, name: String, content: Vec<u8>, folder: Option<PathBuf>) -> PyResult<(Model, Warnings)> {
+        let read = move |_: &Budget| {
+            Ok(match &folder {
+                Some(folder) => jurist::model_in_folder(&name, &content, folder)?,
+                None => jurist::Model::from_bytes(&name, &content)?,
+            })
+        };
         let (model, remarks) =
             waited(py, &Patience::unlimited(), read)?.map_err(|e| raised(py, e, About::Model, None))?;
         let remarks = warnings(&remarks, Some(model.source()));

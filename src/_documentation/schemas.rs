@@ -25,6 +25,7 @@ schemas! {
     intervals: "`jurist/intervals/1`, of `jurist intervals`.", "intervals-1";
     jury: "`jurist/jury/1`, of `jurist jury`.", "jury-1";
     locus: "`jurist/locus/1`, of `jurist locus`.", "locus-1";
+    lock: "`jurist/lock/1`, of `jurist lock`.", "lock-1";
     main: "`jurist/main/1`, of `jurist` without a command.", "main-1";
     map: "`jurist/map/1`, of `jurist map`.", "map-1";
     map_boxes: "`jurist/map-boxes/1`, of `jurist map --method boxes`.", "map-boxes-1";
@@ -33,6 +34,7 @@ schemas! {
     norm: "`jurist/norm/1`, of `jurist norm`.", "norm-1";
     root_locus_form: "`jurist/root-locus-form/1`, of `jurist charpoly --root-locus-form`.", "root-locus-form-1";
     simulate: "`jurist/simulate/1`, of `jurist simulate`.", "simulate-1";
+    test: "`jurist/test/1`, of `jurist test --json`.", "test-1";
     tolerance: "`jurist/tolerance/1`, of `jurist tolerance`.", "tolerance-1";
     transfer: "`jurist/transfer/1`, of `jurist charpoly --transfer`.", "transfer-1";
     verdict: "`jurist/verdict/1`, of `jurist verdict`.", "verdict-1";

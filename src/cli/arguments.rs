@@ -39,15 +39,19 @@ pub(super) const CAUSES: &str = "Causes of an end: z=1, z=-1, s=0, complex pair:
     degree is lost; pole: the model is undefined there (a division by zero, a block that loses its order, a loop that is \
     not well posed); domain: the parameter's domain ends. Several are joined by '+'.";
 
-/// What stands before and behind the plant of a loop in one line.
+/// How the model is read: what stands before and behind the plant of a loop in one line, and what other files say.
 #[derive(Args, Debug, Default, Clone, PartialEq)]
-pub(super) struct LineOptions {
+pub(super) struct ReadingOptions {
     /// MODEL is one line: a zero-order hold with the sample time T, a number or an expression, stands in front of the plant
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub hold: Option<String>,
     /// MODEL is one line: the plant has a dead time D, in units of time
     #[arg(long, value_name = "D", allow_hyphen_values = true)]
     pub delay: Option<String>,
+    /// Writes the model with the numbers that it takes from other files (`from`) in their place: what a certificate is about
+    #[cfg(feature = "cli")]
+    #[arg(long, value_name = "FILE")]
+    pub resolved: Option<OsString>,
 }
 
 /// The model and what is changed about it.
@@ -57,7 +61,7 @@ pub(super) struct ModelOptions {
     #[arg(value_name = "MODEL")]
     pub model: Option<OsString>,
     #[command(flatten)]
-    pub line: LineOptions,
+    pub line: ReadingOptions,
     /// Gives a parameter or constant another value, exactly: 545, 1e-4, 1/3 [repeatable]
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,

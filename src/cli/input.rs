@@ -1,12 +1,16 @@
 //! The model and the settings that a command is given.
 
-use super::arguments::{DecisionOptions, LineOptions, ModelOptions, RegionOptions};
+use super::arguments::{DecisionOptions, ModelOptions, ReadingOptions, RegionOptions};
 use super::assignments::{assignments, domains, in_line, plain_number};
 use super::captured;
 use super::commands::Context;
+#[cfg(feature = "cli")]
+use super::output::write_answer;
 use super::output::{note, plain};
-use jurist_engine::error::{Code, Diagnostic, Diagnostics, Error, Span};
-use jurist_engine::model::{LoopLine, Model};
+#[cfg(feature = "cli")]
+use crate::references::{Number, Resolved};
+use jurist_engine::error::{Code, Diagnostic, Diagnostics, Error, Source, Span};
+use jurist_engine::model::{LoopLine, Model, source_from_bytes};
 use jurist_engine::problem::{DECAY, Question, RADIUS, Region};
 use jurist_engine::show::layout::visible;
 use jurist_engine::stability::Range;
@@ -14,13 +18,14 @@ use std::ffi::{OsStr, OsString};
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Longer model files are refused.
 const MAX_MODEL_BYTES: u64 = 64 << 20;
 
 /// Reads the model and shows its warnings.
-pub(super) fn load(model: Option<&OsString>, line: &LineOptions, context: &Context) -> Result<Model, Error> {
-    if model.is_none() && *line == LineOptions::default() {
+pub(super) fn load(model: Option<&OsString>, line: &ReadingOptions, context: &Context) -> Result<Model, Error> {
+    if model.is_none() && *line == ReadingOptions::default() {
         return Ok(Model::drive());
     }
     if model.is_some_and(|path| path == "-")
@@ -34,7 +39,47 @@ pub(super) fn load(model: Option<&OsString>, line: &LineOptions, context: &Conte
         note("note: the line is taken for an open loop and closed with unity negative feedback");
     }
     context.warn(Some(model.source()), &warnings);
+    tell_numbers(&named.name, &named.numbers, line, context)?;
     Ok(model)
+}
+
+/// Says which numbers came from other files and how they were read; writes the model with them, where that is asked for.
+pub(super) fn tell_numbers(
+    name: &str,
+    numbers: &Numbers,
+    options: &ReadingOptions,
+    context: &Context,
+) -> Result<(), Error> {
+    #[cfg(feature = "cli")]
+    {
+        if let Some(file) = &options.resolved {
+            let whole = |path: &OsStr| Path::new(path).canonicalize().ok();
+            if whole(file).is_some_and(|file| whole(OsStr::new(name)) == Some(file)) {
+                let place = context.line.option_value("--resolved", &file.to_string_lossy()).span;
+                let error = Diagnostic::error(Code::Usage, "--resolved would write over the model itself");
+                return Err(in_line(context.line, vec![error.at(place, "the model").help("give another file")]).into());
+            }
+            write_answer(&numbers.file, Some(file))?;
+        } else if !numbers.said.is_empty() {
+            context.note_references();
+        }
+    }
+    #[cfg(not(feature = "cli"))]
+    let _ = (name, options);
+    if !context.quiet {
+        numbers.said.iter().for_each(|said| note(&format!("note: {said}")));
+    }
+    Ok(())
+}
+
+/// What a model takes from other files.
+#[derive(Default)]
+pub(super) struct Numbers {
+    /// A sentence for each number.
+    said: Vec<String>,
+    /// The model with all of them, as a file.
+    #[cfg(feature = "cli")]
+    file: String,
 }
 
 /// A model with the name that it was asked for by.
@@ -44,26 +89,54 @@ pub(super) struct NamedModel {
     pub read: Result<(Model, Vec<Diagnostic>), Diagnostics>,
     /// True of a line that is the transfer function of an open loop.
     is_open_loop: bool,
+    pub numbers: Numbers,
 }
 
 /// Reads a model file, a loop in one line, or the built-in drive.
-pub(super) fn read_model(model: Option<&OsString>, line: &LineOptions, context: &Context) -> Result<NamedModel, Error> {
+pub(super) fn read_model(
+    model: Option<&OsString>,
+    line: &ReadingOptions,
+    context: &Context,
+) -> Result<NamedModel, Error> {
     if let Some(text) = model.and_then(|text| loop_line(text)) {
         context.budget.step("reading the model");
         let read = LoopLine::read(text, line.hold.as_deref(), line.delay.as_deref());
         let is_open_loop = read.as_ref().is_ok_and(LoopLine::is_open_loop);
         let read = read.and_then(|line| line.model());
-        return Ok(NamedModel { name: text.to_owned(), read, is_open_loop });
+        return Ok(NamedModel { name: text.to_owned(), read, is_open_loop, numbers: Numbers::default() });
     }
     refuse_line_options(line, context)?;
     let (name, bytes) = read_file(model, context)?;
     context.budget.step("reading the model");
-    let read = Model::from_bytes(&name, &bytes);
-    Ok(NamedModel { name, read, is_open_loop: false })
+    let mut numbers = Numbers::default();
+    let read = source_from_bytes(&name, &bytes)
+        .and_then(|source| with_numbers(source, model, &mut numbers))
+        .and_then(|source| Model::from_toml(&source));
+    Ok(NamedModel { name, read, is_open_loop: false, numbers })
+}
+
+/// The text with the numbers of files below the model's folder: of the folder that the program runs in, for standard input.
+#[cfg(feature = "cli")]
+fn with_numbers(
+    source: Arc<Source>,
+    model: Option<&OsString>,
+    numbers: &mut Numbers,
+) -> Result<Arc<Source>, Diagnostics> {
+    let folder = model.map(Path::new).filter(|path| *path != Path::new("-")).and_then(Path::parent);
+    let folder = folder.filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let resolved = Resolved::of(&source, folder)?;
+    numbers.said = resolved.numbers.iter().map(Number::text).collect();
+    numbers.file = resolved.source.text.clone();
+    Ok(resolved.source)
+}
+
+#[cfg(not(feature = "cli"))]
+fn with_numbers(source: Arc<Source>, _: Option<&OsString>, _: &mut Numbers) -> Result<Arc<Source>, Diagnostics> {
+    Ok(source)
 }
 
 /// A hold and a delay stand in the model file itself.
-fn refuse_line_options(line: &LineOptions, context: &Context) -> Result<(), Error> {
+fn refuse_line_options(line: &ReadingOptions, context: &Context) -> Result<(), Error> {
     for (option, value) in [("--hold", &line.hold), ("--delay", &line.delay)] {
         if let Some(value) = value {
             let message = format!("{option} goes with a loop in one line, not with a model file");
@@ -262,7 +335,7 @@ fn check_name(model: &Model, name: &str, span: Span, wrong: &mut Vec<Diagnostic>
 /// The text of a model that a certificate is about: of a file, or of the model that a loop in one line means.
 pub(super) fn model_text(
     model: &OsString,
-    line: &LineOptions,
+    line: &ReadingOptions,
     context: &Context,
     most: u64,
 ) -> Result<Result<String, String>, Error> {

@@ -22,6 +22,8 @@ mod replace;
 mod requirements;
 mod status;
 #[cfg(feature = "cli")]
+mod suite;
+#[cfg(feature = "cli")]
 mod sweep;
 #[cfg(all(feature = "cli", not(target_family = "wasm")))]
 mod watch;

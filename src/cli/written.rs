@@ -48,17 +48,19 @@ pub(super) fn certify(
     file: &Option<OsString>,
     make: impl FnOnce() -> Result<String, Error>,
 ) -> Result<(), Error> {
-    let Some((text, file)) = certified(file, make)? else { return Ok(()) };
+    let Some((text, file)) = certified(context, file, make)? else { return Ok(()) };
     write_answer(&text, Some(file))?;
     check_certificate(context, options, model, &text, file);
     Ok(())
 }
 
 /// What a certificate is made of and the file for it, where one is asked for; why there is none is to be said after the answer.
-pub(super) fn certified<T>(
-    file: &Option<OsString>,
+pub(super) fn certified<'f, T>(
+    context: &Context,
+    file: &'f Option<OsString>,
     make: impl FnOnce() -> Result<T, Error>,
-) -> Result<Option<(T, &OsString)>, Error> {
+) -> Result<Option<(T, &'f OsString)>, Error> {
+    let make = || context.check_certifiable().and_then(|()| make());
     file.as_ref().map(|file| Ok((make()?, file))).transpose()
 }
 

@@ -1,9 +1,9 @@
 //! `jurist check`: only reads a model.
 
 use super::{Context, Runs};
-use crate::cli::arguments::{LineOptions, RunOptions};
+use crate::cli::arguments::{ReadingOptions, RunOptions};
 use crate::cli::destinations::Files;
-use crate::cli::input::{NamedModel, read_model};
+use crate::cli::input::{NamedModel, read_model, tell_numbers};
 use crate::cli::output::write_answer;
 use crate::cli::show;
 use crate::cli::status::{Outcome, Status};
@@ -22,7 +22,7 @@ pub(in crate::cli) struct Options {
     #[arg(value_name = "MODEL")]
     pub model: Option<OsString>,
     #[command(flatten)]
-    pub line: LineOptions,
+    pub line: ReadingOptions,
     /// Writes JSON
     #[arg(long)]
     pub json: bool,
@@ -55,7 +55,10 @@ impl Runs for Options {
 /// Every remark with its place; the status is 2 for a model that no question can be asked about, and 1 in a SARIF log of a loop that does
 /// not meet what its model requires.
 fn run(options: &Options, context: &Context) -> Outcome {
-    let NamedModel { name, read, .. } = read_model(options.model.as_ref(), &options.line, context)?;
+    let NamedModel { name, read, numbers, .. } = read_model(options.model.as_ref(), &options.line, context)?;
+    if read.is_ok() {
+        tell_numbers(&name, &numbers, &options.line, context)?;
+    }
     let mut unmet = Vec::new();
     let (source, diagnostics) = match read {
         Ok((model, warnings)) => {

@@ -115,7 +115,9 @@ fn run(options: &Options, context: &Context) -> Outcome {
     let document = || table.iter().fold(answer.json(digits), |document, t| document.with_sensitivities(t, digits));
     context.answer(output, text, document)?;
     // The answer is out, however long the certificate takes.
-    if let Some((certified, file)) = &certified(&options.certificate, || certify_intervals(&answer, &context.budget))? {
+    if let Some((certified, file)) =
+        &certified(context, &options.certificate, || certify_intervals(&answer, &context.budget))?
+    {
         write_answer(&certified.text, Some(file))?;
         if let Some(window) = certified.window.as_ref().filter(|_| !context.quiet) {
             note(&format!("note: the certificate {}", share(&name, window, &certified.proved)));

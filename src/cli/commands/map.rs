@@ -151,7 +151,7 @@ fn run(options: &Options, context: &Context) -> Outcome {
             if let Some(line) = map_boxes::window_note(&found, &boxes) {
                 note(&line);
             }
-            let certificate = certified(&options.certificate, || {
+            let certificate = certified(context, &options.certificate, || {
                 certify_boxes(&found, &context.budget.share(CERTIFICATE.0, CERTIFICATE.1))
             });
             if let Ok(Some((certified, file))) = &certificate {

@@ -11,6 +11,8 @@ pub(super) mod explain;
 mod frequency_response;
 pub(super) mod intervals;
 pub(super) mod jury;
+#[cfg(feature = "cli")]
+pub(super) mod lock;
 pub(super) mod locus;
 #[cfg(feature = "cli")]
 pub(super) mod main_job;
@@ -31,6 +33,8 @@ pub(super) mod report;
 pub(super) mod simulate;
 #[cfg(feature = "cli")]
 pub(super) mod sweep;
+#[cfg(feature = "cli")]
+pub(super) mod test;
 pub(super) mod tolerance;
 pub(super) mod verdict;
 pub(super) mod verify;
@@ -46,11 +50,12 @@ use super::status::{Error, Outcome, Status};
 use clap::Subcommand;
 use jurist_algebra::limits::{Budget, Exhausted, apart};
 use jurist_engine::coverage::Asked;
-use jurist_engine::error::{Diagnostic, Diagnostics, Source};
+use jurist_engine::error::{Code, Diagnostic, Diagnostics, Source};
 use jurist_engine::problem::Problem;
 use jurist_engine::show::documents::to_text;
 use jurist_engine::show::plan_text;
 use serde::Serialize;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// What every command is given besides its options.
@@ -65,6 +70,8 @@ pub(super) struct Context<'a> {
     pub quiet: bool,
     /// How questions are decided, where that is asked for.
     explained: Mutex<String>,
+    /// Whether the model takes numbers from other files and is not written with them.
+    has_references: AtomicBool,
 }
 
 impl<'a> Context<'a> {
@@ -76,7 +83,32 @@ impl<'a> Context<'a> {
         }
         let reporter = Reporter::new(options);
         let budget = captured::budget().unwrap_or_else(|| reporter.budget(options));
-        Context { line, reporter, budget, quiet: options.quiet, explained: Mutex::default() }
+        Context {
+            line,
+            reporter,
+            budget,
+            quiet: options.quiet,
+            explained: Mutex::default(),
+            has_references: AtomicBool::new(false),
+        }
+    }
+
+    /// Notes that the model takes numbers from other files and is not written with them.
+    #[cfg(feature = "cli")]
+    pub fn note_references(&self) {
+        self.has_references.store(true, Ordering::Relaxed);
+    }
+
+    /// Refuses a certificate about a text that nobody has.
+    pub fn check_certifiable(&self) -> Result<(), Error> {
+        if !self.has_references.load(Ordering::Relaxed) {
+            return Ok(());
+        }
+        let message = "a certificate is about the model's text, and this one takes numbers from other files";
+        let error = Diagnostic::error(Code::NoCertificate, message);
+        Err(error
+            .help("add --resolved FILE: it writes the model with these numbers, which the certificate is about then")
+            .into())
     }
 
     /// Whether what is written is handed over to another program.
@@ -287,6 +319,10 @@ commands! {
     paper: Paper in "cli";
     /// The page for the browser, with everything it computes with, as a folder of files
     page: Page in "cli";
+    /// Tries what models are expected to be: [[expect]], [require], locked limits
+    test: Test in "cli";
+    /// Holds the limits of a model fast, for 'jurist test'
+    lock: Lock in "cli";
     /// Re-checks a certificate against a model, with code that shares nothing with the engine
     #[command(
         mut_arg("timeout", |timeout| timeout.help("Rejects the certificate after this time, with exit status 4")),

@@ -1,7 +1,7 @@
 //! `jurist norm`: the peak gain of a closed-loop transfer function.
 
 use super::{Context, Runs, decided};
-use crate::cli::arguments::{ExplainOptions, LineOptions, ModelOptions, OutputOptions, RegionOptions, RunOptions};
+use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, ReadingOptions, RegionOptions, RunOptions};
 use crate::cli::destinations::Files;
 use crate::cli::input::{load, question};
 use crate::cli::status::{Error, Outcome, Status};
@@ -17,7 +17,7 @@ pub(in crate::cli) struct Options {
     #[arg(value_names = ["MODEL", "INPUT", "OUTPUT"], num_args = 2..=3, required = true)]
     pub names: Vec<OsString>,
     #[command(flatten)]
-    pub line: LineOptions,
+    pub line: ReadingOptions,
     /// Gives a parameter or constant another value, exactly: 545, 1e-4, 1/3 [repeatable]
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,

@@ -1,7 +1,7 @@
 //! `jurist sweep`: the same question at many points.
 
 use super::{Context, Runs};
-use crate::cli::arguments::{LineOptions, RunOptions};
+use crate::cli::arguments::{ReadingOptions, RunOptions};
 use crate::cli::assignments::{assignments, in_line};
 use crate::cli::destinations::Files;
 use crate::cli::input::{known_name, known_names, load};
@@ -28,7 +28,7 @@ pub(in crate::cli) struct Options {
     #[arg(value_name = "MODEL")]
     pub model: Option<OsString>,
     #[command(flatten)]
-    pub line: LineOptions,
+    pub line: ReadingOptions,
     /// The parameter whose stable set is asked for; left out: the verdict at each point [repeatable]
     #[arg(long, value_name = "NAME")]
     pub param: Vec<String>,

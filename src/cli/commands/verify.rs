@@ -1,7 +1,7 @@
 //! `jurist verify`: re-checks a certificate.
 
 use super::{Context, Runs};
-use crate::cli::arguments::{LineOptions, RunOptions};
+use crate::cli::arguments::{ReadingOptions, RunOptions};
 use crate::cli::destinations::Files;
 use crate::cli::input::{CERTIFICATE, model_text, read_text};
 use crate::cli::output::{note, write_answer};
@@ -21,7 +21,7 @@ pub(in crate::cli) struct Options {
     #[arg(value_name = "CERTIFICATE")]
     pub certificate: OsString,
     #[command(flatten)]
-    pub line: LineOptions,
+    pub line: ReadingOptions,
     #[command(flatten)]
     pub run: RunOptions,
 }

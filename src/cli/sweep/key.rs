@@ -1,7 +1,7 @@
 //! What a question of a sweep is known by.
 
-use super::sha256::sha256;
 use jurist_algebra::number::Rational;
+use jurist_check::sha256;
 
 /// The kind of rows.
 pub(in crate::cli) const SCHEMA: &str = "jurist/sweep/1";
@@ -23,10 +23,10 @@ impl Question {
     /// A hash of the kind of rows, the engine's version, the model file and the question: the same as in the Python package.
     pub fn key(&self, model: &str) -> String {
         let mut lines = vec![SCHEMA.to_owned(), env!("CARGO_PKG_VERSION").to_owned()];
-        lines.push(sha256(model.as_bytes()));
+        lines.push(sha256(model));
         lines.push(self.ask.clone());
         lines.extend(self.point.iter().map(|(name, value)| format!("{name}={value}")));
-        sha256(lines.join("\n").as_bytes())
+        sha256(&lines.join("\n"))
     }
 }
 

@@ -4,4 +4,3 @@ pub(super) mod file;
 pub(super) mod grid;
 pub(super) mod key;
 pub(super) mod rows;
-mod sha256;

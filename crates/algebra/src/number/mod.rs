@@ -4,6 +4,7 @@
 //! [`Integer`] and [`Rational`]. Conversions from and to `num-bigint` and `num-rational` stand at
 //! this edge.
 
+mod binary;
 mod convert;
 mod decimal;
 mod enclosure;
@@ -17,6 +18,7 @@ mod spaced;
 #[cfg(feature = "strategies")]
 pub mod strategies;
 
+pub use binary::BinaryFormat;
 pub use convert::DivisionByZero;
 pub use decimal::{enclosed_decimal, to_decimal, to_scientific};
 pub use enclosure::{Enclosure, to_decimal_refining};

@@ -1,6 +1,7 @@
 //! What a model says, as plain data.
 
 use super::discretization::{Edges, Method};
+use super::expectation::Expectation;
 use super::text::Expression;
 use super::tolerance::Tolerance;
 use crate::error::{Source, Span};
@@ -453,6 +454,7 @@ pub struct Model {
     pub(super) form: Form,
     pub(super) simulation: Simulation,
     pub(super) require: Vec<RequirementText>,
+    pub(super) expect: Vec<Expectation>,
     /// Positions of constants and parameters by name.
     pub(super) index: HashMap<String, Position>,
 }
@@ -530,6 +532,11 @@ impl Model {
     /// What is required of the loop beyond stability, as it is written.
     pub fn require(&self) -> &[RequirementText] {
         &self.require
+    }
+
+    /// What 'jurist test' is to find.
+    pub fn expectations(&self) -> &[Expectation] {
+        &self.expect
     }
 
     /// The unit of a signal, where the model names one.

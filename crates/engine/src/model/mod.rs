@@ -15,6 +15,7 @@ mod definition;
 mod discretization;
 mod evaluate;
 pub mod examples;
+mod expectation;
 mod free;
 mod in_numbers;
 mod loop_line;
@@ -26,6 +27,7 @@ mod read;
 mod symbols;
 pub(crate) mod text;
 pub(crate) mod tolerance;
+mod written;
 
 pub use builder::{BlockBuilder, ModelBuilder, ParameterBuilder};
 pub use closed_loop::{ClosedLoop, Evaluated, TransferFunction};
@@ -34,15 +36,17 @@ pub use definition::{
     Pwm, Rate, RequirementText, Simulation, Time,
 };
 pub use discretization::{Edges, Method};
+pub use expectation::{Claim, ClaimKind, Expectation};
 pub(crate) use in_numbers::InNumbers;
 pub use loop_line::LoopLine;
 pub(crate) use nominal::Nominal;
 pub use open_loop::Cut;
 pub(crate) use open_loop::{MoreDeadTime, Opened};
 pub(crate) use presupposed::{Presupposed, Presupposition};
-pub use read::{DRIVE, schema, source_from_bytes};
+pub use read::{DRIVE, Reference, schema, source_from_bytes};
 pub use symbols::{Definition, Meaning, Symbol, Symbols, value_approximate};
 pub(crate) use symbols::{beside, quotient_at};
 pub(crate) use text::names::shorten;
 pub use text::{Expression, Factor, Function, MAX_DEPTH, MAX_EXPONENT, Node, Sign, nearest_name};
 pub use tolerance::Tolerance;
+pub use written::Written;

@@ -5,6 +5,7 @@ use super::layout::Columns;
 use super::{real, region};
 use crate::answer::Answer;
 use crate::response::{Found, RequiredEnd, RequiredSet, Requirement, RequirementMet};
+use jurist_algebra::number::{Rational, parse_number};
 
 impl Answer<RequiredSet> {
     /// The set for people: the intervals, and a line for each end.
@@ -57,6 +58,17 @@ impl Answer<RequiredSet> {
 }
 
 impl RequirementMet {
+    /// How far the loop is from the required number, as a share of that: positive where it is met, rounded; `None` where there is no
+    /// bound, where it is about roots, and of a loop that is not stable.
+    pub fn margin_left(&self) -> Option<Rational> {
+        /// Significant digits that it is made of.
+        const DIGITS: usize = 12;
+        let found = parse_number(&self.value(DIGITS)?).ok()?;
+        let required = self.requirement.required_number(DIGITS)?;
+        let more = (&found - &required).checked_div(&required)?;
+        Some(if self.requirement.is_least() { more } else { -more })
+    }
+
     /// The margin that the loop has, rounded; `None` where there is no bound, and of a loop that is not stable.
     pub fn value(&self, digits: usize) -> Option<String> {
         let all = self.margins.as_ref()?;

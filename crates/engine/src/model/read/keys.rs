@@ -45,6 +45,8 @@ pub(super) enum Shape {
     Named(&'static Shape),
     /// A table with these keys.
     Table(&'static [Key]),
+    /// A table with these keys, or `true`.
+    TableOrFlag(&'static [Key]),
     /// A table with these keys, or one word.
     TableOrWord(&'static [Key]),
     /// A constant: a number, an expression, an array of rows, or a table.
@@ -90,7 +92,7 @@ pub(super) const EDGES: [&str; EDGE_LIST.len() + 1] = {
 pub(super) const HELD: &str = "hold";
 
 /// The whole file.
-pub(super) const MODEL: [Key; 9] = [
+pub(super) const MODEL: [Key; 10] = [
     key("title", Shape::Text, "what the loop is, for people"),
     needed(
         "time",
@@ -108,10 +110,49 @@ pub(super) const MODEL: [Key; 9] = [
     key("block", Shape::Tables(&BLOCK), "the blocks of a diagram, wired by the names of their signals"),
     key("simulation", Shape::Table(&SIMULATION), "defaults of a time response"),
     key("require", Shape::Table(&REQUIRE), "what is required of the loop beyond stability"),
+    key("expect", Shape::Tables(&EXPECT), "what 'jurist test' is to find"),
+];
+
+/// The words of an expected verdict.
+pub(super) const VERDICTS: [&str; 3] = ["stable", "marginal", "unstable"];
+
+/// The keys of `[[expect]]` that claim something.
+pub(super) const CLAIMS: [&str; 7] = ["verdict", "stable", "lower", "upper", "require", "tolerance", "certificate"];
+
+/// An entry `[[expect]]`.
+pub(super) const EXPECT: [Key; 13] = [
+    key("name", Shape::Text, "what it is called, for people"),
+    key("model", Shape::Text, "the model file; only in a file of expectations"),
+    key("set", Shape::Named(&Shape::Number), "values of parameters and constants; others are as in the model"),
+    key(
+        "cases",
+        Shape::Text,
+        "a table in CSV: each row has values of the names in its head, and everything is to hold for each",
+    ),
+    key("verdict", Shape::OneOf(&VERDICTS), "the verdict"),
+    key("param", Shape::Text, "the parameter that 'stable', 'lower' and 'upper' speak of"),
+    key(
+        "stable",
+        Shape::Interval,
+        "a range, both ends included, in which every value is stable; \"-inf\" and \"inf\" are no ends",
+    ),
+    key("lower", Shape::Number, "the lower end of the stable interval; \"-inf\" where there is none"),
+    key("upper", Shape::Number, "the upper end of the stable interval; \"inf\" where there is none"),
+    key("within", Shape::Number, "how far these ends may be away: a share such as \"1%\", or a width"),
+    key("require", Shape::TableOrFlag(&REQUIRE), "requirements beside those of the model, or true for these alone"),
+    key("tolerance", Shape::Number, "stable for all values within the model's tolerances, each widened by this factor"),
+    key("certificate", Shape::Text, "a certificate that is to be accepted for the model"),
+];
+
+/// A file of expectations.
+pub(super) const EXPECTATIONS: [Key; 3] = [
+    key("model", Shape::Text, "the model file of all that name none"),
+    key("cases", Shape::Text, "the operating points of all that name none"),
+    key("expect", Shape::Tables(&EXPECT), "what 'jurist test' is to find"),
 ];
 
 /// A parameter.
-pub(super) const PARAMETER: [Key; 8] = [
+pub(super) const PARAMETER: [Key; 10] = [
     key(
         "nominal",
         Shape::Expression,
@@ -124,14 +165,37 @@ pub(super) const PARAMETER: [Key; 8] = [
     key("unit", Shape::Text, "its unit, for people"),
     key("description", Shape::Text, "what it is, for people"),
     key("tolerance", Shape::Tolerance, "how far it may be from its nominal value"),
+    key(
+        "from",
+        Shape::Text,
+        "in the place of 'nominal': where the number stands, FILE#NAME; a C header, YAML or JSON below the model's folder",
+    ),
+    key(
+        "as",
+        Shape::OneOf(&READINGS),
+        "'decimal' takes a literal of C as it is written, not as the nearest float or double",
+    ),
 ];
 
+/// How literals are read.
+pub(super) const READINGS: [&str; 1] = ["decimal"];
+
 /// A constant with more than its value.
-pub(super) const CONSTANT: [Key; 4] = [
-    needed("value", Shape::Expression, "the value"),
+pub(super) const CONSTANT: [Key; 6] = [
+    key("value", Shape::Expression, "the value"),
     key("unit", Shape::Text, "its unit, for people"),
     key("description", Shape::Text, "what it is, for people"),
     key("tolerance", Shape::Tolerance, "how far it may be from its value, which is a number"),
+    key(
+        "from",
+        Shape::Text,
+        "in the place of 'value': where the number stands, FILE#NAME; a C header, YAML or JSON below the model's folder",
+    ),
+    key(
+        "as",
+        Shape::OneOf(&READINGS),
+        "'decimal' takes a literal of C as it is written, not as the nearest float or double",
+    ),
 ];
 
 /// The table of a tolerance.

@@ -5,7 +5,7 @@ use super::loop_forms::read_form;
 use super::reader::{Meant, NamedMatrix, Reader};
 use super::tolerance::read_tolerance;
 use super::{check_names, check_rules, check_values, rates};
-use super::{domain, nominal, require, simulation};
+use super::{domain, expect, nominal, references, require, simulation};
 use crate::error::{Code, Diagnostic, Diagnostics, Severity, Source, Span};
 use crate::model::definition::{Constant, Diagram, Form, Model, Name, Parameter, Time};
 use crate::model::evaluate::work::constant_value;
@@ -131,6 +131,7 @@ fn read_model(root: &Table, source: &Arc<Source>, reader: &mut Reader) -> Option
     let form = read_form(root, &meant, time.unwrap_or(Time::Discrete), sample_time.as_ref(), reader);
     let simulation = simulation::read(root, reader);
     let require = require::read(root, reader);
+    let expect = expect::of_model(root, source, reader);
     let mut index = HashMap::new();
     check_names::definitions(&constants, &parameters, time.unwrap_or(Time::Discrete), &mut index, reader);
     let order = check_names::order(&constants, &parameters, &index, reader);
@@ -147,6 +148,7 @@ fn read_model(root: &Table, source: &Arc<Source>, reader: &mut Reader) -> Option
         form: form.clone().unwrap_or(Form::Blocks(Diagram { inputs: vec![], outputs: vec![], blocks: vec![] })),
         simulation,
         require,
+        expect,
         index,
     };
     let form_is_broken = form.is_none();
@@ -160,6 +162,7 @@ fn read_model(root: &Table, source: &Arc<Source>, reader: &mut Reader) -> Option
         check_values::values(&model, reader);
         check_values::sample_time(&model, reader);
         check_rules::rules(&model, reader);
+        model.expect.iter().for_each(|expectation| reader.diagnostics.extend(expectation.unknown_names(&model)));
         nominal::values(&mut model, reader);
     }
     model.form = form?;
@@ -213,6 +216,10 @@ fn read_constants(root: &Table, reader: &mut Reader) -> Vec<Constant> {
                 let tolerance = read_tolerance(table, reader);
                 reader.plain_string(table, "unit");
                 reader.plain_string(table, "description");
+                if references::is_left(table, reader) {
+                    reader.refused.insert(name.name);
+                    continue;
+                }
                 let Some(value) = table.get("value") else {
                     let error = Diagnostic::error(Code::Missing, format!("{what} has no 'value'"));
                     reader.report(error.at(entry.value.span, "a table without a value"));
@@ -277,6 +284,7 @@ fn read_parameters(root: &Table, reader: &mut Reader) -> Vec<Parameter> {
 
 fn read_parameter(table: &Table, parameter: &mut Parameter, reader: &mut Reader) {
     reader.unknown_keys(table, &keys::PARAMETER, "a parameter");
+    references::is_left(table, reader);
     if let Some(value) = table.get("nominal") {
         nominal::read(value, parameter, "'nominal'", reader);
     }

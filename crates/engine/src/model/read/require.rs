@@ -8,7 +8,11 @@ use crate::model::text::toml_value::{Kind, Table};
 
 /// Reads the section, if there is one.
 pub(super) fn read(root: &Table, reader: &mut Reader) -> Vec<RequirementText> {
-    let Some(table) = section(root, "require", reader) else { return Vec::new() };
+    section(root, "require", reader).map(|table| texts(table, reader)).unwrap_or_default()
+}
+
+/// The requirements of a table.
+pub(super) fn texts(table: &Table, reader: &mut Reader) -> Vec<RequirementText> {
     reader.unknown_keys(table, &keys::REQUIRE, "[require]");
     let mut out = Vec::new();
     for entry in table.iter().filter(|e| keys::REQUIRE.iter().any(|key| key.name == e.key)) {

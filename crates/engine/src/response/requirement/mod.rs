@@ -27,7 +27,7 @@ use crate::error::{Code, Diagnostic, Error};
 use crate::model::Time;
 use crate::problem::Region;
 use jurist_algebra::limits::Budget;
-use jurist_algebra::number::{Enclosure, Rational};
+use jurist_algebra::number::{Enclosure, Rational, parse_number};
 use jurist_algebra::poly::RealAlgebraic;
 use jurist_algebra::real::Real;
 
@@ -181,6 +181,18 @@ impl Requirement {
     /// `phase_margin >= 45 deg`.
     pub fn text(&self) -> String {
         format!("{} {} {}", self.name(), self.kind.sense, self.asked)
+    }
+
+    /// The required number in the unit of the loop's own: a factor, degrees, a dead time; rounded where it is not rational. `None` of
+    /// roots.
+    pub(crate) fn required_number(&self, digits: usize) -> Option<Rational> {
+        match &self.rule {
+            Rule::Factors(factor) => parse_number(&factor.decimal(digits)).ok(),
+            Rule::Turned { .. } => parse_number(self.kind.split(&self.asked).0).ok(),
+            Rule::Circle(circle) => Some(circle.asked().clone()),
+            Rule::DeadTime(least) => Some(least.clone()),
+            Rule::Sector(_) | Rule::Modulus { .. } => None,
+        }
     }
 
     pub(crate) fn rule(&self) -> &Rule {

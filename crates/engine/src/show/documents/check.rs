@@ -114,13 +114,19 @@ impl Check {
     /// assert_eq!(log["runs"][0]["results"].as_array().unwrap().len(), 0);
     /// ```
     pub fn sarif(&self) -> Value {
-        let used: BTreeSet<&str> = self.diagnostics.iter().map(|d| d.code.as_str()).collect();
+        Check::sarif_of(std::slice::from_ref(self))
+    }
+
+    /// The remarks on several files as one log.
+    pub fn sarif_of(checks: &[Check]) -> Value {
+        let used: BTreeSet<&str> = checks.iter().flat_map(|c| &c.diagnostics).map(|d| d.code.as_str()).collect();
         let rule = |(code, text): (Code, String)| {
             let short = text.split("\n\n").next().unwrap_or_default().replace('\n', " ");
             json!({ "id": code.as_str(), "shortDescription": { "text": short }, "fullDescription": { "text": text } })
         };
         let rules: Vec<Value> = codes().filter(|(code, _)| used.contains(code.as_str())).map(rule).collect();
-        let results: Vec<Value> = self.diagnostics.iter().map(|d| self.sarif_result(d)).collect();
+        let results: Vec<Value> =
+            checks.iter().flat_map(|check| check.diagnostics.iter().map(|d| check.sarif_result(d))).collect();
         json!({
             "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
             "version": "2.1.0",

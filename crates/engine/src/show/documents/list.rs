@@ -1,8 +1,8 @@
 //! The kinds of documents: one list, of which the published schemas are made, and by which a document is read.
 
 use super::{
-    Analysis, Body, Charpoly, Check, Intervals, Jury, Map, MapBoxes, Margins, Norm, RootLocusForm, Tolerance, Transfer,
-    Verdict,
+    Analysis, Body, Charpoly, Check, Intervals, Jury, Lock, Map, MapBoxes, Margins, Norm, RootLocusForm, Test,
+    Tolerance, Transfer, Verdict,
 };
 use serde_json::{Error, Value, from_value, to_value};
 
@@ -46,11 +46,13 @@ documents! {
     Check: "jurist/check/1",
     Intervals: "jurist/intervals/1",
     Jury: "jurist/jury/1",
+    Lock: "jurist/lock/1",
     Map: "jurist/map/1",
     MapBoxes: "jurist/map-boxes/1",
     Margins: "jurist/margins/1",
     Norm: "jurist/norm/1",
     RootLocusForm: "jurist/root-locus-form/1",
+    Test: "jurist/test/1",
     Tolerance: "jurist/tolerance/1",
     Transfer: "jurist/transfer/1",
     Verdict: "jurist/verdict/1",

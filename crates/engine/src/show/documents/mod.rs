@@ -24,6 +24,7 @@ mod end;
 mod intervals;
 mod jury;
 mod list;
+mod lock;
 mod map;
 mod margins;
 mod norm;
@@ -35,6 +36,7 @@ mod required_map;
 mod requirements;
 #[cfg(feature = "schema")]
 pub mod schemas;
+mod test;
 mod tolerance;
 mod undecided;
 mod verdict;
@@ -56,6 +58,7 @@ pub use jury::{
     SolvedTable, TableInParameter, TableKind, TableOpen,
 };
 pub use list::{NAMES, through_its_type};
+pub use lock::{Lock, LockName, LockedLimits};
 pub use map::{
     Branch, Cell, CellVerdict, Curve, CurveTerm, Map, MapName, MapOpen, MapQuestion, Pair, Place, PlaneRegion,
     RegionEnd, RegionLimit, Regions, Strip, Wall,
@@ -71,6 +74,7 @@ pub use plan::{Plan, PlannedMethod};
 pub use question::{ClosedEnds, Hyperperiod, ParameterQuestion, PointQuestion, RegionBound};
 pub use required_map::{RequiredCell, RequiredInPlane, RequiredRegion, RequiredSetOfRegions, RequiredStrip};
 pub use requirements::{RequirementAsked, RequirementFound};
+pub use test::{Test, TestName, TestStatus, Tested, TestedFile};
 pub use tolerance::{
     Factor, LimitRange, RequirementOverBox, Tolerance, ToleranceFound, ToleranceName, ToleranceOpen, ToleranceVerdict,
     VolumeShares, WitnessPoint, WorstPoint,

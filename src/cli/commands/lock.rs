@@ -1,0 +1,109 @@
+//! `jurist lock`: holds the limits of a model fast.
+
+use super::{Context, Runs};
+use crate::cli::arguments::{ReadingOptions, RunOptions};
+use crate::cli::assignments::in_line;
+use crate::cli::destinations::Files;
+use crate::cli::input::{known_names, load};
+use crate::cli::output::{finish_answer, note};
+use crate::cli::status::{Error, Outcome, Status};
+use crate::cli::suite::lock::{file_of, limits, make};
+use clap::Args;
+use jurist_algebra::number::Rational;
+use jurist_engine::error::{Code, Diagnostic};
+use jurist_engine::model::{Model, Tolerance};
+use jurist_engine::show::documents::to_text;
+use std::ffi::OsString;
+use std::path::Path;
+
+/// Options of `jurist lock`.
+#[derive(Args, Debug)]
+pub(in crate::cli) struct Options {
+    /// A model file
+    #[arg(value_name = "MODEL")]
+    pub model: OsString,
+    #[command(flatten)]
+    pub line: ReadingOptions,
+    /// Locks the limits of this parameter; left out: of every parameter of the model whose limits are known [repeatable]
+    #[arg(long, value_name = "NAME")]
+    pub param: Vec<String>,
+    /// By how much a limit may move until 'jurist test' fails
+    #[arg(long, value_name = "SHARE", default_value = "0.1%")]
+    pub within: String,
+    /// The file; left out it stands beside the model, as MODEL.lock.json, where 'jurist test' looks for it
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<OsString>,
+    #[command(flatten)]
+    pub run: RunOptions,
+}
+
+impl Runs for Options {
+    fn run(&self, context: &Context) -> Outcome {
+        run(self, context)
+    }
+
+    fn run_options(&self) -> &RunOptions {
+        &self.run
+    }
+
+    fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
+        files.inputs.push(("the model", self.model.as_os_str()));
+        files.answer(self.output.as_ref());
+        Ok(())
+    }
+}
+
+/// Writes the lock; parameters whose limits are not known are told of and left out, but where one was named.
+fn run(options: &Options, context: &Context) -> Outcome {
+    let within = match options.within.parse::<Tolerance>() {
+        Ok(Tolerance::Share { above, .. }) if above.sign().is_gt() => above,
+        _ => {
+            let place = context.line.option_value("--within", &options.within).span;
+            let error = Diagnostic::error(Code::OptionValue, "--within expects a share above 0");
+            return Err(
+                in_line(context.line, vec![error.at(place, "not accepted").help("for example --within 0.5%")]).into()
+            );
+        }
+    };
+    let model = load(Some(&options.model), &options.line, context)?;
+    if options.output.is_none() && !Path::new(&options.model).is_file() {
+        let error = Diagnostic::error(Code::Usage, "a lock stands beside a model file, and this model is not one");
+        let place = context.line.argument(&options.model.to_string_lossy()).unwrap_or_default();
+        return Err(in_line(context.line, vec![error.at(place, "no file").help("say where it goes: -o FILE")]).into());
+    }
+    known_names(context, &model, "--param", &options.param)?;
+    let path = Path::new(&options.model);
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let lock = match options.param.as_slice() {
+        [] => of_all(&model, &name, &within, context)?,
+        named => make(&model, &name, named, &within, &context.budget)?,
+    };
+    context.reporter.finish();
+    if lock.limits.is_empty() {
+        return Err(Diagnostic::error(Code::Missing, "no limit of this model is known that could be locked").into());
+    }
+    let file = options.output.clone().unwrap_or_else(|| file_of(path).into_os_string());
+    finish_answer(&to_text(&lock), Some(&file))?;
+    Ok(Status::Holds)
+}
+
+/// Work for the limits of one parameter that nobody named.
+const WORK_OF_ONE: u64 = 2_000_000_000;
+
+fn of_all(
+    model: &Model,
+    name: &str,
+    within: &Rational,
+    context: &Context,
+) -> Result<jurist_engine::show::documents::Lock, Error> {
+    let mut lock = make(model, name, &[], within, &context.budget)?;
+    for parameter in model.parameters() {
+        let budget = context.budget.clone().within_work(WORK_OF_ONE);
+        match limits(model, &parameter.name, &budget) {
+            Ok(found) => lock.limits.push(found),
+            Err(_) if context.budget.check().is_err() => context.budget.check()?,
+            Err(error) => note(&format!("note: the limits of {} are not locked: {error}", parameter.name)),
+        }
+    }
+    Ok(lock)
+}

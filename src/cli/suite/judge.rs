@@ -1,0 +1,312 @@
+//! Whether a claim about a loop holds, and by how much.
+
+use super::{Line, percent};
+use crate::cli::status::Error;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::{Rational, parse_number};
+use jurist_check::{Limits, check};
+use jurist_engine::answer::ToleranceRequest;
+use jurist_engine::error::{Code, Diagnostic};
+use jurist_engine::model::{ClaimKind, Model, RequirementText, Tolerance};
+use jurist_engine::problem::Question;
+use jurist_engine::show::documents::TestStatus;
+use jurist_engine::show::layout::short;
+use jurist_engine::stability::{Cause, End, StableInterval, StableSet};
+use std::path::Path;
+
+/// Digits of numbers in what was found.
+const DIGITS: usize = 6;
+
+/// Digits of the distance to an end.
+const DISTANCE_DIGITS: usize = 15;
+
+/// Values by name.
+pub(in crate::cli) type Point = Vec<(String, Rational)>;
+
+/// The lines of a claim: one, but of requirements one each.
+pub(super) fn judge(claim: &ClaimKind, model: &Model, point: &Point, folder: &Path, budget: &Budget) -> Vec<Line> {
+    let found = match claim {
+        ClaimKind::Require(further) => requirements(further, model, point, budget),
+        other => one(other, model, point, folder, budget).map(|line| vec![line]),
+    };
+    found.unwrap_or_else(|error| vec![failure(words(claim), error)])
+}
+
+/// What a claim says.
+pub(super) fn words(claim: &ClaimKind) -> String {
+    let number = |x: &Option<Rational>, none: &str| x.as_ref().map_or_else(|| none.to_owned(), short);
+    match claim {
+        ClaimKind::Verdict(word) => format!("verdict {word}"),
+        ClaimKind::Stable { param, low, high } => match (low, high) {
+            (None, None) => format!("stable for every {}", param.name),
+            (Some(low), None) => format!("stable for {} >= {}", param.name, short(low)),
+            (None, Some(high)) => format!("stable for {} <= {}", param.name, short(high)),
+            (Some(low), Some(high)) => format!("stable for {} <= {} <= {}", short(low), param.name, short(high)),
+        },
+        ClaimKind::Limit { param, is_upper, value, within } => {
+            let side = if *is_upper { "upper" } else { "lower" };
+            let expected = number(value, if *is_upper { "inf" } else { "-inf" });
+            let within = match within {
+                _ if value.is_none() => String::new(),
+                Tolerance::Width(width) => format!(" within {}", short(width)),
+                Tolerance::Share { above, .. } => format!(" within {}", percent(above)),
+                Tolerance::Range { .. } => String::new(),
+            };
+            format!("{side} limit of {} is {expected}{within}", param.name)
+        }
+        ClaimKind::Require(_) => "requirements".to_owned(),
+        ClaimKind::Tolerance(factor) if factor.is_one() => "stable within all tolerances".to_owned(),
+        ClaimKind::Tolerance(factor) => format!("stable within {} times all tolerances", short(factor)),
+        ClaimKind::Certificate(file) => format!("certificate {file}"),
+    }
+}
+
+/// The line of a claim without an answer.
+pub(super) fn failure(name: String, error: Error) -> Line {
+    match error {
+        Error::Stopped(stopped) => Line::new(name, TestStatus::Undecided, stopped.to_string()),
+        Error::Refused(refused) => {
+            // A picture of the place would not fit into a line.
+            let said = refused.diagnostics().iter().map(|d| {
+                let label = d.primary.as_ref().map(|l| l.text.as_str()).filter(|text| !text.is_empty());
+                let label = label.map(|label| format!(" ({label})")).unwrap_or_default();
+                format!("{}: {}{label}", d.code, d.message)
+            });
+            Line::new(name, TestStatus::Error, said.collect::<Vec<_>>().join("; "))
+        }
+        other => Line::new(name, TestStatus::Error, other.to_string()),
+    }
+}
+
+fn asked(model: &Model, point: &Point) -> Question {
+    model.ask().set_all(point.iter().map(|(name, value)| (name.clone(), value.clone())))
+}
+
+fn one(claim: &ClaimKind, model: &Model, point: &Point, folder: &Path, budget: &Budget) -> Result<Line, Error> {
+    let name = words(claim);
+    match claim {
+        ClaimKind::Verdict(expected) => {
+            let found = asked(model, point).verdict(budget)?;
+            let document = found.json();
+            let document = serde_json::to_value(&document).unwrap_or_default();
+            let count = |key: &str| document[key].to_string();
+            let word = document["verdict"].as_str().unwrap_or_default().to_owned();
+            let place = format!("{word}: {} of {} roots inside", count("inside"), count("degree"));
+            Ok(Line::new(name, passed_if(word == *expected), place))
+        }
+        ClaimKind::Stable { param, low, high } => {
+            let set = stable_set(model, point, &param.name, budget)?;
+            Ok(in_range(name, &set, low.as_ref(), high.as_ref()))
+        }
+        ClaimKind::Limit { param, is_upper, value, within } => {
+            let set = stable_set(model, point, &param.name, budget)?;
+            let nominal = asked(model, point).nominal(&param.name)?;
+            let nominal = nominal.or_else(|| model.constant(&param.name)?.number.clone());
+            Ok(limit(name, &set, *is_upper, value.as_ref(), within, nominal.as_ref()))
+        }
+        ClaimKind::Tolerance(factor) => tolerance(name, factor, model, point, budget),
+        ClaimKind::Certificate(file) => certificate(name, &folder.join(file), model),
+        ClaimKind::Require(_) => unreachable!("requirements have lines of their own"),
+    }
+}
+
+fn passed_if(holds: bool) -> TestStatus {
+    if holds { TestStatus::Passed } else { TestStatus::Failed }
+}
+
+fn stable_set(model: &Model, point: &Point, name: &str, budget: &Budget) -> Result<StableSet, Error> {
+    let question = asked(model, point).without_value(name).free(name);
+    Ok(question.stable_set(budget)?.value().clone())
+}
+
+/// The intervals of a set in words.
+fn shown(set: &StableSet) -> String {
+    let end = |end: &Option<End>, none: &str| end.as_ref().map_or_else(|| none.to_owned(), |e| e.value.decimal(DIGITS));
+    let interval = |i: &StableInterval| format!("{} to {}", end(&i.lower, "-inf"), end(&i.upper, "inf"));
+    match set.intervals() {
+        [] => "stable nowhere".to_owned(),
+        intervals => format!("stable from {}", intervals.iter().map(interval).collect::<Vec<_>>().join(", and from ")),
+    }
+}
+
+/// The distance from a value to an end in units of the greater of both; positive on the stable side of an upper end.
+fn distance(value: &Rational, end: &End, is_upper: bool) -> Option<Rational> {
+    let exact = end.value.exact().or_else(|| parse_number(&end.value.decimal(DISTANCE_DIGITS)).ok())?;
+    let size = value.abs().max(exact.abs());
+    let distance = if is_upper { &exact - value } else { value - &exact };
+    if distance.is_zero() { Some(distance) } else { distance.checked_div(&size) }
+}
+
+/// Whether a bound of a range is on the stable side of an end.
+fn is_within(bound: Option<&Rational>, end: Option<&End>, is_upper: bool) -> bool {
+    match (bound, end) {
+        (_, None) => true,
+        // A range without an end goes as far as the domain does.
+        (None, Some(end)) => end.causes.contains(Cause::Domain),
+        (Some(bound), Some(end)) => {
+            let order = end.value.compare_rational(bound);
+            order.is_eq() && end.closed || if is_upper { order.is_gt() } else { order.is_lt() }
+        }
+    }
+}
+
+fn in_range(name: String, set: &StableSet, low: Option<&Rational>, high: Option<&Rational>) -> Line {
+    let holds =
+        |i: &&StableInterval| is_within(low, i.lower.as_ref(), false) && is_within(high, i.upper.as_ref(), true);
+    let text = shown(set);
+    if let Some(interval) = set.intervals().iter().find(holds) {
+        let sides = [(low, &interval.lower, false), (high, &interval.upper, true)];
+        let left = sides.into_iter().filter_map(|(bound, end, is_upper)| distance(bound?, end.as_ref()?, is_upper));
+        return Line::new(name, TestStatus::Passed, text).with_margin(left.min());
+    }
+    let is_open = set.undecided().iter().any(|bracket| {
+        let below = |a: Option<&Rational>, b: Option<&Rational>| a.is_none() || b.is_none() || a <= b;
+        below(low, bracket.upper.as_ref()) && below(bracket.lower.as_ref(), high)
+    });
+    if is_open {
+        let text = format!("{text}; not everything in this range is decided");
+        return Line::new(name, TestStatus::Undecided, text);
+    }
+    // How far the worst end is inside of the range, against the interval that leaves out the least.
+    let missing = |i: &StableInterval| {
+        let sides = [(low, &i.lower, false), (high, &i.upper, true)];
+        sides.into_iter().filter_map(|(bound, end, is_upper)| distance(bound?, end.as_ref()?, is_upper)).min()
+    };
+    let margin = set.intervals().iter().filter_map(missing).max().filter(|m| !m.sign().is_gt());
+    Line::new(name, TestStatus::Failed, text).with_margin(margin)
+}
+
+fn limit(
+    name: String,
+    set: &StableSet,
+    is_upper: bool,
+    expected: Option<&Rational>,
+    within: &Tolerance,
+    nominal: Option<&Rational>,
+) -> Line {
+    let end = |i: &'_ StableInterval| if is_upper { i.upper.clone() } else { i.lower.clone() };
+    let around = nominal.and_then(|x| set.intervals().iter().find(|i| i.contains(x)));
+    let ends: Vec<Option<End>> = match (around, set.intervals()) {
+        (Some(interval), _) => vec![end(interval)],
+        (None, intervals) => intervals.iter().map(end).collect(),
+    };
+    // Where no end is expected, none is the nearest.
+    let far = |end: &Option<End>| (end.is_none() == expected.is_some(), moved(end.as_ref(), expected));
+    let Some(nearest) = ends.into_iter().min_by_key(far) else {
+        let is_open = !set.undecided().is_empty();
+        let status = if is_open { TestStatus::Undecided } else { TestStatus::Failed };
+        return Line::new(name, status, shown(set));
+    };
+    let text = nearest
+        .as_ref()
+        .map_or_else(|| "there is none".to_owned(), |end| format!("is {} ({})", end.value.decimal(DIGITS), end.causes));
+    if nearest.as_ref().is_some_and(|end| end.causes.contains(Cause::Undecided)) {
+        return Line::new(name, TestStatus::Undecided, format!("{text}; beyond, nothing is decided"));
+    }
+    let (Some(end), Some(expected)) = (&nearest, expected) else {
+        let is_domain = |end: &End| end.causes.contains(Cause::Domain);
+        let none = nearest.as_ref().is_none_or(is_domain);
+        return Line::new(name, passed_if(none && expected.is_none()), text);
+    };
+    let Ok([below, above]) = within.widths(expected) else {
+        return Line::new(name, TestStatus::Error, "no distance follows from 'within'");
+    };
+    let (low, high) = (expected - &below, expected + &above);
+    let holds = end.value.compare_rational(&low).is_ge() && end.value.compare_rational(&high).is_le();
+    let moved = moved(Some(end), Some(expected)).unwrap_or(Rational::ZERO);
+    let allowed = below.max(above);
+    let left = moved.checked_div(&allowed).map(|used| Rational::ONE - used);
+    let text = match moved.checked_div(&expected.abs()) {
+        Some(share) if !share.is_zero() => format!("{text}, moved by {}", percent(&share)),
+        _ => text,
+    };
+    Line::new(name, passed_if(holds), text).with_margin(left)
+}
+
+/// How far an end is from where it is expected; `None` where one of them is infinite.
+fn moved(end: Option<&End>, expected: Option<&Rational>) -> Option<Rational> {
+    let end = &end?.value;
+    let exact = end.exact().or_else(|| parse_number(&end.decimal(DISTANCE_DIGITS)).ok())?;
+    Some((&exact - expected?).abs())
+}
+
+fn requirements(
+    further: &[RequirementText],
+    model: &Model,
+    point: &Point,
+    budget: &Budget,
+) -> Result<Vec<Line>, Error> {
+    let values = asked(model, point).problem()?.set().to_vec();
+    let further: Vec<(&str, &str)> = further.iter().map(|r| (r.name.as_str(), r.text.as_str())).collect();
+    let required = model.requirements(&further, &values, budget)?;
+    if required.is_empty() {
+        let error = Diagnostic::error(Code::Require, "nothing is required: the model has no [require]");
+        return Err(error.help("name the requirements here: require = { phase_margin = \"45 deg\" }").into());
+    }
+    let mut question = asked(model, point);
+    if let Some(region) = required.region.clone() {
+        question = question.within(region);
+    }
+    let problem = question.problem()?;
+    let mut lines = Vec::new();
+    for met in problem.requirements_met(&required.list, required.at.as_deref(), budget)? {
+        let found = met.value(DIGITS);
+        let text = match (found, met.met) {
+            (Some(value), _) => format!("is {value}"),
+            (None, true) => "met".to_owned(),
+            (None, false) => "not met".to_owned(),
+        };
+        lines.push(Line::new(met.requirement.text(), passed_if(met.met), text).with_margin(met.margin_left()));
+    }
+    if !required.regional.is_empty() {
+        let found = problem.verdict(budget)?.json();
+        let word = serde_json::to_value(&found).unwrap_or_default()["verdict"].as_str().unwrap_or_default().to_owned();
+        for (name, text) in &required.regional {
+            let holds = word == "stable";
+            lines.push(Line::new(format!("{name} {text}"), passed_if(holds), if holds { "met" } else { "not met" }));
+        }
+    }
+    Ok(lines)
+}
+
+fn tolerance(name: String, factor: &Rational, model: &Model, point: &Point, budget: &Budget) -> Result<Line, Error> {
+    /// The bracket of the largest factor is no wider, as a share.
+    const GAP: i64 = 10_000;
+    let request = ToleranceRequest::of_model(model).gap(Rational::new(1.into(), GAP.into()));
+    let answer = asked(model, point).tolerance(&request, budget)?;
+    let Some(found) = &answer.value().factor else {
+        let is_stable = answer.value().decision.is_stable();
+        let (status, text) = match is_stable {
+            true if *factor <= Rational::ONE => (TestStatus::Passed, "stable within the tolerances"),
+            true => (TestStatus::Undecided, "stable within the tolerances; how much further was not decided"),
+            false => (TestStatus::Failed, "not stable within the tolerances"),
+        };
+        return Ok(Line::new(name, status, text));
+    };
+    let proved = short_digits(&found.lower);
+    let (status, text) = match &found.upper {
+        _ if found.lower >= *factor => (TestStatus::Passed, format!("proved up to {proved} times the tolerances")),
+        Some(upper) if upper <= factor => (
+            TestStatus::Failed,
+            format!("proved up to {proved} times the tolerances, not at {} times", short_digits(upper)),
+        ),
+        _ => (TestStatus::Undecided, format!("proved up to {proved} times the tolerances")),
+    };
+    let left = (&found.lower - factor).checked_div(factor);
+    Ok(Line::new(name, status, text).with_margin(left))
+}
+
+fn short_digits(x: &Rational) -> String {
+    jurist_algebra::number::to_decimal(x, DIGITS)
+}
+
+fn certificate(name: String, path: &Path, model: &Model) -> Result<Line, Error> {
+    let text = match std::fs::read_to_string(path) {
+        Ok(text) => text,
+        Err(error) => return Ok(Line::new(name, TestStatus::Error, format!("cannot be read: {error}"))),
+    };
+    Ok(match check(&model.source().text, &text, &Limits::default()) {
+        Ok(proved) => Line::new(name, TestStatus::Passed, format!("proves: {}", proved.statement)),
+        Err(rejection) => Line::new(name, TestStatus::Failed, rejection.to_string()),
+    })
+}

@@ -1,0 +1,65 @@
+//! `jurist lock`: limits that moved, and because of which number.
+
+use super::folder::Folder;
+
+fn model(c: &str, d: &str, transfer: &str) -> String {
+    format!(
+        "time = 'discrete'\n[constants]\nc = {c}\nd = {{ value = {d} }}\ne = 'c*d'\n[parameters]\nK = {{ nominal = 0.5 }}\n\
+         [loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\ninput = 'r - y'\noutput = 'y'\ntransfer = '{transfer}'\n"
+    )
+}
+
+#[test]
+fn a_limit_that_moved_names_the_number_that_moved_it() {
+    let folder = Folder::new(&[("loop.toml", &model("1", "2", "e*K/(z - 1)"))]);
+    let run = folder.jurist(&["lock", "loop.toml", "--within", "1%"]);
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let line = |run: &crate::helpers::program::Run| run.stdout.lines().nth(1).unwrap_or_default().to_owned();
+    assert_eq!(line(&folder.jurist(&["test", "loop.toml"])), "  passed    locked limits of K: not moved");
+    // 1/(c d): c moves it by a fifth, d does not reach a hundredth.
+    folder.write("loop.toml", &model("1.25", "2.01", "e*K/(z - 1)"));
+    let run = folder.jurist(&["test", "."]);
+    assert_eq!(run.status, 1, "{}", run.stdout);
+    assert_eq!(
+        line(&run),
+        "  FAILED    locked limits of K: the upper limit is 0.796019900, locked 1, moved by 20.4 %; c was 1, is 1.25: with the old value it \
+         moved by 0.498 %; d was 2, is 2.01: with the old value it moved by 20 %"
+    );
+    folder.write("loop.toml", &model("1", "2.01", "e*K/(z - 1)"));
+    assert_eq!(
+        line(&folder.jurist(&["test", "loop.toml"])),
+        "  passed    locked limits of K: the upper limit is 0.995024876, locked 1, moved by 0.498 %"
+    );
+    // The loop itself.
+    folder.write("loop.toml", &model("1", "2", "e*K/(z - 0.5)"));
+    let found = line(&folder.jurist(&["test", "loop.toml"]));
+    assert!(found.ends_with("no constant and no nominal value changed, so the loop itself did"), "{found}");
+    // A formula is a value as well.
+    folder.write("loop.toml", &model("1", "2", "e*K/(z - 1)").replace("'c*d'", "'2*c*d'"));
+    let found = line(&folder.jurist(&["test", "loop.toml"]));
+    assert!(found.contains("e was c*d, is 2*c*d: with the old value nothing moved"), "{found}");
+    let run = folder.jurist(&["lock", "K/(s + 1)"]);
+    assert!(run.status == 2 && run.stderr.contains("this model is not one"), "{}", run.stderr);
+    folder.write("loop.lock.json", "{}");
+    assert_eq!(folder.jurist(&["test", "loop.toml"]).status, 2);
+}
+
+#[test]
+fn one_interval_that_became_two_is_a_change() {
+    let cubic = |k: &str| {
+        format!(
+            "time = 'continuous'\n[constants]\nk = {k}\n[parameters]\nK = 1\n[loop]\ncharacteristic = 's + (K - 1)*(K - 2)*(K - 3)*k + 1'\n"
+        )
+    };
+    let folder = Folder::new(&[("loop.toml", &cubic("1"))]);
+    assert_eq!(folder.jurist(&["lock", "loop.toml", "--param", "K"]).status, 0);
+    folder.write("loop.toml", &cubic("10"));
+    let run = folder.jurist(&["test", "loop.toml"]);
+    assert_eq!(run.status, 1);
+    assert!(
+        run.stdout.contains("; locked: stable from ")
+            && run.stdout.contains("k was 1, is 10: with the old value nothing moved"),
+        "{}",
+        run.stdout
+    );
+}
