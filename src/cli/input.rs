@@ -177,21 +177,24 @@ pub(super) fn loop_line(argument: &OsStr) -> Option<&str> {
 
 /// The name and the bytes of a model file, or of the built-in drive.
 fn read_file(model: Option<&OsString>, context: &Context) -> Result<(String, Vec<u8>), Error> {
-    let Some(path) = model else {
-        let drive = Model::drive();
-        return Ok((drive.source().name.clone(), drive.source().text.clone().into_bytes()));
-    };
+    let held = |model: Model| Ok((model.source().name.clone(), model.source().text.clone().into_bytes()));
+    let Some(path) = model else { return held(Model::drive()) };
     if path == "-"
         && let Some(model) = captured::model()
     {
-        return Ok((model.source().name.clone(), model.source().text.clone().into_bytes()));
+        return held(model);
     }
+    read_bytes(path, &MODEL, context)
+}
+
+/// The name and the bytes of a file, or of standard input for `-`.
+pub(super) fn read_bytes(path: &OsString, wanted: &Wanted, context: &Context) -> Result<(String, Vec<u8>), Error> {
     let (name, bytes) = if path == "-" {
         ("<stdin>".to_owned(), read_all(std::io::stdin().lock()))
     } else {
         (path.to_string_lossy().into_owned(), File::open(path).and_then(read_all))
     };
-    let bytes = bytes.map_err(|e| unreadable(context, path, &name, &e, &MODEL))?;
+    let bytes = bytes.map_err(|e| unreadable(context, path, &name, &e, wanted))?;
     if bytes.len() as u64 > MAX_MODEL_BYTES {
         let message = format!("{name} is longer than {} megabytes", MAX_MODEL_BYTES >> 20);
         return Err(Diagnostic::error(Code::Read, message).into());
@@ -207,8 +210,8 @@ fn read_all(from: impl Read) -> std::io::Result<Vec<u8>> {
 
 /// A file that a command reads: what to say where it cannot be read.
 pub(super) struct Wanted {
-    noun: &'static str,
-    help: &'static str,
+    pub noun: &'static str,
+    pub help: &'static str,
 }
 
 /// The model of a command that has the built-in drive to fall back on.

@@ -9,6 +9,8 @@ mod captured;
 mod command_line;
 mod commands;
 mod destinations;
+#[cfg(feature = "cli")]
+mod import;
 mod input;
 mod output;
 mod picture;

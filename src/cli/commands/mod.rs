@@ -9,6 +9,8 @@ pub(super) mod completions;
 #[cfg(feature = "cli")]
 pub(super) mod explain;
 mod frequency_response;
+#[cfg(feature = "cli")]
+pub(super) mod import;
 pub(super) mod intervals;
 pub(super) mod jury;
 #[cfg(feature = "cli")]
@@ -334,6 +336,8 @@ commands! {
     check: Check;
     /// A commented model file to begin with
     new: New;
+    /// A model file from a state-space system of MATLAB, SciPy, NumPy or OpenModelica
+    import: Import in "cli";
     /// What an error code or a word of the answers means
     explain: Explain in "cli";
     /// A completion script for a shell

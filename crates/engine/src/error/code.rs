@@ -51,6 +51,7 @@ pub enum Code {
     Exponent = "E-exponent",
     From = "E-from",
     Function = "E-function",
+    Import = "E-import",
     Improper = "E-improper",
     Internal = "E-internal",
     KeptAndSet = "E-kept-and-set",

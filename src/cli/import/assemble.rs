@@ -1,0 +1,220 @@
+//! From arrays with names to a system whose sizes fit.
+
+use super::number::Number;
+use super::{MAX_SIDE, Matrix, REFUSED, Shape, StateSpace, Time, Variable, Variables, refused};
+use jurist_engine::error::Diagnostic;
+use std::cmp::Ordering;
+
+impl Shape {
+    fn shown(self) -> String {
+        match self {
+            Shape::Scalar => "a single number".to_owned(),
+            Shape::Vector(length) => format!("a vector of {length}"),
+            Shape::Matrix(rows, columns) => format!("{rows} by {columns}"),
+        }
+    }
+
+    fn is_empty(self) -> bool {
+        matches!(self, Shape::Vector(0) | Shape::Matrix(0, _) | Shape::Matrix(_, 0))
+    }
+}
+
+impl Matrix {
+    pub(super) fn identity(size: usize) -> Matrix {
+        let entry = |k: usize| if k / size == k % size { Number::one() } else { Number::zero() };
+        Matrix { rows: size, columns: size, entries: (0..size * size).map(entry).collect() }
+    }
+
+    pub(super) fn zero(rows: usize, columns: usize) -> Matrix {
+        Matrix { rows, columns, entries: vec![Number::zero(); rows * columns] }
+    }
+
+    /// Its rows.
+    pub(super) fn each_row(&self) -> impl Iterator<Item = &[Number]> {
+        self.entries.chunks(self.columns.max(1))
+    }
+}
+
+impl Variable {
+    /// The error, at the place of this array.
+    fn wrong(&self, message: impl Into<String>) -> Diagnostic {
+        let error = refused(message);
+        match self.span {
+            Some(span) => error.at(span, self.shape.shown()),
+            None => error,
+        }
+    }
+
+    fn is_zero(&self) -> bool {
+        self.entries.iter().all(|entry| entry.sign() == Ordering::Equal)
+    }
+
+    /// As a matrix of this size, if it can be one: a single number is 1 by 1, and a vector is a row or a column.
+    fn sized(&self, rows: usize, columns: usize) -> Option<Matrix> {
+        let fits = match self.shape {
+            Shape::Scalar => (rows, columns) == (1, 1),
+            Shape::Vector(length) => rows * columns == length && (rows == 1 || columns == 1),
+            Shape::Matrix(own_rows, own_columns) => (own_rows, own_columns) == (rows, columns),
+        };
+        fits.then(|| Matrix { rows, columns, entries: self.entries.clone() })
+    }
+
+    /// The other side of a matrix with so many rows or columns.
+    fn other_side(&self, side: usize) -> Option<usize> {
+        match self.shape {
+            Shape::Scalar => (side == 1).then_some(1),
+            Shape::Vector(length) if length == side => Some(1),
+            Shape::Vector(length) => (side == 1).then_some(length),
+            Shape::Matrix(..) => None,
+        }
+    }
+}
+
+impl Variables {
+    fn get(&self, name: &str) -> Option<&Variable> {
+        self.list.iter().find(|variable| variable.name == name)
+    }
+}
+
+/// The system of what a file holds, with the sample time that the command line gives.
+pub(in crate::cli) fn assemble(variables: Variables, sample_time: Option<Time>) -> Result<StateSpace, Diagnostic> {
+    for name in REFUSED {
+        if let Some(variable) = variables.get(name).filter(|variable| variables.is_struct && !variable.is_zero()) {
+            let what = if name == "E" { "a descriptor system" } else { "a system with dead time" };
+            let message = format!("the field {name} makes it {what}, which is not imported");
+            let help = if name == "E" {
+                "in MATLAB: ss(sys, 'explicit')"
+            } else {
+                "import it without, and write the dead time into the model: delay = \"..\""
+            };
+            return Err(variable.wrong(message).help(help));
+        }
+    }
+    let a = state_matrix(&variables)?;
+    let mut remarks = Vec::new();
+    let inputs = input_matrix(&variables, a.rows)?;
+    let c = output_matrix(&variables, a.rows)?;
+    if c.is_none() && inputs.is_some() {
+        remarks.push("the file has no C: the outputs are the states".to_owned());
+    }
+    let c = c.unwrap_or_else(|| Matrix::identity(a.rows));
+    let d = direct_matrix(&variables, c.rows, inputs.as_ref().map_or(0, |b| b.columns))?;
+    let time = match sample_time {
+        Some(time) => time,
+        None => time_of(&variables)?,
+    };
+    Ok(StateSpace { a, inputs: inputs.zip(d), c, time, names: variables.names, remarks })
+}
+
+fn state_matrix(variables: &Variables) -> Result<Matrix, Diagnostic> {
+    let Some(a) = variables.get("A") else {
+        let present: Vec<String> = variables.present.iter().take(20).map(|name| format!("'{name}'")).collect();
+        let help = match present.is_empty() {
+            true => "the matrices are named A, B, C and D, the sample time Ts or dt".to_owned(),
+            false => format!(
+                "there is {}; the matrices are named A, B, C and D, the sample time Ts or dt",
+                present.join(", ")
+            ),
+        };
+        return Err(refused("there is no matrix A").help(help));
+    };
+    if a.shape.is_empty() {
+        let message = format!("A is empty ({}): a system without states has no limit of stability", a.shape.shown());
+        return Err(a.wrong(message));
+    }
+    let side = match a.shape {
+        Shape::Scalar | Shape::Vector(1) => 1,
+        Shape::Matrix(rows, columns) if rows == columns => rows,
+        _ => return Err(a.wrong(format!("A is {}, not square", a.shape.shown()))),
+    };
+    within(a, side, "states")?;
+    Ok(Matrix { rows: side, columns: side, entries: a.entries.clone() })
+}
+
+fn within(variable: &Variable, side: usize, what: &str) -> Result<(), Diagnostic> {
+    if side > MAX_SIDE {
+        let message =
+            format!("{} is {}: at most {MAX_SIDE} {what} are imported", variable.name, variable.shape.shown());
+        return Err(variable.wrong(message));
+    }
+    Ok(())
+}
+
+/// The input matrix; none of a system without inputs.
+fn input_matrix(variables: &Variables, states: usize) -> Result<Option<Matrix>, Diagnostic> {
+    let Some(b) = variables.get("B") else { return Ok(None) };
+    let columns = match b.shape {
+        Shape::Matrix(rows, 0) if rows == states => return Ok(None),
+        Shape::Matrix(rows, columns) if rows == states => Some(columns),
+        _ if b.shape.is_empty() => {
+            let message = format!("B is empty ({}), but A is {states} by {states}", b.shape.shown());
+            return Err(b.wrong(message).help("leave B out of a system without inputs"));
+        }
+        _ => b.other_side(states),
+    };
+    let fitting = columns.and_then(|columns| Some((columns, b.sized(states, columns)?)));
+    let Some((columns, matrix)) = fitting else {
+        let message = format!("B is {}, but A is {states} by {states}", b.shape.shown());
+        return Err(b.wrong(message).help("B has a row for each state"));
+    };
+    within(b, columns, "inputs")?;
+    Ok(Some(matrix))
+}
+
+/// The output matrix; none where there are no outputs.
+fn output_matrix(variables: &Variables, states: usize) -> Result<Option<Matrix>, Diagnostic> {
+    let Some(c) = variables.get("C") else { return Ok(None) };
+    let rows = match c.shape {
+        Shape::Matrix(0, columns) if columns == states => return Ok(None),
+        Shape::Matrix(rows, columns) if columns == states => Some(rows),
+        _ if c.shape.is_empty() => {
+            let message = format!("C is empty ({}), but A is {states} by {states}", c.shape.shown());
+            return Err(c.wrong(message).help("leave C out where the outputs are the states"));
+        }
+        _ => c.other_side(states),
+    };
+    let fitting = rows.and_then(|rows| Some((rows, c.sized(rows, states)?)));
+    let Some((rows, matrix)) = fitting else {
+        let message = format!("C is {}, but A is {states} by {states}", c.shape.shown());
+        return Err(c.wrong(message).help("C has a column for each state"));
+    };
+    within(c, rows, "outputs")?;
+    Ok(Some(matrix))
+}
+
+/// The direct matrix of a system with inputs. A single zero is zero of any size.
+fn direct_matrix(variables: &Variables, outputs: usize, inputs: usize) -> Result<Option<Matrix>, Diagnostic> {
+    let found = variables.get("D");
+    let zero = (inputs > 0).then(|| Matrix::zero(outputs, inputs));
+    let Some(d) = found else { return Ok(zero) };
+    let is_none = d.shape == Shape::Scalar && d.is_zero() || d.shape == Shape::Matrix(1, 1) && d.is_zero();
+    if is_none || inputs == 0 && d.shape.is_empty() {
+        return Ok(zero);
+    }
+    match d.sized(outputs, inputs).filter(|_| inputs > 0) {
+        Some(matrix) => Ok(Some(matrix)),
+        None if inputs == 0 => Err(d.wrong(format!("D is {}, but there is no B", d.shape.shown()))),
+        None => {
+            let message = format!("D is {}, but there are {outputs} outputs and {inputs} inputs", d.shape.shown());
+            Err(d.wrong(message).help("D has a row for each output and a column for each input; left out, it is zero"))
+        }
+    }
+}
+
+/// What the file says of time: nothing and 0 are continuous, -1 is MATLAB's and python-control's unknown sample time.
+fn time_of(variables: &Variables) -> Result<Time, Diagnostic> {
+    let is_given = |variable: &&Variable| !variable.shape.is_empty();
+    let Some(found) = ["Ts", "dt"].iter().find_map(|name| variables.get(name).filter(is_given)) else {
+        return Ok(Time::Continuous);
+    };
+    let [number] = found.entries.as_slice() else {
+        return Err(found.wrong(format!("{} is {}, not one number", found.name, found.shape.shown())));
+    };
+    match number.sign() {
+        Ordering::Equal => Ok(Time::Continuous),
+        Ordering::Greater => Ok(Time::Discrete(Some(number.to_string()))),
+        Ordering::Less if number.to_string() == "-1" => Ok(Time::Discrete(None)),
+        Ordering::Less => Err(found.wrong(format!("the sample time {} is {number}", found.name))
+            .help("a sample time is positive, 0 for continuous time, or -1 where it is not known; '--sample-time T' replaces it")),
+    }
+}
