@@ -136,6 +136,9 @@ mod pictures {
     mod report;
 }
 
+/// Systems in files of other programs, made into models.
+mod import;
+
 /// The program as people and other programs see it.
 mod program {
     mod bad_models;

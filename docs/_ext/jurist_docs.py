@@ -32,11 +32,11 @@ PICTURES = Path(__file__).resolve().parents[1] / "_generated"
 
 
 def run(arguments, status=0):
-    """The program's answer, run where the examples and the models of the pages are found."""
+    """The program's answer, run where the examples, the files of the tests and the models of the pages are found."""
     KEPT.mkdir(parents=True, exist_ok=True)
-    examples = KEPT / "examples"
-    if not examples.exists():
-        examples.symlink_to(ROOT / "examples")
+    for name in ("examples", "tests"):
+        if not (KEPT / name).exists():
+            (KEPT / name).symlink_to(ROOT / name)
     done = subprocess.run([PROGRAM, *arguments], cwd=KEPT, capture_output=True, text=True, timeout=300)
     if done.returncode != status:
         shown = shlex.join(["jurist", *arguments])
