@@ -14,7 +14,7 @@ fn files_that_are_no_systems() {
         ("not-square.mat", "not-square.mat: A is 2 by 3, not square", ""),
         ("wrong-b.mat", "B is 3 by 1, but A is 2 by 2", "a row for each state"),
         ("empty.mat", "A is empty (0 by 0)", "without states"),
-        ("delayed.mat", "the field InputDelay makes it a system with dead time", "delay"),
+        ("delayed.mat", "InputDelay makes it a system with dead time", "delay"),
         ("two-systems.mat", "several systems, such as 'p' and 'q'", ""),
     ];
     for (name, message, help) in cases {
@@ -43,6 +43,7 @@ fn texts_that_are_no_systems() {
         ("A\n1\nD\n1\n", "there is no B"),
         ("A\n1\nTs\n-0.5\n", "the sample time Ts is -0.5"),
         ("{\"A\": [[1, 2], [3, \"4\"]]}", "row 2, column 2 of A"),
+        ("{\"A\": 1, \"E\": 2}", "the field E makes it a descriptor system"),
         ("{\"A\": [[NaN]]}", "NaN and Infinity are no numbers of JSON"),
         ("{\"A\": [1, 2]}", "A is a vector of 2, not square"),
         ("model M\n  parameter Real x = 1;\nend M;\n", "no linear model of OpenModelica"),

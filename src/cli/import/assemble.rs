@@ -1,7 +1,7 @@
 //! From arrays with names to a system whose sizes fit.
 
 use super::number::Number;
-use super::{MAX_SIDE, Matrix, REFUSED, Shape, StateSpace, Time, Variable, Variables, refused};
+use super::{DELAYS, DESCRIPTOR, MAX_SIDE, Matrix, Shape, StateSpace, Time, Variable, Variables, refused};
 use jurist_engine::error::Diagnostic;
 use std::cmp::Ordering;
 
@@ -78,18 +78,7 @@ impl Variables {
 
 /// The system of what a file holds, with the sample time that the command line gives.
 pub(in crate::cli) fn assemble(variables: Variables, sample_time: Option<Time>) -> Result<StateSpace, Diagnostic> {
-    for name in REFUSED {
-        if let Some(variable) = variables.get(name).filter(|variable| variables.is_struct && !variable.is_zero()) {
-            let what = if name == "E" { "a descriptor system" } else { "a system with dead time" };
-            let message = format!("the field {name} makes it {what}, which is not imported");
-            let help = if name == "E" {
-                "in MATLAB: ss(sys, 'explicit')"
-            } else {
-                "import it without, and write the dead time into the model: delay = \"..\""
-            };
-            return Err(variable.wrong(message).help(help));
-        }
-    }
+    refuse_other_systems(&variables)?;
     let a = state_matrix(&variables)?;
     let mut remarks = Vec::new();
     let inputs = input_matrix(&variables, a.rows)?;
@@ -104,6 +93,21 @@ pub(in crate::cli) fn assemble(variables: Variables, sample_time: Option<Time>) 
         None => time_of(&variables)?,
     };
     Ok(StateSpace { a, inputs: inputs.zip(d), c, time, names: variables.names, remarks })
+}
+
+/// Dead times and descriptor matrices are not left out in silence.
+fn refuse_other_systems(variables: &Variables) -> Result<(), Diagnostic> {
+    let nonzero = |name: &str| variables.get(name).filter(|variable| !variable.is_zero());
+    if let Some(matrix) = nonzero(DESCRIPTOR) {
+        let message = "the field E makes it a descriptor system, which is not imported";
+        return Err(matrix.wrong(message).help("in MATLAB: ss(sys, 'explicit')"));
+    }
+    if let Some(delay) = DELAYS.iter().find_map(|name| nonzero(name)) {
+        let message = format!("{} makes it a system with dead time, which is not imported", delay.name);
+        let help = "import it without, and write the dead time into the model: a block with delay = \"..\"";
+        return Err(delay.wrong(message).help(help));
+    }
+    Ok(())
 }
 
 fn state_matrix(variables: &Variables) -> Result<Matrix, Diagnostic> {

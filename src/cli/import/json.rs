@@ -45,14 +45,14 @@ pub(super) fn read(text: &str) -> Result<Variables, Diagnostic> {
     let Members(members) = serde_json::from_str(body).map_err(|error| whole.wrong(body, &error))?;
     let has_state_matrix = |members: &[(String, &RawValue)]| members.iter().any(|(name, _)| name == "A");
     if has_state_matrix(&members) {
-        return variables(whole, &members, false);
+        return variables(whole, &members);
     }
     let structs = members.iter().filter(|(_, value)| value.get().starts_with('{'));
     let structs = structs.filter_map(|(name, value)| Some((name, whole.members(value).ok()?)));
     let structs: Vec<_> = structs.filter(|(_, inner)| has_state_matrix(inner)).collect();
     match structs.as_slice() {
-        [] => variables(whole, &members, false),
-        [(_, inner)] => variables(whole, inner, true),
+        [] => variables(whole, &members),
+        [(_, inner)] => variables(whole, inner),
         [(first, _), (second, _), ..] => {
             Err(refused(format!("there are several systems, such as '{first}' and '{second}'"))
                 .help("leave one of them in the file"))
@@ -98,12 +98,12 @@ impl<'t> Whole<'t> {
     }
 }
 
-fn variables(whole: Whole<'_>, members: &[(String, &RawValue)], is_struct: bool) -> Result<Variables, Diagnostic> {
-    let mut out = Variables { is_struct, ..Variables::default() };
+fn variables(whole: Whole<'_>, members: &[(String, &RawValue)]) -> Result<Variables, Diagnostic> {
+    let mut out = Variables::default();
     for (name, value) in members {
         out.present.push(name.clone());
         // MATLAB writes what is empty, and Python what is missing, as null.
-        if !is_read(name, is_struct) || value.get() == "null" {
+        if !is_read(name, true) || value.get() == "null" {
             continue;
         }
         let span = whole.span(value.get());

@@ -28,12 +28,11 @@ mod class {
 pub(super) fn read(bytes: &[u8]) -> Result<Variables, Diagnostic> {
     let big_endian = check_header(bytes)?;
     let mut file = Bytes { rest: &bytes[HEADER..], big_endian };
-    let mut top = Variables::default();
-    let mut structs: Vec<(String, Variables)> = Vec::new();
+    let mut found = Found::default();
     let mut unpacked = 0;
     while let Some(element) = file.next()? {
         if element.kind != COMPRESSED {
-            variable(element, &mut top, &mut structs)?;
+            found.add(element)?;
             continue;
         }
         let left = MAX_UNPACKED - unpacked;
@@ -48,9 +47,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Variables, Diagnostic> {
             })?;
         unpacked += content.len();
         let mut inner = Bytes { rest: &content, big_endian };
-        variable(inner.element()?, &mut top, &mut structs)?;
+        found.add(inner.element()?)?;
     }
-    chosen(top, structs)
+    found.chosen()
 }
 
 /// Whether numbers begin with their highest byte.
@@ -71,18 +70,54 @@ fn check_header(bytes: &[u8]) -> Result<bool, Diagnostic> {
     }
 }
 
-/// The variables themselves, or the fields of the only struct that is a system.
-fn chosen(top: Variables, structs: Vec<(String, Variables)>) -> Result<Variables, Diagnostic> {
-    if top.list.iter().any(|variable| variable.name == "A") {
-        return Ok(top);
+/// What the file holds.
+#[derive(Default)]
+struct Found {
+    top: Variables,
+    /// Structs with their fields.
+    structs: Vec<(String, Variables)>,
+    /// The name of an object.
+    object: Option<String>,
+}
+
+impl Found {
+    /// Adds a variable of the file to what it belongs to.
+    fn add(&mut self, element: Element<'_>) -> Result<(), Diagnostic> {
+        let Some(array) = Array::read(element)? else { return Ok(()) };
+        let name = array.name.clone();
+        if is_read(&name, false) {
+            add(numbers(array, &name)?, &mut self.top)?;
+        } else if array.class == class::STRUCT && array.sides.iter().all(|side| *side == 1) {
+            self.structs.push((name.clone(), fields(array)?));
+        } else if array.class == class::OBJECT || array.class == class::OPAQUE {
+            self.object = Some(name.clone());
+        }
+        if !name.is_empty() && self.top.present.len() < MAX_FIELDS {
+            self.top.present.push(name);
+        }
+        Ok(())
     }
-    let mut systems = structs.into_iter().filter(|(_, fields)| fields.list.iter().any(|field| field.name == "A"));
-    match (systems.next(), systems.next()) {
-        (None, _) => Ok(top),
-        (Some((_, fields)), None) => Ok(fields),
-        (Some((first, _)), Some((second, _))) => {
-            let message = format!("there are several systems, such as '{first}' and '{second}'");
-            Err(refused(message).help("save one of them alone"))
+
+    /// The variables themselves, or the fields of the only struct that is a system.
+    fn chosen(self) -> Result<Variables, Diagnostic> {
+        let has_state_matrix = |variables: &Variables| variables.list.iter().any(|variable| variable.name == "A");
+        if has_state_matrix(&self.top) {
+            return Ok(self.top);
+        }
+        let mut systems = self.structs.into_iter().filter(|(_, fields)| has_state_matrix(fields));
+        match (systems.next(), systems.next(), self.object) {
+            (Some((_, fields)), None, _) => Ok(fields),
+            (Some((first, _)), Some((second, _)), _) => {
+                let message = format!("there are several systems, such as '{first}' and '{second}'");
+                Err(refused(message).help("save one of them alone"))
+            }
+            (None, _, Some(object)) => {
+                let message =
+                    format!("'{object}' is an object, such as ss makes, whose content MATLAB keeps for itself");
+                let help = "in MATLAB: [A,B,C,D] = ssdata(sys); Ts = sys.Ts; save -v7 FILE A B C D Ts";
+                Err(refused(message).help(help))
+            }
+            (None, _, None) => Ok(self.top),
         }
     }
 }
@@ -129,31 +164,6 @@ impl Element<'_> {
     }
 }
 
-/// Adds a variable of the file to what it belongs to.
-fn variable(
-    element: Element<'_>,
-    top: &mut Variables,
-    structs: &mut Vec<(String, Variables)>,
-) -> Result<(), Diagnostic> {
-    let Some(array) = Array::read(element)? else { return Ok(()) };
-    let name = array.name.clone();
-    if is_read(&name, false) {
-        add(numbers(array, &name)?, top)?;
-    } else if array.class == class::STRUCT && array.sides.iter().all(|side| *side == 1) {
-        structs.push((name.clone(), fields(array)?));
-    } else if array.class == class::OBJECT || array.class == class::OPAQUE {
-        let message = format!("'{name}' is an object, such as ss makes, whose content MATLAB keeps for itself");
-        let help = "in MATLAB: [A,B,C,D] = ssdata(sys); Ts = sys.Ts; save -v7 FILE A B C D Ts";
-        if top.list.is_empty() && structs.is_empty() {
-            return Err(refused(message).help(help));
-        }
-    }
-    if !name.is_empty() && top.present.len() < MAX_FIELDS {
-        top.present.push(name);
-    }
-    Ok(())
-}
-
 fn add(variable: Variable, to: &mut Variables) -> Result<(), Diagnostic> {
     if to.list.iter().any(|other| other.name == variable.name) {
         return Err(refused(format!("{} stands there twice", variable.name)));
@@ -164,7 +174,7 @@ fn add(variable: Variable, to: &mut Variables) -> Result<(), Diagnostic> {
 
 /// The fields of a struct that are read; those of structs inside are not.
 fn fields(mut array: Array<'_>) -> Result<Variables, Diagnostic> {
-    let mut out = Variables { is_struct: true, ..Variables::default() };
+    let mut out = Variables::default();
     let length = array.content.element()?.inside_words(1)?.first().map_or(0, |length| *length as usize);
     let names = array.content.element()?;
     if length == 0 || length > MAX_NAME || names.data.len() / length > MAX_FIELDS {

@@ -96,18 +96,19 @@ pub(super) struct Variables {
     /// The names of all there is, for people.
     present: Vec<String>,
     names: Names,
-    /// Whether they are the fields of one struct.
-    is_struct: bool,
 }
 
 /// Names that are read.
 const WANTED: [&str; 6] = ["A", "B", "C", "D", "Ts", "dt"];
 
-/// Fields of a struct that would change what the system is.
-const REFUSED: [&str; 5] = ["E", "InputDelay", "OutputDelay", "IODelay", "InternalDelay"];
+/// Names of what would make it another system.
+const DELAYS: [&str; 4] = ["InputDelay", "OutputDelay", "IODelay", "InternalDelay"];
+
+/// The matrix of a descriptor system. Among the variables of a file it may be anything.
+const DESCRIPTOR: &str = "E";
 
 fn is_read(name: &str, is_struct: bool) -> bool {
-    WANTED.contains(&name) || is_struct && REFUSED.contains(&name)
+    WANTED.contains(&name) || DELAYS.contains(&name) || is_struct && name == DESCRIPTOR
 }
 
 /// An error of this command.
