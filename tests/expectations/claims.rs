@@ -47,7 +47,7 @@ fn each_claim_is_held_or_not_with_what_is_left() {
         ("param = 'K'\nlower = '-inf'\nwithin = '1%'", "failed", "is 0", None),
         ("param = 'c'\nupper = 'inf'\nwithin = '1%'", "failed", "is 4", None),
         ("require = { gain_margin = 2 }", "passed", "is 4", Some(100.0)),
-        ("require = { gain_margin = 4 }", "passed", "is 4", Some(0.0)),
+        ("require = { gain_margin = 4 }", "failed", "is 4", Some(0.0)),
         ("require = { gain_margin = 5 }", "failed", "is 4", Some(-20.0)),
         ("require = { gain_margin = '12 dB' }", "passed", "is 4", None),
         ("require = { damping = 0.3 }", "passed", "met", None),
