@@ -63,3 +63,28 @@ fn one_interval_that_became_two_is_a_change() {
         run.stdout
     );
 }
+
+/// The example holds as it is, and a gain that is changed in its header fails with what is missing and the culprit.
+#[test]
+fn the_firmware_of_the_examples_fails_where_a_gain_is_changed() {
+    let read = |name: &str| {
+        std::fs::read_to_string(format!("{}/examples/firmware/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
+    };
+    let names = ["params.h", "speed.toml", "series.csv", "speed.lock.json"];
+    let texts = names.map(read);
+    let files: Vec<(&str, &str)> = names.into_iter().zip(texts.iter().map(String::as_str)).collect();
+    let folder = Folder::new(&files);
+    let run = folder.jurist(&["test", "."]);
+    assert_eq!(run.status, 0, "{}{}", run.stdout, run.stderr);
+    folder.write("params.h", &texts[0].replace("0.35f", "1.60f"));
+    let run = folder.jurist(&["test", ".", "--only-bad"]);
+    assert_eq!(run.status, 1, "{}", run.stdout);
+    for part in [
+        "FAILED    every drive of the series: phase_margin >= 40 deg: 1 of 4 operating points do not pass, the worst is row 1",
+        "too little (line 67)",
+        "FAILED    locked limits of K_i: the upper limit is ",
+        "K_p was 0.349999994, is 1.60000002: with the old value nothing moved",
+    ] {
+        assert!(run.stdout.contains(part), "{part}: {}", run.stdout);
+    }
+}

@@ -1,4 +1,5 @@
-//! Expectations as a JUnit report, which test servers read. The few elements of it need no library.
+//! Expectations as a JUnit report, which test servers read: elements and attributes of Jenkins' schema `junit-10.xsd` alone. The few of them
+//! need no library.
 
 use jurist_engine::show::documents::{Test, TestStatus, Tested, TestedFile};
 
@@ -25,9 +26,9 @@ fn suite(file: &TestedFile) -> String {
 }
 
 fn case(test: &Tested, file: &str) -> String {
-    let line = test.line.map(|line| format!(" line=\"{line}\"")).unwrap_or_default();
-    let head = format!("    <testcase name=\"{}\" classname=\"{file}\" file=\"{file}\"{line}", escaped(&test.name));
-    let text = escaped(&test.text);
+    let head = format!("    <testcase name=\"{}\" classname=\"{file}\"", escaped(&test.name));
+    let line = test.line.map(|line| format!(" (line {line})")).unwrap_or_default();
+    let text = escaped(&test.text) + &line;
     let (element, kind) = match test.status {
         TestStatus::Passed => return format!("{head}>\n      <system-out>{text}</system-out>\n    </testcase>\n"),
         TestStatus::Failed => ("failure", "failed"),
@@ -74,10 +75,8 @@ mod tests {
             tested(TestStatus::Undecided, ""),
         ];
         let report = report(&Test::new(vec![TestedFile { file: "a&b.toml".to_owned(), tests }]));
-        assert!(report.contains(
-            "name=\"a &lt; b &amp; &quot;c&quot;\" classname=\"a&amp;b.toml\" file=\"a&amp;b.toml\" line=\"3\""
-        ));
+        assert!(report.contains("name=\"a &lt; b &amp; &quot;c&quot;\" classname=\"a&amp;b.toml\">"));
         assert!(report.contains("tests=\"3\" failures=\"1\" errors=\"1\""));
-        assert!(report.contains("<failure type=\"failed\" message=\"1 &gt; 2\"/>"));
+        assert!(report.contains("<failure type=\"failed\" message=\"1 &gt; 2 (line 3)\"/>"));
     }
 }
