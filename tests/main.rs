@@ -6,6 +6,7 @@ mod helpers;
 /// Laws of the algebra and of stability, on generated input: every algorithm against a second one.
 mod laws {
     mod cancelled;
+    mod complex_roots;
     mod dead_time;
     mod disguised;
     mod fast_algebra;
@@ -54,6 +55,7 @@ mod loops {
     mod rates;
     mod requirements;
     mod root_requirements;
+    mod roots;
     mod sensitivity;
     mod square_roots;
 }

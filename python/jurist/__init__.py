@@ -50,6 +50,7 @@ if TYPE_CHECKING:
     from ._margins import At, DelayMargin, DiskMargin, GainCrossing, Margins, Norm, Peak, PhaseCrossing, PhaseMargin
     from ._report import Report
     from ._response import Bode, FrequencyResponse, Nyquist
+    from ._roots import Root
     from ._tolerance import Factor, Tolerance, Worst
     from ._rows import SweepResult
     from ._sweep import ray_executor, sweep, sweep_batches
@@ -62,6 +63,7 @@ _LATER = {
     **dict.fromkeys(("Peak", "PhaseCrossing", "PhaseMargin"), "_margins"),
     **dict.fromkeys(("Bode", "FrequencyResponse", "Nyquist"), "_response"),
     "Report": "_report",
+    "Root": "_roots",
     **dict.fromkeys(("Factor", "Tolerance", "Worst"), "_tolerance"),
     "from_control": "_control",
     "margins": "_control",
@@ -111,6 +113,7 @@ __all__ = [
     "QuestionError",
     "Real",
     "Report",
+    "Root",
     "Simulation",
     "StableSet",
     "SweepResult",

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from ._margins import Margins, Norm
     from ._report import Report
     from ._response import Bode, Nyquist
+    from ._roots import Root
 
 
 class ResponseQuestions(Asker):
@@ -88,6 +89,22 @@ class ResponseQuestions(Asker):
         first, dash, *options = self._words("norm", asked)
         words = [first, dash, input, output, *options]
         return Norm(self._document(words, asked), self._itself, tuple(words))
+
+    def roots(self, values: Mapping[str, Exact] | None = None, **question: Unpack[Waiting]) -> list[Root]:
+        """The roots of the closed loop (poles), the slowest first; of a pair of conjugate roots the upper one.
+
+        Examples
+        --------
+        >>> import jurist
+        >>> loop = jurist.Loop.characteristic([1, 2, "K"], time="continuous", parameters={"K": 2})
+        >>> pair = loop.roots()[0]
+        >>> pair.value, pair.is_pair, round(pair.damping, 6)
+        ((-1+1j), True, 0.707107)
+        """
+        from ._roots import roots_of
+
+        asked = self._asked(values, **question)
+        return roots_of(self._document(self._words("roots", asked), asked))
 
     def bode(
         self, at: str | None = None, values: Mapping[str, Exact] | None = None, *, timeout: float | None = None

@@ -280,9 +280,7 @@ fn meant(word: &str) -> Option<&'static str> {
         "c2d" | "zoh" | "tustin" | "discretize" => {
             "a continuous block is made discrete in the model: 'discretize = { method = ..., T = ... }' in its [[block]]"
         }
-        "poles" | "pole" | "roots" | "eig" | "pzmap" => {
-            "how many roots are inside: 'jurist verdict MODEL'; where: 'jurist locus'"
-        }
+        "poles" | "pole" | "eig" | "pzmap" | "damp" => "the roots of the closed loop: 'jurist roots MODEL'",
         "hurwitz" | "routh" => "the Routh table of a continuous loop: 'jurist jury MODEL'",
         "stable" | "isstable" => "one point: 'jurist verdict MODEL'; all values: 'jurist intervals MODEL --param NAME'",
         "tf" | "transfer" | "feedback" => {

@@ -17,6 +17,9 @@ pub(crate) const ROOTS_IN_SPIRAL: Precisions = Precisions::new(128, 1 << 10);
 /// The signs of a certificate over constants, which both checkers enclose again with as many bits.
 pub(crate) const CERTIFICATE_OVER_SYMBOLS: Precisions = Precisions::new(256, 1 << 13);
 
+/// Roots of a polynomial with enclosed coefficients. Equal ones are told apart by no bits.
+pub(crate) const ROOTS: Precisions = Precisions::new(256, 1 << 12);
+
 /// A loop behind holds as numbers alone. A loop that these bits do not decide is so near to the boundary that exact algebra
 /// has to be asked.
 pub(crate) const LOOP_IN_NUMBERS: Precisions = Precisions::new(128, 1 << 11);

@@ -31,6 +31,7 @@ pub(super) mod page;
 pub(super) mod paper;
 #[cfg(feature = "cli")]
 pub(super) mod report;
+pub(super) mod roots;
 #[cfg(feature = "cli")]
 pub(super) mod simulate;
 #[cfg(feature = "cli")]
@@ -293,6 +294,8 @@ commands! {
     intervals: Intervals;
     /// One point: stable, marginal, unstable or undefined, with the exact number of roots
     verdict: Verdict;
+    /// The roots of the closed loop (poles) with certified digits, their damping and natural frequency
+    roots: Roots;
     /// The characteristic polynomial, symbolic in the kept parameters
     charpoly: Charpoly;
     /// The Jury table (Routh table in continuous time) and its conditions

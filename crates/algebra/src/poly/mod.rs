@@ -7,6 +7,7 @@
 
 pub mod algebraic;
 mod arithmetic;
+mod complex_roots;
 mod dense;
 mod dispatch;
 mod division;
@@ -24,6 +25,7 @@ pub mod strategies;
 mod subresultant;
 
 pub use algebraic::{RealAlgebraic, rational_between, simplest_between};
+pub use complex_roots::{RootDisc, complex_roots, root_discs};
 pub use dense::{Poly, UniPoly};
 pub use domain::Domain;
 pub use factored_resultant::resultant_square_free_decomposition;

@@ -53,6 +53,8 @@ questions! {
     Map,
     /// A box of tolerances, and how far it can grow.
     Tolerance,
+    /// The roots of the closed loop.
+    Roots,
     /// The classical table at a point.
     Jury,
     /// The classical table in one parameter.

@@ -34,6 +34,11 @@ pub(super) static ENCLOSED_COUNT: Method = Method::new(
     "The constants are enclosed with more bits until every sign of the remainder sequence is certain; only an identity in symbols proves a zero.",
     "stability::SymbolicPolynomial::at",
 );
+pub(super) static DISCS: Method = Method::new(
+    "discs around approximations",
+    "The iteration of Aberth and Ehrlich gives approximations of all roots. Discs around them are proved to hold the roots (Smith); with more bits they are apart and small. Multiplicities of a rational loop come from its square-free factors.",
+    "answer::roots",
+);
 pub(super) static ARGUMENT: Method = Method::new(
     "argument principle along the imaginary axis",
     "The argument of the characteristic function turns by a quarter for each root left of the axis; the turns are counted between certified frequencies (Mikhailov).",

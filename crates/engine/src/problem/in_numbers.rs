@@ -71,6 +71,23 @@ impl Problem {
     }
 }
 
+impl Problem {
+    /// The order of the closed loop in the form of which only numbers are asked, and its sample time; `None` where there is no such form.
+    pub(crate) fn size_in_numbers(&self, budget: &Budget) -> Result<Option<(usize, Option<Rational>)>, Error> {
+        let is_asked = |found: &&InNumbers| !found.symbols.is_empty() && found.symbols.delays().is_empty();
+        let found = self.in_numbers(budget)?.filter(is_asked);
+        let time = |found: &InNumbers| found.sample_time.as_ref().and_then(|t| t.as_constant());
+        Ok(found.map(|found| (found.closed_loop.a.rows(), time(found))))
+    }
+
+    /// The characteristic polynomial of that form in balls of so many bits; `None` where a divisor may vanish.
+    pub(crate) fn polynomial_in_numbers(&self, bits: u64, budget: &Budget) -> Option<Vec<Ball>> {
+        let found = self.in_numbers(budget).ok().flatten()?;
+        let values = found.symbols.enclosed(bits)?;
+        enclosed(&found.closed_loop.a, &found.closed_loop.poles, &values, &Region::of(self.time()), bits)
+    }
+}
+
 /// A loop behind holds in one parameter, for pictures: rounded coefficients at any value.
 ///
 /// ```

@@ -15,6 +15,7 @@ pub mod real;
 pub mod region;
 mod requirements;
 mod response;
+mod roots;
 mod sensitivity;
 mod table;
 mod tolerance;

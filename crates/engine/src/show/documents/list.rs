@@ -1,7 +1,7 @@
 //! The kinds of documents: one list, of which the published schemas are made, and by which a document is read.
 
 use super::{
-    Analysis, Body, Charpoly, Check, Intervals, Jury, Lock, Map, MapBoxes, Margins, Norm, RootLocusForm, Test,
+    Analysis, Body, Charpoly, Check, Intervals, Jury, Lock, Map, MapBoxes, Margins, Norm, RootLocusForm, Roots, Test,
     Tolerance, Transfer, Verdict,
 };
 use serde_json::{Error, Value, from_value, to_value};
@@ -52,6 +52,7 @@ documents! {
     Margins: "jurist/margins/1",
     Norm: "jurist/norm/1",
     RootLocusForm: "jurist/root-locus-form/1",
+    Roots: "jurist/roots/1",
     Test: "jurist/test/1",
     Tolerance: "jurist/tolerance/1",
     Transfer: "jurist/transfer/1",

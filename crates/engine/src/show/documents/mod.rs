@@ -34,6 +34,7 @@ mod plan;
 mod question;
 mod required_map;
 mod requirements;
+mod roots;
 #[cfg(feature = "schema")]
 pub mod schemas;
 mod test;
@@ -74,6 +75,7 @@ pub use plan::{Plan, PlannedMethod};
 pub use question::{ClosedEnds, Hyperperiod, ParameterQuestion, PointQuestion, RegionBound};
 pub use required_map::{RequiredCell, RequiredInPlane, RequiredRegion, RequiredSetOfRegions, RequiredStrip};
 pub use requirements::{RequirementAsked, RequirementFound};
+pub use roots::{RootFound, Roots, RootsFound, RootsName, RootsOpen};
 pub use test::{Test, TestName, TestStatus, Tested, TestedFile};
 pub use tolerance::{
     Factor, LimitRange, RequirementOverBox, Tolerance, ToleranceFound, ToleranceName, ToleranceOpen, ToleranceVerdict,

@@ -1,0 +1,273 @@
+//! Where the roots of a closed loop are, each in a small disc.
+
+use super::Answer;
+use crate::error::Error;
+use crate::model::{Time, quotient_at};
+use crate::precisions::ROOTS;
+use crate::problem::{Problem, exact_or_enclosed};
+use jurist_algebra::ball::Ball;
+use jurist_algebra::limits::{Budget, checkpoint};
+use jurist_algebra::number::{Enclosure, Rational};
+use jurist_algebra::poly::{RootDisc, UniPoly, complex_roots, root_discs};
+use std::sync::Arc;
+
+/// The roots of the characteristic polynomial at a point.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// let (model, _) = Model::builder(Time::Continuous)
+///     .parameter(ParameterBuilder::new("K").nominal("2"))
+///     .characteristic("s^2 + 2*s + K")
+///     .build()?;
+/// let answer = model.ask().problem()?.roots(12, &Budget::unlimited())?;
+/// let [pair] = answer.value().list.as_slice() else { panic!("-1 + j and -1 - j") };
+/// assert_eq!((pair.disc.is_pair, pair.damping(60).unwrap().decimal(6).unwrap().as_str()), (true, "0.707107"));
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Roots {
+    /// The degree of the polynomial in all parameters.
+    pub degree: usize,
+    /// By how much the degree drops at this point.
+    pub infinite: usize,
+    /// The slowest root first: by magnitude from the largest in discrete time, by real part from the rightmost in continuous time. Of a
+    /// pair of conjugate roots the upper one is listed.
+    pub list: Vec<ClosedLoopRoot>,
+}
+
+/// A root, or several that are not told apart.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct ClosedLoopRoot {
+    /// Where.
+    pub disc: RootDisc,
+    time: Time,
+    /// From one sample to the next, of a discrete loop that says it; of several rates the hyperperiod.
+    period: Option<Rational>,
+}
+
+impl ClosedLoopRoot {
+    /// The real part.
+    pub fn real(&self) -> Enclosure {
+        around(&self.disc.re, &self.disc.radius)
+    }
+
+    /// The imaginary part: 0 of a real root, positive of a pair.
+    pub fn imaginary(&self) -> Enclosure {
+        match self.disc.is_pair || !self.disc.is_one {
+            true => around(&self.disc.im, &self.disc.radius),
+            false => Enclosure::from_rational(Rational::ZERO),
+        }
+    }
+
+    /// The magnitude.
+    pub fn magnitude(&self, bits: u64) -> Enclosure {
+        let (re, im) = (self.real(), self.imaginary());
+        if im.upper().is_zero() && im.lower().is_zero() {
+            return absolute(&re);
+        }
+        re.mul(&re, bits).add(&im.mul(&im, bits), bits).sqrt(bits)
+    }
+
+    /// `s`, or `ln(z)` per sample, as real and imaginary part; `None` of a root that may be 0.
+    fn exponent(&self, bits: u64) -> Option<[Enclosure; 2]> {
+        if self.time == Time::Continuous {
+            return Some([self.real(), self.imaginary()]);
+        }
+        Some([self.magnitude(bits).ln(bits)?, self.angle(bits)?])
+    }
+
+    /// The angle of the root, from 0 to pi; `None` of a root that may be 0.
+    fn angle(&self, bits: u64) -> Option<Enclosure> {
+        let (re, im) = (self.real(), self.imaginary());
+        if !self.disc.is_pair {
+            return match (re.lower().sign(), re.upper().sign()) {
+                _ if !self.disc.is_one => None,
+                (std::cmp::Ordering::Greater, _) => Some(Enclosure::from_rational(Rational::ZERO)),
+                (_, std::cmp::Ordering::Less) => Some(Enclosure::pi(bits)),
+                _ => None,
+            };
+        }
+        // Twice the arc tangent of half the angle.
+        let below = self.magnitude(bits).add(&re, bits);
+        let two = Enclosure::from_rational(Rational::from(2));
+        match im.div(&below, bits).filter(|_| below.lower().sign().is_gt()) {
+            Some(half) => Some(half.atan(bits).mul(&two, bits)),
+            None => {
+                // Next to the negative axis the sum is small and the difference is not.
+                let above = self.magnitude(bits).sub(&re, bits);
+                Some(Enclosure::pi(bits).sub(&im.div(&above, bits)?.atan(bits).mul(&two, bits), bits))
+            }
+        }
+    }
+
+    /// The damping ratio: the cosine of the angle that `s`, or `ln(z)`, makes with the negative real axis; `None` of a root at 0 of `s`
+    /// or `z`, at 1 of `z`, and of roots that are not told apart.
+    pub fn damping(&self, bits: u64) -> Option<Enclosure> {
+        let [re, im] = self.exponent(bits).filter(|_| self.disc.is_one)?;
+        let size = re.mul(&re, bits).add(&im.mul(&im, bits), bits).sqrt(bits);
+        re.neg().div(&size, bits).filter(|_| size.lower().sign().is_gt())
+    }
+
+    /// The natural frequency `|s|`, or `|ln(z)|` over the sample time, in radians per unit of time; `None` of a discrete loop without a
+    /// sample time, of a root at `z = 0`, and of roots that are not told apart.
+    pub fn natural_frequency(&self, bits: u64) -> Option<Enclosure> {
+        let [re, im] = self.exponent(bits).filter(|_| self.disc.is_one)?;
+        let size = re.mul(&re, bits).add(&im.mul(&im, bits), bits).sqrt(bits);
+        match self.time {
+            Time::Continuous => Some(size),
+            Time::Discrete => size.div(&Enclosure::from_rational(self.period.clone()?), bits),
+        }
+    }
+
+    /// What the roots are ordered by, the slowest first.
+    fn slowness(&self) -> Rational {
+        match self.time {
+            Time::Continuous => self.disc.re.clone(),
+            Time::Discrete => &self.disc.re * &self.disc.re + &self.disc.im * &self.disc.im,
+        }
+    }
+}
+
+fn around(centre: &Rational, radius: &Rational) -> Enclosure {
+    Enclosure::new(centre - radius, centre + radius)
+}
+
+fn absolute(x: &Enclosure) -> Enclosure {
+    let (lo, hi) = (x.lower(), x.upper());
+    match (lo.is_negative(), hi.is_negative()) {
+        (false, _) => x.clone(),
+        (true, true) => x.neg(),
+        (true, false) => Enclosure::new(Rational::ZERO, hi.clone().max(lo.abs())),
+    }
+}
+
+/// What the roots are those of.
+enum Polynomial {
+    Exact(UniPoly),
+    /// Enclosed, with so many bits.
+    Enclosed(Vec<RootDisc>),
+}
+
+impl Problem {
+    /// The roots of the characteristic polynomial at the point that the values of all parameters are, in discs that are small enough for so
+    /// many significant digits of the root.
+    ///
+    /// The discs are proved (Smith 1970); multiplicities are exact for a rational loop. Behind holds roots that are equal, or nearer to each other than
+    /// some thousand bits tell, share a disc.
+    ///
+    /// Cost: that of the characteristic polynomial, and of some dozen rounds of the iteration of Aberth and Ehrlich.
+    ///
+    /// # Errors
+    /// [`Error::Refused`] (`E-dead-time`) for dead time in continuous time: there are infinitely many roots. [`Error::Undefined`] where the loop
+    /// is, and where its polynomial is zero; [`Error::Stopped`].
+    ///
+    /// # Panics
+    /// When a parameter is free.
+    pub fn roots(self: &Arc<Self>, digits: usize, budget: &Budget) -> Result<Answer<Roots>, Error> {
+        assert!(self.free().is_empty(), "a point has no free parameters");
+        let narrow = Rational::from(10).pow(-(digits as i64 + 4)).expect("ten is not zero");
+        let time = self.time();
+        let (polynomial, degree, period) = exact_or_enclosed(
+            budget,
+            |budget| self.from_polynomial(&narrow, budget),
+            |budget| self.from_matrix(&narrow, budget),
+        )?;
+        budget.step("enclosing the roots");
+        let discs = match polynomial {
+            Polynomial::Exact(p) if p.coeffs().is_empty() => {
+                return Err(Error::Undefined(
+                    "the characteristic polynomial is zero, so that every number is a root".into(),
+                ));
+            }
+            Polynomial::Exact(p) => complex_roots(&p, &narrow, budget)?,
+            Polynomial::Enclosed(discs) => discs,
+        };
+        let found: usize = discs.iter().map(|d| if d.is_pair { 2 * d.count } else { d.count }).sum();
+        let root = |disc| ClosedLoopRoot { disc, time, period: period.clone() };
+        let mut list: Vec<ClosedLoopRoot> = discs.into_iter().map(root).collect();
+        list.sort_by_cached_key(|root| {
+            std::cmp::Reverse((root.slowness(), root.disc.re.clone(), root.disc.im.clone()))
+        });
+        Ok(Answer::new(Arc::clone(self), Roots { degree, infinite: degree.saturating_sub(found), list }))
+    }
+
+    /// By the polynomial of the algebra.
+    fn from_polynomial(
+        &self,
+        narrow: &Rational,
+        budget: &Budget,
+    ) -> Result<(Polynomial, usize, Option<Rational>), Error> {
+        let algebra = self.algebra_over_symbols(budget)?;
+        let symbols = algebra.symbols();
+        if !symbols.delays().is_empty() {
+            return Err(crate::coverage::CoefficientRing::of(symbols).not_rational(symbols).into());
+        }
+        let undefined = || {
+            let why = algebra.undefined().unwrap_or("an expression divides by zero");
+            Error::Undefined(why.to_owned())
+        };
+        let degree = algebra.formal_degree();
+        let period = algebra.sample_time().and_then(|t| t.as_constant());
+        if symbols.is_empty() {
+            let p = self.parametric(budget)?.filter(|p| !p.is_undefined_at(&Rational::ZERO)).ok_or_else(undefined)?;
+            return Ok((Polynomial::Exact(p.specialised(&Rational::ZERO)), degree, period));
+        }
+        let p = algebra.polynomial().ok_or_else(undefined)?;
+        let enclosed = |bits: u64| -> Option<Vec<Ball>> {
+            let values = symbols.enclosed(bits)?;
+            p.coefficients.iter().map(|c| quotient_at(c, &values, bits)).collect()
+        };
+        // Structural zeros are exact.
+        let zeros = p.coefficients.iter().take_while(|c| c.is_zero()).count();
+        Ok((Polynomial::Enclosed(discs(enclosed, zeros, narrow, budget)?), degree, period))
+    }
+
+    /// By the matrix of the closed loop, as numbers.
+    fn from_matrix(
+        &self,
+        narrow: &Rational,
+        budget: &Budget,
+    ) -> Result<Option<(Polynomial, usize, Option<Rational>)>, Error> {
+        let Some((degree, period)) = self.size_in_numbers(budget)? else { return Ok(None) };
+        let discs = discs(|bits| self.polynomial_in_numbers(bits, budget), 0, narrow, budget)?;
+        Ok(Some((Polynomial::Enclosed(discs), degree, period)))
+    }
+}
+
+/// The roots of a polynomial with coefficients of as many bits as one likes, of which so many are zero from the constant term up. Where no
+/// precision tells roots apart they share a disc.
+fn discs(
+    enclosed: impl Fn(u64) -> Option<Vec<Ball>>,
+    zeros: usize,
+    narrow: &Rational,
+    budget: &Budget,
+) -> Result<Vec<RootDisc>, Error> {
+    let mut last: Option<Vec<RootDisc>> = None;
+    ROOTS.find(|bits| -> Result<Option<()>, Error> {
+        budget.check()?;
+        let discs = budget.enter(|| {
+            checkpoint(bits);
+            enclosed(bits).and_then(|balls| root_discs(&balls[zeros.min(balls.len())..], bits))
+        })?;
+        let is_fine = discs.as_ref().is_some_and(|discs| discs.iter().all(|disc| disc.is_fine(narrow)));
+        last = discs.or(last.take());
+        Ok(is_fine.then_some(()))
+    })?;
+    let Some(mut discs) = last else {
+        return Err(Error::Undefined("whether the leading coefficient is zero is not told by its digits".into()));
+    };
+    if zeros > 0 {
+        discs.push(RootDisc {
+            re: Rational::ZERO,
+            im: Rational::ZERO,
+            radius: Rational::ZERO,
+            count: zeros,
+            is_one: true,
+            is_pair: false,
+        });
+    }
+    Ok(discs)
+}

@@ -1,0 +1,55 @@
+//! `jurist roots`: where the roots of the closed loop are.
+
+use super::{Context, Runs, decided};
+use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, RegionOptions, RunOptions};
+use crate::cli::destinations::Files;
+use crate::cli::input::{load, question};
+use crate::cli::status::{Error, Outcome, Status};
+use clap::Args;
+use jurist_engine::coverage::Asked;
+use jurist_engine::show::documents::Roots;
+
+/// Options of `jurist roots`.
+#[derive(Args, Debug)]
+pub(in crate::cli) struct Options {
+    #[command(flatten)]
+    pub model: ModelOptions,
+    #[command(flatten)]
+    pub explain: ExplainOptions,
+    #[command(flatten)]
+    pub output: OutputOptions,
+}
+
+impl Runs for Options {
+    fn run(&self, context: &Context) -> Outcome {
+        run(self, context)
+    }
+
+    fn run_options(&self) -> &RunOptions {
+        &self.output.run
+    }
+
+    fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
+        files.question(&self.model.model, &self.output.output);
+        Ok(())
+    }
+}
+
+/// Answers on standard output or in a file.
+fn run(options: &Options, context: &Context) -> Outcome {
+    let output = &options.output;
+    context.check_output(output)?;
+    let model = load(options.model.model.as_ref(), &options.model.line, context)?;
+    let digits = output.digits() as usize;
+    let problem = question(context, &model, &options.model, &RegionOptions::default())?.problem()?;
+    context.explain(&options.explain, output, &problem, Asked::Roots)?;
+    let answer = match decided(problem.roots(digits, &context.budget))? {
+        Ok(answer) => answer,
+        Err(stopped) => {
+            return context.undecided(output, &stopped, || None, || Roots::new(&problem, Err(&stopped), digits));
+        }
+    };
+    context.warn(None, problem.warnings());
+    context.answer(output, || answer.text(digits), || answer.json(digits))?;
+    Ok(Status::Holds)
+}

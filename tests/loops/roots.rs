@@ -1,0 +1,148 @@
+//! Roots of closed loops: against the exact counts of the verdict, and by hand.
+
+use crate::helpers::model::{continuous, discrete, example, load};
+use crate::helpers::number::number;
+use crate::helpers::program::{jurist, refused};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::{Enclosure, Rational};
+use jurist_algebra::poly::complex_roots;
+use jurist_engine::answer::{Answer, ClosedLoopRoot, Roots};
+use jurist_engine::error::Error;
+use jurist_engine::model::{Model, Time};
+use jurist_engine::problem::Question;
+
+const BITS: u64 = 200;
+
+fn roots(question: Question) -> Answer<Roots> {
+    question.problem().unwrap().roots(12, &Budget::unlimited()).unwrap()
+}
+
+/// Whether a root is in the stable region; `None` where its disc crosses the boundary.
+fn is_inside(root: &ClosedLoopRoot, time: Time) -> Option<bool> {
+    let (x, end) = match time {
+        Time::Discrete => (root.magnitude(BITS), Rational::ONE),
+        Time::Continuous => (root.real(), Rational::ZERO),
+    };
+    if *x.upper() < end {
+        return Some(true);
+    }
+    (*x.lower() > end).then_some(false)
+}
+
+fn agrees_with_the_verdict(model: &Model, question: Question, what: &str) {
+    let verdict = question.clone().verdict(&Budget::unlimited()).unwrap();
+    let Some(count) = verdict.value().count else { return };
+    let found = roots(question);
+    let mut inside = [0; 3];
+    for root in &found.value().list {
+        let place = is_inside(root, model.time()).map_or(1, |inside| if inside { 0 } else { 2 });
+        inside[place] += root.disc.count * if root.disc.is_pair { 2 } else { 1 };
+    }
+    assert_eq!(inside, [count.inside, count.on, count.outside], "{what}");
+    assert_eq!(
+        (found.value().infinite, found.value().degree),
+        (verdict.value().infinite, verdict.value().degree),
+        "{what}"
+    );
+}
+
+#[test]
+fn every_example_has_its_roots_where_the_verdict_counts_them() {
+    let mut tried = 0;
+    for entry in std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/examples")).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        let Some(name) = name.strip_suffix(".toml") else { continue };
+        let model = example(name);
+        match model.ask().problem().unwrap().roots(6, &Budget::unlimited()) {
+            Ok(_) => {}
+            Err(Error::Refused(refused)) if refused.code().as_str() == "E-dead-time" => continue,
+            Err(error) => panic!("{name}: {error}"),
+        }
+        agrees_with_the_verdict(&model, model.ask(), name);
+        tried += 1;
+    }
+    assert!(tried > 25, "{tried}");
+    let drive = Model::drive();
+    for gain in [0, 551, 2000] {
+        agrees_with_the_verdict(&drive, drive.ask().set("K_pwm", gain), "the drive");
+    }
+}
+
+#[test]
+fn singular_polynomials() {
+    for (text, expected) in [
+        ("z^3 + 0*k", vec!["0 (3 times)"]),
+        ("z - k", vec!["0.333333333333"]),
+        ("(z - 1)^2*(z + 1) + 0*k", vec!["1 (2 times)", "-1"]),
+        ("z^2 + 1 + 0*k", vec!["0 (within 1e-17) +- 1.00000000000 j"]),
+        ("k*z - 1/3*z + z^2*0 + 2", vec![]),
+        ("7 + 0*k", vec![]),
+    ] {
+        let found = roots(discrete(text, "nominal = 1").ask().set("k", number("1/3")));
+        let shown: Vec<String> = found.value().list.iter().map(|root| root.text(12)).collect();
+        match text {
+            // What is nearly 0 is said to be nearly 0: the bound depends on the precision.
+            "z^2 + 1 + 0*k" => assert!(
+                shown.len() == 1 && shown[0].starts_with("0") && shown[0].ends_with("1.00000000000 j"),
+                "{shown:?}"
+            ),
+            _ => assert_eq!(shown, expected, "{text}"),
+        }
+    }
+    let lost = roots(discrete("k*z^2 - z + 1/2", "nominal = 1").ask().set("k", 0));
+    assert_eq!((lost.value().infinite, lost.value().list.len()), (1, 1));
+    let zero = discrete("k*z + k", "nominal = 1").ask().set("k", 0).problem().unwrap().roots(6, &Budget::unlimited());
+    assert!(matches!(zero, Err(Error::Undefined(_))));
+}
+
+/// -1 +- j sqrt(3) has the natural frequency 2 and the damping 1/2; its exponential is a root of the same loop sampled.
+#[test]
+fn damping_and_natural_frequency_by_hand() {
+    let holds = |x: Enclosure, value: &str| {
+        let value = number(value);
+        assert!(x.contains(&value), "{} .. {}: {value}", x.lower(), x.upper());
+        assert!(x.upper() - x.lower() < number("1e-10"));
+    };
+    let found = roots(continuous("s^2 + 2*s + k", "nominal = 1").ask().set("k", 4));
+    let root = &found.value().list[0];
+    holds(root.natural_frequency(BITS).unwrap(), "2");
+    holds(root.damping(BITS).unwrap(), "1/2");
+    // x'' + 2 x' + 4 x = 0, sampled at 1/10 and behind a hold that nothing drives.
+    let sampled = load(
+        "time = 'discrete'\nsample_time = '1/10'\n[parameters]\nK = 0\n[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\nname = 'p'\n\
+         input = 'r - K*y'\noutput = 'y'\ntransfer = '1/(s^2 + 2*s + 4)'\ndiscretize = 'zoh'\n",
+    );
+    let found = roots(sampled.ask());
+    let root = &found.value().list[0];
+    assert!(root.disc.is_pair);
+    holds(root.natural_frequency(BITS).unwrap(), "2");
+    holds(root.damping(BITS).unwrap(), "1/2");
+    // A root on the negative axis of z is half the sample rate.
+    let negative =
+        load("time = 'discrete'\nsample_time = 2\n[parameters]\nK = '1/2'\n[loop]\ncharacteristic = 'z + K'\n");
+    let found = roots(negative.ask());
+    let root = &found.value().list[0];
+    let [pi, ln2] = [Enclosure::pi(BITS), Enclosure::from_rational(Rational::from(2)).ln(BITS).unwrap()];
+    let size = pi.mul(&pi, BITS).add(&ln2.mul(&ln2, BITS), BITS).sqrt(BITS);
+    let rate = root.natural_frequency(BITS).unwrap();
+    assert_eq!(rate.decimal(10), size.div(&Enclosure::from_rational(Rational::from(2)), BITS).unwrap().decimal(10));
+}
+
+/// Exact coefficients at the same point, from another command.
+#[test]
+fn the_command_prints_the_roots_of_the_polynomial() {
+    let run = jurist(&["roots", "--json", "--digits", "20"]);
+    let document: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
+    let p = Model::drive().ask().problem().unwrap();
+    let p = p.parametric(&Budget::unlimited()).unwrap().unwrap().specialised(&Rational::ZERO);
+    let expected = complex_roots(&p, &number("1e-30"), &Budget::unlimited()).unwrap();
+    let listed = document["roots"].as_array().unwrap();
+    assert_eq!(listed.len(), expected.len());
+    for root in listed {
+        let bound = |key: &str, i: usize| number(root[key][i].as_str().unwrap());
+        let is_in = |key: &str, x: &Rational| bound(key, 0) <= *x && *x <= bound(key, 1);
+        assert_eq!(expected.iter().filter(|d| is_in("re_enclosure", &d.re) && is_in("im_enclosure", &d.im)).count(), 1);
+    }
+    refused(&["roots", "examples/dead-time-pi.toml"], "E-dead-time");
+    assert_eq!(jurist(&["roots", "--set", "K_pwm=551"]).status, 0);
+}
