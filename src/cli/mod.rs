@@ -10,6 +10,8 @@ mod command_line;
 mod commands;
 mod destinations;
 #[cfg(feature = "cli")]
+mod export;
+#[cfg(feature = "cli")]
 mod import;
 mod input;
 mod output;

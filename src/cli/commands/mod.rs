@@ -8,6 +8,8 @@ pub(super) mod check;
 pub(super) mod completions;
 #[cfg(feature = "cli")]
 pub(super) mod explain;
+#[cfg(feature = "cli")]
+pub(super) mod export;
 mod frequency_response;
 #[cfg(feature = "cli")]
 pub(super) mod import;
@@ -337,6 +339,8 @@ commands! {
     verify: Verify;
     /// Only reads a model: every mistake with its place
     check: Check;
+    /// The loop as a script of another program: python-control, or MATLAB and Octave
+    export: Export in "cli";
     /// A commented model file to begin with
     new: New;
     /// A model file from a state-space system of MATLAB, SciPy, NumPy or OpenModelica

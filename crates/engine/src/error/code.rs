@@ -49,6 +49,7 @@ pub enum Code {
     EmptyDomain = "E-empty-domain",
     Expect = "E-expect",
     Exponent = "E-exponent",
+    Export = "E-export",
     From = "E-from",
     Function = "E-function",
     Import = "E-import",

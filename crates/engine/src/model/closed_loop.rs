@@ -408,6 +408,17 @@ impl Model {
         Error::Refused(Diagnostics::new(Some(self.source().clone()), diagnostics))
     }
 
+    /// Why there is no closed loop, with the model's text.
+    pub(super) fn not_connected(&self, why: NotConnected) -> Error {
+        match why {
+            NotConnected::Exhausted(exhausted) => exhausted.into(),
+            NotConnected::Undefined(diagnostic) => Error::Undefined(diagnostic.message),
+            NotConnected::Refused(diagnostic) => {
+                Diagnostics::new(Some(self.source().clone()), vec![*diagnostic]).into()
+            }
+        }
+    }
+
     pub(super) fn connected(
         &self,
         answer: Answer<'_>,
@@ -429,11 +440,7 @@ impl Model {
         let how = Connecting { set: &substitution, symbols, start: answer.start, budget };
         let assembled = match assemble(self, &answer.wiring, &answer.values, &how) {
             Ok(assembled) => assembled,
-            Err(NotConnected::Exhausted(exhausted)) => return Err(exhausted.into()),
-            Err(NotConnected::Undefined(diagnostic)) => return Err(Error::Undefined(diagnostic.message)),
-            Err(NotConnected::Refused(diagnostic)) => {
-                return Err(Diagnostics::new(Some(self.source().clone()), vec![*diagnostic]).into());
-            }
+            Err(why) => return Err(self.not_connected(why)),
         };
         let mut poles = answer.poles.clone();
         for pole in &assembled.poles {

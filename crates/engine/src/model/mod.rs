@@ -24,6 +24,7 @@ mod open_loop;
 mod parts;
 mod presupposed;
 mod read;
+mod realised;
 mod symbols;
 pub(crate) mod text;
 pub(crate) mod tolerance;

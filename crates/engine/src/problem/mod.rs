@@ -18,6 +18,7 @@ mod presupposed;
 mod question;
 mod region;
 mod resolved;
+mod rounded;
 mod substitution;
 
 pub(crate) use by_enclosures::{EnclosedParts, EnclosedQuotient, exact_or_enclosed};
@@ -31,3 +32,4 @@ pub use plan::Plan;
 pub use question::Question;
 pub use region::{Bound, DECAY, RADIUS, Region};
 pub use resolved::{Free, Problem};
+pub use rounded::RoundedSystem;

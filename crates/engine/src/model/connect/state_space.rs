@@ -323,23 +323,21 @@ fn block_diagonal(parts: &[&RationalMatrix]) -> RationalMatrix {
     out
 }
 
-fn connect(
-    model: &Model,
-    wiring: &Wiring<'_>,
+/// The blocks of a diagram, each as a system of its own: one for all samples, or one for the even and one for the odd ones.
+pub(in crate::model) fn realised(
     blocks: &[BlockValues],
-    outputs: &[Row],
     how: &Connecting<'_>,
-) -> Result<Assembled, NotConnected> {
-    let Connecting { set, symbols, start, budget } = *how;
-    let (mut poles, mut leading) = (Vec::new(), RationalFunction::one());
+    poles: &mut Vec<MultiPoly>,
+    leading: &mut RationalFunction,
+) -> Result<Vec<Vec<System>>, NotConnected> {
+    let Connecting { set, symbols, budget, .. } = *how;
     let mut systems = Vec::with_capacity(blocks.len());
-    let mut states: Vec<Vec<String>> = Vec::new();
-    for (i, block) in blocks.iter().enumerate() {
+    for block in blocks {
         budget.check()?;
         let mut system = match &block.dynamics {
             DynamicValues::Ratio(ratio) => {
-                leading = &leading * &substituted(&ratio.denominator.leading(), set)?;
-                realise(&ratio.numerator, &ratio.denominator, block, set, &mut poles)?
+                *leading = &*leading * &substituted(&ratio.denominator.leading(), set)?;
+                realise(&ratio.numerator, &ratio.denominator, block, set, poles)?
             }
             DynamicValues::StateSpace { a, b, c, d } => {
                 let set = |m| substituted_matrix(m, set);
@@ -353,7 +351,7 @@ fn connect(
                 if let Some(prewarp) = prewarp {
                     below_half_the_sampling_rate(&substituted(&prewarp.angle, set)?, prewarp.span)?;
                 }
-                system = discretised(system, *rule, &substituted(value, set)?, block, &mut poles, budget)?;
+                system = discretised(system, *rule, &substituted(value, set)?, block, poles, budget)?;
             }
             Some(DiscretizationValues::Hold(hold)) => {
                 of_samples = held(system.clone(), hold, block, set, symbols, budget)?
@@ -362,18 +360,29 @@ fn connect(
         if of_samples.is_empty() {
             of_samples.push(system);
         }
-        let n = of_samples[0].a.rows();
-        states.push(state_names(model, i, block, n));
         // Matrices without rows or columns do not remember their other size.
         let (inputs, outputs) = (block.inputs.len(), block.outputs);
-        if n == 0 {
-            for system in &mut of_samples {
-                system.b = RationalMatrix::zeros(0, inputs);
-                system.c = RationalMatrix::zeros(outputs, 0);
-            }
+        for system in of_samples.iter_mut().filter(|system| system.a.rows() == 0) {
+            system.b = RationalMatrix::zeros(0, inputs);
+            system.c = RationalMatrix::zeros(outputs, 0);
         }
         systems.push(of_samples);
     }
+    Ok(systems)
+}
+
+fn connect(
+    model: &Model,
+    wiring: &Wiring<'_>,
+    blocks: &[BlockValues],
+    outputs: &[Row],
+    how: &Connecting<'_>,
+) -> Result<Assembled, NotConnected> {
+    let Connecting { set, symbols, start, budget } = *how;
+    let (mut poles, mut leading) = (Vec::new(), RationalFunction::one());
+    let systems = realised(blocks, how, &mut poles, &mut leading)?;
+    let named = |(i, block): (usize, &BlockValues)| state_names(model, i, block, systems[i][0].a.rows());
+    let mut states: Vec<Vec<String>> = blocks.iter().enumerate().map(named).collect();
     let rates: Vec<Rate> = blocks.iter().map(|block| block.rate).collect();
     let mut closed = |systems: &[System]| -> Result<System, NotConnected> {
         let (system, determinant) = closed(wiring, blocks, systems, outputs, set, budget)?;

@@ -1,0 +1,47 @@
+//! The blocks of a diagram where numbers are all that is asked for, each as a system of its own.
+
+use super::closed_loop::substituted;
+use super::connect::state_space::{Connecting, System, realised};
+use super::definition::Model;
+use super::evaluate::symbolic::Values;
+use super::symbols::Symbols;
+use crate::error::Error;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::matrix::RationalMatrix;
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::RationalFunction;
+use std::cell::RefCell;
+
+/// The systems of the blocks, in the order of the model.
+#[derive(Clone, Debug)]
+pub(crate) struct RealisedBlocks {
+    /// For each block the matrices A, B, C, D: once, or for even and for odd samples. Their entries are in the symbols.
+    pub systems: Vec<Vec<[RationalMatrix; 4]>>,
+    /// What the variables stand for.
+    pub symbols: Symbols,
+}
+
+impl Model {
+    /// The blocks with these values, discrete where the loop is; `None` for other forms than block diagrams.
+    ///
+    /// Cost: that of [`Model::closed_loop_in_numbers`] without the connection.
+    ///
+    /// # Errors
+    /// As [`Model::evaluate`].
+    pub(crate) fn realised_blocks(
+        &self,
+        values: &[(String, Rational)],
+        budget: &Budget,
+    ) -> Result<Option<RealisedBlocks>, Error> {
+        let answer = self.answer(&[], values, budget)?;
+        let Values::Blocks { blocks, .. } = &answer.values else { return Ok(None) };
+        let symbols = RefCell::new(answer.symbols.borrow().clone().keeping_flows());
+        let set = |f: &RationalFunction| substituted(f, &answer.images);
+        let how = Connecting { set: &set, symbols: Some(&symbols), start: None, budget };
+        let systems = realised(blocks, &how, &mut Vec::new(), &mut RationalFunction::one());
+        let systems = systems.map_err(|why| self.not_connected(why))?;
+        let matrices = |System { a, b, c, d }: System| [a, b, c, d];
+        let systems = systems.into_iter().map(|of_samples| of_samples.into_iter().map(matrices).collect()).collect();
+        Ok(Some(RealisedBlocks { systems, symbols: symbols.into_inner() }))
+    }
+}

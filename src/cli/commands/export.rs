@@ -1,0 +1,83 @@
+//! `jurist export`: the loop as a script of another program.
+
+use super::{Context, Runs};
+use crate::cli::arguments::{LineOptions, ModelOptions, RegionOptions, RunOptions};
+use crate::cli::destinations::Files;
+use crate::cli::export::{Script, Target, matlab, python_control};
+use crate::cli::input::{load, question};
+use crate::cli::output::finish_answer;
+use crate::cli::status::{Error, Outcome, Status};
+use clap::{Args, ValueEnum};
+use std::ffi::OsString;
+
+/// Options of `jurist export`.
+#[derive(Args, Debug)]
+pub(in crate::cli) struct Options {
+    /// A model file, '-' for standard input, or a loop in one line such as 'K/(s*(s + 1))'; left out: the built-in drive
+    #[arg(value_name = "MODEL")]
+    pub model: Option<OsString>,
+    #[command(flatten)]
+    pub line: LineOptions,
+    /// The program that reads the script
+    #[arg(long, value_enum)]
+    pub to: Program,
+    /// Gives a parameter or constant another value, exactly: 545, 1e-4, 1/3 [repeatable]
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub set: Vec<String>,
+    /// Writes to a file
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<OsString>,
+    #[command(flatten)]
+    pub run: RunOptions,
+}
+
+/// The programs that scripts are written for.
+#[derive(ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::cli) enum Program {
+    /// A Python file for the package 'control', version 0.10
+    PythonControl,
+    /// A file for MATLAB's Control System Toolbox, which Octave's package 'control' reads as well
+    Matlab,
+}
+
+impl Program {
+    fn target(self) -> &'static dyn Target {
+        match self {
+            Program::PythonControl => &python_control::PythonControl,
+            Program::Matlab => &matlab::Matlab,
+        }
+    }
+}
+
+impl Runs for Options {
+    fn run(&self, context: &Context) -> Outcome {
+        run(self, context)
+    }
+
+    fn run_options(&self) -> &RunOptions {
+        &self.run
+    }
+
+    fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
+        files.question(&self.model, &self.output);
+        Ok(())
+    }
+}
+
+/// Writes the script to standard output or to a file.
+fn run(options: &Options, context: &Context) -> Outcome {
+    let of = ModelOptions {
+        model: options.model.clone(),
+        line: options.line.clone(),
+        set: options.set.clone(),
+        domain: Vec::new(),
+    };
+    let model = load(of.model.as_ref(), &of.line, context)?;
+    let problem = question(context, &model, &of, &RegionOptions::default())?.problem()?;
+    context.warn(None, problem.warnings());
+    let target = options.to.target();
+    let script = Script::of(&problem, target, &context.budget)?;
+    context.reporter.finish();
+    finish_answer(&script.text(target), options.output.as_ref())?;
+    Ok(Status::Holds)
+}
