@@ -149,6 +149,7 @@ mod program {
     mod coverage;
     mod documents;
     mod drive;
+    mod export;
     #[cfg(unix)]
     mod jury;
     mod one_line;

@@ -1,9 +1,10 @@
 //! A block as a system of its own.
 
-use super::forms::{grid, has_exponential};
+use super::forms::grid;
 use super::formula::{product, quotient, whole};
 use super::fraction::{Fraction, Side, fraction};
 use super::head::one_line;
+use super::refusals::has_exponential;
 use super::{Block, Grid, Matrices, Sampling, Step, System, forms};
 use jurist_engine::model::{self, Discretization, Dynamics, Expression, Function, Model, Node};
 use jurist_engine::problem::RoundedSystem;
@@ -36,7 +37,7 @@ pub(super) fn block(model: &Model, block: &model::Block, numbers: &RoundedSystem
         None => written,
     };
     let system = written.unwrap_or_else(|| {
-        remark.push("matrices computed by jurist at the values above; they do not follow changes of these".to_owned());
+        remark.push("jurist computed these matrices at the values above, and they do not follow changes".to_owned());
         in_numbers(numbers, block)
     });
     Block { name: block.name.clone(), remark: one_line(&remark.join("; ")), system }
@@ -49,7 +50,7 @@ fn described(dynamics: &Dynamics) -> String {
     let text = match dynamics {
         Dynamics::Transfer(e) => e.to_string(),
         Dynamics::Gain(e) => format!("gain {e}"),
-        Dynamics::Delay(e) => format!("delay of {e} samples"),
+        Dynamics::Delay(e) => format!("delay in samples: {e}"),
         Dynamics::DeadTime(e) => format!("dead time {e}"),
         Dynamics::Ratio { .. } => "numerator and denominator".to_owned(),
         Dynamics::StateSpace { .. } => "state space".to_owned(),

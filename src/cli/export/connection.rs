@@ -123,8 +123,8 @@ pub(super) fn lifted(problem: &Problem, diagram: &model::Diagram, budget: &Budge
         step => step,
     };
     let remark = format!(
-        "The closed loop from one hyperperiod of {samples} samples to the next: {}. Its entries were computed by jurist at the values \
-         above, and do not follow changes of these.",
+        "The closed loop from one hyperperiod of {samples} samples to the next: {}. jurist computed its entries at the values above, \
+         and they do not follow changes.",
         model.rules()
     );
     let system = Matrices { a: Grid::of_numbers(&found.a, n, n), b, c, d };

@@ -132,7 +132,8 @@ pub(super) fn quotient(a: Expression, b: Expression) -> Expression {
     if let Node::Negative(inner) = a.node {
         return negative(quotient(*inner, b));
     }
-    let mut factors = factors_of(a);
+    // A one in front is left out, so that it is not in the middle of a product.
+    let mut factors = if is_one(&a) { Vec::new() } else { factors_of(a) };
     factors.push((Factor::Over, b));
     of_node(Node::Product(factors))
 }

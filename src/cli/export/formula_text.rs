@@ -47,7 +47,9 @@ fn write(target: &dyn Target, e: &Expression, least: Level, out: &mut String) {
                     (_, Factor::Times) => "*",
                     (_, Factor::Over) => "/",
                 });
-                write(target, e, Level::Power, out);
+                // A sign in front of all factors needs no parentheses.
+                let is_first = i == 0 && *factor == Factor::Times;
+                write(target, e, if is_first { Level::Negative } else { Level::Power }, out);
             }
         }
         Node::Power(base, exponent) => {

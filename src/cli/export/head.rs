@@ -17,7 +17,7 @@ pub(super) fn head(problem: &Problem, target: &dyn Target) -> Vec<String> {
     let version = env!("CARGO_PKG_VERSION");
     head.push(format!(
         "Written by jurist {version} from {} for {}.",
-        one_line(&file.unwrap_or(name.clone())),
+        one_line(&file.unwrap_or_else(|| name.trim_matches(['<', '>']).to_owned())),
         target.words()
     ));
     head.push("This script computes in floating point. The answers of jurist are exact.".into());

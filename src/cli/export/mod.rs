@@ -10,6 +10,7 @@ mod head;
 pub(super) mod matlab;
 mod names;
 pub(super) mod python_control;
+mod refusals;
 mod target;
 mod text;
 
@@ -177,8 +178,8 @@ impl Script {
     /// `E-export` for what the other program has no exact form of; as [`Problem::closed_loop_over_symbols`].
     pub fn of(problem: &Problem, target: &dyn Target, budget: &Budget) -> Result<Script, Error> {
         let model = problem.model();
-        forms::refuse_dead_time(model)?;
-        forms::refuse_numbers(problem)?;
+        refusals::refuse_dead_time(model)?;
+        refusals::refuse_numbers(problem)?;
         let names = names::Names::of(model, target);
         let (step, body) = match model.form() {
             Form::Blocks(diagram) if model.hyperperiod() > 1 => connection::lifted(problem, diagram, budget)?,

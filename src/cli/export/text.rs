@@ -34,6 +34,8 @@ pub(super) fn text(script: &Script, target: &dyn Target) -> String {
         out.push(String::new());
         out.extend(lines.iter().map(|line| (*line).to_owned()));
     }
+    // Where two blank lines stand before a function they stand behind the last one, too.
+    out.extend(wanted.last().filter(|(_, lines)| lines[0].is_empty()).map(|_| String::new()));
     out.push(String::new());
     out.extend(rest.text());
     out.push(String::new());
@@ -60,7 +62,18 @@ impl Lines<'_> {
     }
 
     fn remark(&mut self, text: impl Into<String>) {
-        self.lines.push((String::new(), text.into()));
+        let text: String = text.into();
+        let mut line = String::new();
+        for word in text.split(' ') {
+            if !line.is_empty() && line.len() + word.len() > WIDTH {
+                self.lines.push((String::new(), std::mem::take(&mut line)));
+            }
+            if !line.is_empty() {
+                line.push(' ');
+            }
+            line.push_str(word);
+        }
+        self.lines.push((String::new(), line));
     }
 
     fn blank(&mut self) {
