@@ -5,10 +5,11 @@
     v/bin/python tests/outside/export.py target/release/jurist            # python-control
     v/bin/python tests/outside/export.py target/release/jurist --matlab   # Octave with its package control
 
-Every model of examples/, of the templates and of tests/corpus is exported at its nominal point; a parameter without a value is set to 1/2. The poles
+Every model of examples/, of the templates and of tests/corpus, and loops with each rule before each hold, are exported at its nominal point; a parameter without a value is set to 1/2. The poles
 of the closed loop, as the other program finds them, are compared with the zeros of the exact characteristic polynomial, which
-mpmath finds with 60 digits or more. There have to be as many, and each has to be near its own: within 1e-9 of the largest or
-as far as it moves where coefficients change by their last bits, and for m zeros close together within the m-th root of what floating point leaves. A script that is refused is counted with its reason. Any
+mpmath finds with 80 digits. There have to be as many, and each has to be near its own: within 1e-9 of the largest or
+as far as it moves where coefficients change by their last bits, and for m zeros close together within the m-th root of what floating point leaves. From each input to each output of a loop that names both, the transfer
+function has the value of jurist's exact one at a point away from the poles, within 1e-8 of the largest. A script that is refused is counted with its reason. Any
 difference is an error.
 """
 
@@ -28,12 +29,51 @@ ROOT = Path(__file__).resolve().parents[2]
 mp.mp.dps = 400
 
 # What a script is run with, and how its poles are printed for this comparison.
-PYTHON = "\nimport numpy\nfor p in poles if 'poles' in globals() else closed_loop.poles():\n    print('POLE', repr(float(numpy.real(p))), repr(float(numpy.imag(p))))\n"
-OCTAVE = "\nif exist('poles', 'var'), found = poles; else, found = pole(closed_loop); end\nfor k = 1:numel(found), printf('POLE %.17g %.17g\\n', real(found(k)), imag(found(k))); end\n"
+POINT = 1.7 + 0.9j
+PYTHON = f"""
+import numpy
+for p in poles if 'poles' in globals() else closed_loop.poles():
+    print('POLE', repr(float(numpy.real(p))), repr(float(numpy.imag(p))))
+if 'poles' not in globals():
+    for row in closed_loop.D + closed_loop.C @ numpy.linalg.solve({POINT} * numpy.eye(closed_loop.nstates) - closed_loop.A, closed_loop.B):
+        print('GAIN', *(f'{{complex(g).real!r}} {{complex(g).imag!r}}' for g in row))
+"""
+OCTAVE = "\nif exist('poles', 'var'), found = poles; else, found = pole(closed_loop); end\nfor k = 1:numel(found), printf('POLE %.17g %.17g\\n', real(found(k)), imag(found(k))); end\nif ~exist('poles', 'var'), [a_, b_, c_, d_] = ssdata(closed_loop); h_ = c_*(((1.7 + 0.9i)*eye(size(a_)) - a_)\\b_) + d_; for k = 1:size(h_, 1), printf('GAIN'); for l = 1:size(h_, 2), printf(' %.17g %.17g', real(h_(k, l)), imag(h_(k, l))); end, printf('\\n'); end, end\n"
+
+
+# Each rule before each hold; outputs with a direct part.
+RULES = ("'tustin'", "'backward'", "'forward'", "{ method = 'tustin', prewarp = 'w' }", "{ method = 'tustin', c = 'c' }", "{ method = 'forward', T = '2*T' }")
+HOLDS = ("'zoh'", "'foh'", "{ method = 'zoh', delay = '1.3*T' }", "{ method = 'foh', delay = '0.4*T' }")
+MADE = """
+time = 'discrete'
+sample_time = 'T'
+parameters = {{ T = 0.1, w = 2, c = 3, K = 2 }}
+[loop]
+inputs = ['r']
+outputs = ['y', 'r - y']
+[[block]]
+name = 'controller'
+input = 'r - y'
+output = 'u'
+transfer = 'K*(1 + 1/(4*s) + 1/(s + 9)^2)'
+discretize = {}
+[[block]]
+name = 'plant'
+input = 'u'
+output = 'y'
+transfer = '(s + 3)/((s + 1)*(s + 2))/(s + 1) + 1/(s + 1)'
+discretize = {}
+"""
 
 
 def models(folder):
     """Name and file of each model."""
+    made = [MADE.format(rule, hold) for rule in RULES for hold in HOLDS]
+    made.append((ROOT / "examples/drive-pwm.toml").read_text().replace('"trailing"', '"alternating"'))
+    for k, text in enumerate(made, 1):
+        file = folder / f"made-{k}.toml"
+        file.write_text(text)
+        yield f"made {k}", file
     yield from ((path.stem, path) for path in sorted((ROOT / "examples").glob("*.toml")))
     yield from ((f"template {path.stem}", path) for path in sorted((ROOT / "src/cli/templates").glob("*.toml")))
     for path in sorted((ROOT / "tests/corpus").glob("*.toml")):
@@ -73,18 +113,47 @@ def value(terms, point):
     return total
 
 
-def exact_roots(program, model, values):
-    """The zeros of the characteristic polynomial, those at 0 first."""
-    verdict = json.loads(run(program, "verdict", str(model), "--json", "--quiet", *(f"--set={v}" for v in values)).stdout)
-    values = [f"{name}={v}" for name, v in verdict["set"].items()]
-    done = run(program, "charpoly", str(model), "--json", "--quiet", *(f"--set={v}" for v in values))
-    found = json.loads(done.stdout)
+def constants(found):
+    """The values of what the coefficients of a document are functions of."""
     names = {"sqrt": mp.sqrt, "exp": mp.exp, "sin": mp.sin, "cos": mp.cos, "tan": mp.tan, "tanh": mp.tanh, "pi": +mp.pi}
     point = [mp.mpf(0) for _ in found["parameters"]]
     for name, meaning in found.get("symbols", {}).items():
         text = re.sub(r"(?<![\w.])(\d+)(?![\w.])", r"mpf(\1)", meaning.replace("^", "**"))
         names[name] = mp.mpmathify(eval(text, {"mpf": mp.mpf, **names}))
         point.append(names[name])
+    return point
+
+
+def nominal(program, model, values):
+    """The values of all parameters."""
+    verdict = json.loads(run(program, "verdict", str(model), "--json", "--quiet", *(f"--set={v}" for v in values)).stdout)
+    return [f"{name}={v}" for name, v in verdict["set"].items()]
+
+
+def wrong_gain(program, model, values, gains):
+    """The input and the output between which the loop's gain is another one; how many gains have been compared."""
+    loop, compared = tomllib.loads(Path(model).read_text())["loop"], 0
+    largest = max((abs(g) for row in gains for g in row), default=0)
+    for i, output in enumerate(loop.get("outputs", [])):
+        for j, given in enumerate(loop.get("inputs", [])):
+            done = run(program, "charpoly", str(model), "--transfer", given, output, "--json", "--quiet", *(f"--set={v}" for v in values))
+            if done.returncode:
+                continue
+            found = json.loads(done.stdout)
+            point = constants(found)
+            part = lambda p: mp.polyval([value(c["numerator"], point) / value(c["denominator"], point) for c in reversed(p)], mp.mpc(POINT))
+            exact = part(found["numerator"]) / part(found["denominator"])
+            if abs(exact - gains[i][j]) > 1e-8 * max(abs(exact), largest):
+                return f"from {given} to {output}: {gains[i][j]}, exactly {mp.nstr(exact, 12)}", compared
+            compared += 1
+    return None, compared
+
+
+def exact_roots(program, model, values):
+    """The zeros of the characteristic polynomial, those at 0 first."""
+    done = run(program, "charpoly", str(model), "--json", "--quiet", *(f"--set={v}" for v in values))
+    found = json.loads(done.stdout)
+    point = constants(found)
     entries = [value(c["numerator"], point) / value(c["denominator"], point) for c in found["coefficients"]]
     size = max(abs(c) for c in entries)
     while entries and abs(entries[-1]) <= size * mp.mpf(10) ** -200:
@@ -174,14 +243,16 @@ def poles_of(script, folder, is_matlab):
     lines = [line.split()[1:] for line in done.stdout.splitlines() if line.startswith("POLE")]
     if done.returncode != 0:
         return None, done.stderr.strip().splitlines()[-1:] or ["no message"]
-    return [mp.mpc(re, im) for re, im in lines], None
+    rows = [[float(x) for x in line.split()[1:]] for line in done.stdout.splitlines() if line.startswith("GAIN")]
+    gains = [[complex(*row[k : k + 2]) for k in range(0, len(row), 2)] for row in rows]
+    return [mp.mpc(re, im) for re, im in lines], gains
 
 
 def main():
     program, is_matlab = sys.argv[1], "--matlab" in sys.argv[2:]
     only = [a for a in sys.argv[2:] if not a.startswith("--")]
     target = "matlab" if is_matlab else "python-control"
-    refused, different, equal = Counter(), [], 0
+    refused, different, equal, transfers = Counter(), [], 0, 0
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
         for name, model in models(folder):
@@ -191,10 +262,11 @@ def main():
             if script is None:
                 refused[re.sub(r"'[^']*'", "'..'", values)[:110]] += 1
                 continue
-            poles, error = poles_of(script, folder, is_matlab)
+            poles, gains = poles_of(script, folder, is_matlab)
             if poles is None:
-                different.append(f"{name}: does not run: {error}")
+                different.append(f"{name}: does not run: {gains}")
                 continue
+            values = nominal(program, model, values)
             roots, polynomial = exact_roots(program, model, values)
             if len(roots) != len(poles):
                 different.append(f"{name}: {len(poles)} poles, and {len(roots)} zeros of the polynomial")
@@ -203,8 +275,12 @@ def main():
             if worst > 1:
                 different.append(f"{name}: {mp.nstr(worst, 3)} times what is allowed")
                 continue
-            equal += 1
-    print(f"{target}: {equal} equal, {sum(refused.values())} refused, {len(different)} different")
+            wrong, compared = wrong_gain(program, model, values, gains)
+            if wrong:
+                different.append(f"{name}: {wrong}")
+                continue
+            equal, transfers = equal + 1, transfers + compared
+    print(f"{target}: {equal} equal, {transfers} transfer functions among them, {sum(refused.values())} refused, {len(different)} different")
     for reason, count in refused.most_common():
         print(f"  refused {count}: {reason}")
     for line in different:

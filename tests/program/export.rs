@@ -32,7 +32,11 @@ fn a_block_diagram_has_a_system_for_each_block_and_the_connection() {
     assert_lines(
         &text,
         &[
-            "# Written by jurist 0.3.0 from drive-blocks.toml for python-control 0.10.",
+            concat!(
+                "# Written by jurist ",
+                env!("CARGO_PKG_VERSION"),
+                " from drive-blocks.toml for python-control 0.10."
+            ),
             "# This script computes in floating point. The answers of jurist are exact.",
             "from control import append, feedback, ss",
             "K_pwm = 110.0  # amplitude of the PWM voltage, V",
@@ -92,6 +96,20 @@ fn holds_and_rules_that_the_other_program_has_are_its_own() {
 }
 
 #[test]
+fn an_output_of_which_an_input_is_a_part_has_it_at_once() {
+    let model = "time = 'discrete'\nparameters.K = 1\n[loop]\ninputs = ['r']\noutputs = ['y', 'r - K*y']\n[[block]]\nname = 'plant'\n\
+                 input = 'r - y'\noutput = 'y'\ntransfer = '1/z'\n";
+    assert_lines(
+        &said(model, "python-control", &[]).stdout,
+        &[
+            "selection = np.array([[1], [-K]])",
+            "direct = np.array([[0], [1]])",
+            "closed_loop = selection*feedback(blocks, connection, 1)*entries + gain(direct)",
+        ],
+    );
+}
+
+#[test]
 fn what_the_other_program_lacks_is_written_in_numbers() {
     for (model, expected) in [
         ("examples/buck-pwm.toml", "jurist computed these matrices"),
@@ -136,6 +154,17 @@ fn other_forms_are_matrices_and_lists() {
             "poles = roots(coefficients)",
         ],
     );
+}
+
+#[test]
+fn long_formulas_are_numbers() {
+    let polynomial = "time = 'discrete'\nparameters.K = 0.5\nloop.characteristic = '(z + K)^40 - z^40 + z^41 - K'\n";
+    let text = said(polynomial, "python-control", &[]).stdout;
+    assert!(text.contains("jurist computed its coefficients at the values above"), "{text}");
+    assert!(text.contains("coefficients = [1, 0, 20, 195, 1235,"), "{text}");
+    let block = "time = 'discrete'\nparameters.K = 0.5\n[loop]\ninputs = ['r']\n[[block]]\nname = 'b'\ninput = 'r - y'\noutput = 'y'\n\
+                 transfer = '1/((z + K)^40 + 1)'\n";
+    assert!(said(block, "matlab", &[]).stdout.contains("jurist computed these matrices"));
 }
 
 #[test]

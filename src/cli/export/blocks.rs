@@ -114,8 +114,7 @@ fn transfer(of: Fraction) -> Option<System> {
         return None;
     }
     if below == 0 {
-        let one = |side: &Side| side.expanded().pop().unwrap_or_else(|| whole(0));
-        let value = quotient(one(&of.numerator), one(&of.denominator));
+        let value = quotient(of.numerator.scale, of.denominator.scale);
         return Some(System::Gain(Grid::from_fn(1, 1, |_, _| value.clone())));
     }
     let mut numerator = lists(&of.numerator);

@@ -2,7 +2,7 @@
 
 use super::connection::rows;
 use super::fraction::polynomial;
-use super::{Body, Grid, Matrices, Step, refused};
+use super::{Body, Grid, Matrices, Step, number};
 use crate::cli::status::Error;
 use jurist_algebra::limits::Budget;
 use jurist_engine::model::{Expression, Form, Matrix, Model, Name, Output, Ports, Time};
@@ -63,7 +63,7 @@ fn connected(ports: &Ports, order: usize) -> (Grid, Grid) {
     (entries, outputs)
 }
 
-/// The coefficients as they are written, or as numbers where their degree is not the one that is written.
+/// The coefficients as they are written, or as numbers where they are long, or powers cancel.
 fn characteristic(problem: &Problem, e: &Expression, budget: &Budget) -> Result<Body, Error> {
     let model = problem.model();
     let algebra = problem.algebra_over_symbols(budget)?;
@@ -71,15 +71,16 @@ fn characteristic(problem: &Problem, e: &Expression, budget: &Budget) -> Result<
     if let Some(message) = algebra.undefined() {
         return Err(Error::Undefined(message.to_owned()));
     }
-    let written = polynomial(e, model.time().variable()).filter(|p| p.len() == degree + 1);
-    match written {
-        Some(coefficients) => Ok(Body::Polynomial(coefficients.into_iter().rev().collect())),
+    let mut remark = "The characteristic polynomial, the highest power first.".to_owned();
+    let coefficients = match polynomial(e, model.time().variable()).filter(|p| p.len() == degree + 1) {
+        Some(written) => written,
         None => {
-            let help = "write the polynomial so that no powers of the variable cancel";
-            let message = "the degree of the characteristic polynomial is not the one that is written";
-            Err(refused(model, e.span, message, "powers cancel here", help))
+            remark += " jurist computed its coefficients at the values above, and they do not follow changes.";
+            let rounded = problem.rounded_polynomial(budget)?.unwrap_or_default();
+            rounded.into_iter().map(number).collect()
         }
-    }
+    };
+    Ok(Body::Polynomial { coefficients: coefficients.into_iter().rev().collect(), remark })
 }
 
 impl Body {
@@ -89,7 +90,7 @@ impl Body {
             grid.entries.iter().flatten()
         }
         match self {
-            Body::Polynomial(list) => Box::new(list.iter()),
+            Body::Polynomial { coefficients, .. } => Box::new(coefficients.iter()),
             Body::ClosedLoop { system, .. } => Box::new(system.grids().into_iter().flat_map(of_grid)),
             Body::OutputFeedback { matrices, entries, outputs } => {
                 Box::new(matrices.iter().map(|(_, grid)| grid).chain([entries, outputs]).flat_map(of_grid))

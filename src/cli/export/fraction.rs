@@ -44,16 +44,18 @@ impl Side {
         self.power + self.factors.iter().map(|f| f.len() - 1).sum::<usize>()
     }
 
-    /// Multiplied out.
-    pub fn expanded(&self) -> Polynomial {
-        let whole = self.factors.iter().fold(vec![self.scale.clone()], |all, factor| multiplied(&all, factor));
-        let mut shifted = vec![super::formula::whole(0); self.power];
-        shifted.extend(whole);
-        shifted
+    /// Multiplied out; `None` where the formulas of the coefficients would be long.
+    pub fn expanded(&self) -> Option<Polynomial> {
+        let all = self.factors.iter().try_fold(vec![self.scale.clone()], |all, factor| multiplied(&all, factor))?;
+        let mut shifted = vec![whole(0); self.power];
+        shifted.extend(all);
+        Some(shifted)
     }
 }
 
-fn multiplied(a: &Polynomial, b: &Polynomial) -> Polynomial {
+fn multiplied(a: &Polynomial, b: &Polynomial) -> Option<Polynomial> {
+    /// Names, numbers and operations in the coefficients of a product.
+    const LONGEST: usize = 2000;
     let mut out = vec![whole(0); a.len() + b.len() - 1];
     for (i, x) in a.iter().enumerate() {
         for (j, y) in b.iter().enumerate() {
@@ -61,7 +63,17 @@ fn multiplied(a: &Polynomial, b: &Polynomial) -> Polynomial {
             out[i + j] = sum(std::mem::replace(&mut out[i + j], whole(0)), Sign::Plus, term);
         }
     }
-    out
+    (out.iter().map(size).sum::<usize>() <= LONGEST).then_some(out)
+}
+
+/// How many names, numbers and operations there are.
+fn size(e: &Expression) -> usize {
+    1 + match &e.node {
+        Node::Number(_) | Node::Name(_) => 0,
+        Node::Negative(inner) | Node::Power(inner, _) | Node::Call(_, inner) => size(inner),
+        Node::Sum(terms) => terms.iter().map(|(_, e)| size(e)).sum(),
+        Node::Product(factors) => factors.iter().map(|(_, e)| size(e)).sum(),
+    }
 }
 
 /// A polynomial as a product: numbers in front, and the power of the variable, are split off.
@@ -101,14 +113,14 @@ impl Fraction {
         self.numerator.is_scalar() && self.denominator.is_scalar()
     }
 
-    fn plus(self, sign: Sign, other: Fraction) -> Fraction {
+    fn plus(self, sign: Sign, other: Fraction) -> Option<Fraction> {
         if is_zero(&self.numerator.scale) && self.is_scalar() {
             let scale = other.numerator.scale;
             let scale = if sign == Sign::Plus { scale } else { negative(scale) };
-            return Fraction { numerator: Side { scale, ..other.numerator }, ..other };
+            return Some(Fraction { numerator: Side { scale, ..other.numerator }, ..other });
         }
         if self.is_scalar() && other.is_scalar() {
-            return Fraction::scalar(sum(self.numerator.scale, sign, other.numerator.scale));
+            return Some(Fraction::scalar(sum(self.numerator.scale, sign, other.numerator.scale)));
         }
         // What each denominator lacks of the least common one.
         let (d, e) = (&self.denominator, &other.denominator);
@@ -125,15 +137,15 @@ impl Fraction {
         let brought = |side: &Side, power: usize, factors: Vec<Polynomial>| {
             side.clone().times(Side { scale: whole(1), power, factors }).expanded()
         };
-        let left = brought(&self.numerator, power - d.power, lacking.1.clone());
-        let right = brought(&other.numerator, power - e.power, lacking.0);
+        let left = brought(&self.numerator, power - d.power, lacking.1.clone())?;
+        let right = brought(&other.numerator, power - e.power, lacking.0)?;
         let length = left.len().max(right.len());
         let at = |p: &Polynomial, k: usize| p.get(k).cloned().unwrap_or_else(|| whole(0));
         let numerator = (0..length).map(|k| sum(at(&left, k), sign, at(&right, k))).collect();
         let mut denominator = self.denominator;
         denominator.power = power;
         denominator.factors.extend(lacking.1);
-        Fraction { numerator: side_of(numerator), denominator }
+        Some(Fraction { numerator: side_of(numerator), denominator })
     }
 
     fn times(self, other: Fraction) -> Fraction {
@@ -198,7 +210,7 @@ pub(super) fn fraction(e: &Expression, variable: &str) -> Option<Fraction> {
         }
         Node::Sum(terms) => terms.iter().try_fold(Fraction::scalar(whole(0)), |all, (sign, term)| {
             let term = of(term)?;
-            Some(all.plus(*sign, term))
+            all.plus(*sign, term)
         }),
         Node::Product(factors) => factors.iter().try_fold(Fraction::scalar(whole(1)), |all, (factor, e)| {
             let factor_value = of(e)?;
@@ -212,7 +224,7 @@ pub(super) fn fraction(e: &Expression, variable: &str) -> Option<Fraction> {
 /// Coefficients of a polynomial expression from the constant term up; `None` where it divides by the variable.
 pub(super) fn polynomial(e: &Expression, variable: &str) -> Option<Polynomial> {
     let Fraction { numerator, denominator } = fraction(e, variable)?;
-    let mut out = denominator.is_scalar().then(|| numerator.expanded())?;
+    let mut out = numerator.expanded().filter(|_| denominator.is_scalar())?;
     while out.len() > 1 && out.last().is_some_and(is_zero) {
         out.pop();
     }

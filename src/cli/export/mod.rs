@@ -51,8 +51,11 @@ enum Step {
 
 /// What a loop is made of.
 enum Body {
-    /// The coefficients of the characteristic polynomial, the highest power first.
-    Polynomial(Vec<Expression>),
+    /// The coefficients of the characteristic polynomial, the highest power first, and what is said of it.
+    Polynomial {
+        coefficients: Vec<Expression>,
+        remark: String,
+    },
     /// The closed loop, and what is said of it.
     ClosedLoop {
         system: Matrices,

@@ -103,7 +103,9 @@ impl Names {
 
     fn body(&self, body: Body) -> Body {
         match body {
-            Body::Polynomial(coefficients) => Body::Polynomial(self.list(coefficients)),
+            Body::Polynomial { coefficients, remark } => {
+                Body::Polynomial { coefficients: self.list(coefficients), remark }
+            }
             Body::ClosedLoop { system, remark } => Body::ClosedLoop { system: self.matrices(system), remark },
             Body::OutputFeedback { matrices, entries, outputs } => Body::OutputFeedback {
                 matrices: matrices.map(|(name, grid)| (name, self.grid(grid))),

@@ -39,7 +39,7 @@ pub(super) fn text(script: &Script, target: &dyn Target) -> String {
     out.push(String::new());
     out.extend(rest.text());
     out.push(String::new());
-    out.extend(target.print_poles(matches!(script.body, Body::Polynomial(_))));
+    out.extend(target.print_poles(matches!(script.body, Body::Polynomial { .. })));
     out.join("\n") + "\n"
 }
 
@@ -115,9 +115,9 @@ impl Lines<'_> {
 
     fn body(&mut self, body: &Body) {
         match body {
-            Body::Polynomial(list) => {
-                self.remark("The characteristic polynomial, the highest power first.");
-                let list = self.list(list);
+            Body::Polynomial { coefficients, remark } => {
+                self.remark(remark.clone());
+                let list = self.list(coefficients);
                 self.set("coefficients", &list);
                 self.set("poles", "roots(coefficients)");
             }
@@ -178,7 +178,7 @@ impl Lines<'_> {
         if let Some(direct) = &diagram.direct {
             let direct = self.grid(direct);
             self.set("direct", &direct);
-            closed.push_str(" + direct");
+            closed.push_str(" + gain(direct)");
         }
         let list = |names: &[String], other: &str| if names.is_empty() { other.to_owned() } else { names.join(", ") };
         self.blank();

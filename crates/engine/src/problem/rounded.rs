@@ -83,6 +83,26 @@ impl Problem {
         let of = &found.closed_loop;
         budget.enter(|| rounded([&of.a, &of.e, &of.c, &of.d], &found.symbols))?.map(Some)
     }
+
+    /// The coefficients of the characteristic polynomial from the constant term up, each rounded as an entry of a [`RoundedSystem`] is; `None`
+    /// where the loop is undefined.
+    ///
+    /// Cost: that of [`Problem::algebra_over_symbols`].
+    ///
+    /// # Errors
+    /// As [`Problem::algebra_over_symbols`]; a characteristic function with dead time has no coefficients that are numbers.
+    ///
+    /// # Panics
+    /// When a name is free.
+    pub fn rounded_polynomial(&self, budget: &Budget) -> Result<Option<Vec<f64>>, Error> {
+        assert!(self.free().is_empty(), "every name has a value");
+        let algebra = self.algebra_over_symbols(budget)?;
+        let Some(polynomial) = algebra.polynomial() else { return Ok(None) };
+        let row = RationalMatrix::from_fn(1, polynomial.coefficients.len(), |_, k| polynomial.coefficients[k].clone());
+        let none = RationalMatrix::zeros(0, 0);
+        let found = budget.enter(|| rounded([&row, &none, &none, &none], algebra.symbols()))??;
+        Ok(found.a.into_iter().next())
+    }
 }
 
 fn rounded(matrices: [&RationalMatrix; 4], symbols: &Symbols) -> Result<RoundedSystem, Error> {
