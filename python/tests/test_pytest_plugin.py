@@ -13,7 +13,7 @@ parameters.K = 1
 loop.characteristic = 'z - 1 + K'
 
 [[expect]]
-question = "verdict"
+
 verdict = "stable"
 """
 

@@ -1,7 +1,7 @@
 //! `jurist export`: the loop as a script of another program.
 
 use super::{Context, Runs};
-use crate::cli::arguments::{LineOptions, ModelOptions, RegionOptions, RunOptions};
+use crate::cli::arguments::{ModelOptions, ReadingOptions, RegionOptions, RunOptions};
 use crate::cli::destinations::Files;
 use crate::cli::export::{Script, Target, matlab, python_control};
 use crate::cli::input::{load, question};
@@ -17,7 +17,7 @@ pub(in crate::cli) struct Options {
     #[arg(value_name = "MODEL")]
     pub model: Option<OsString>,
     #[command(flatten)]
-    pub line: LineOptions,
+    pub line: ReadingOptions,
     /// The program that reads the script
     #[arg(long, value_enum)]
     pub to: Program,
