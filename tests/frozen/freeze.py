@@ -44,7 +44,7 @@ def questions(name, text, whole):
     # Free parameters beyond the first two ask nothing new.
     one = [["--param", parameter] for parameter in free[: 2 if whole else 1]]
     yield from (["check"], ["verdict"], ["verdict", "--json", "--certificate", "OUT.json"], ["charpoly"], ["charpoly", "--json"])
-    yield from (["jury"], ["analyze"], ["margins"], ["margins", "--json"])
+    yield from (["jury"], ["analyze"], ["margins"], ["margins", "--json"], ["roots"], ["test", "--json"])
     for p in one:
         yield ["intervals", *p]
         yield ["intervals", *p, "--json", "--certificate", "OUT.json"]
