@@ -1,7 +1,7 @@
 //! Which files have expectations, and the models that these are about.
 
 use super::cases::Cases;
-use super::lock;
+use super::{InText, lock};
 use crate::cli::status::Error;
 use crate::references::Resolved;
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Source, Span};
@@ -24,14 +24,21 @@ pub(in crate::cli) struct Suite {
     /// What is to be tried, or why nothing can be.
     pub entries: Result<Vec<Entry>, Error>,
     /// The model with the file that holds its limits fast.
-    pub lock: Option<(Arc<Model>, Result<Lock, Error>)>,
+    pub lock: Option<Locked>,
+}
+
+/// A model with the file that holds its limits fast.
+pub(in crate::cli) struct Locked {
+    pub model: Arc<Model>,
+    /// The file, or why it is none.
+    pub lock: Result<Lock, Error>,
 }
 
 /// Claims about one model.
 pub(in crate::cli) struct Entry {
     /// What the entry is called.
     pub name: Option<String>,
-    pub claims: Vec<(ClaimKind, Option<(Arc<Source>, Span)>)>,
+    pub claims: Vec<(ClaimKind, Option<InText>)>,
     pub model: Arc<Model>,
     pub set: super::judge::Point,
     pub cases: Option<Arc<Cases>>,
@@ -88,10 +95,10 @@ impl Collector {
     }
 
     /// The entries of a model file, its requirements, and its lock.
-    fn of_model(&mut self, path: &Path) -> Result<(Vec<Entry>, Option<(Arc<Model>, Result<Lock, Error>)>), Error> {
+    fn of_model(&mut self, path: &Path) -> Result<(Vec<Entry>, Option<Locked>), Error> {
         let model = self.model(path)?;
         let folder = folder(path);
-        let lock = lock::of(path).map(|lock| (Arc::clone(&model), lock));
+        let lock = lock::of(path).map(|lock| Locked { model: Arc::clone(&model), lock });
         let mut entries = Vec::new();
         for expectation in model.expectations() {
             entries.push(self.entry(expectation, &model, &folder)?);

@@ -15,6 +15,9 @@ use jurist_engine::error::{Source, Span};
 use jurist_engine::show::documents::TestStatus;
 use std::sync::Arc;
 
+/// A place in a text.
+pub(super) type InText = (Arc<Source>, Span);
+
 /// What became of one expectation.
 #[derive(Clone, Debug)]
 pub(super) struct Line {
@@ -28,7 +31,7 @@ pub(super) struct Line {
     /// The worst row of a table of operating points.
     pub row: Option<usize>,
     /// Where it is expected.
-    pub place: Option<(Arc<Source>, Span)>,
+    pub place: Option<InText>,
 }
 
 impl Line {

@@ -1,11 +1,11 @@
 //! All expectations, tried on all cores.
 
-use super::collect::{Entry, Suite};
+use super::collect::{Entry, Locked, Suite};
 use super::judge::{Point, failure, judge, words};
-use super::{Line, lock};
+use super::{InText, Line, lock};
+use crate::cli::status::Error;
 use jurist_algebra::limits::{Budget, parallel_map};
 use jurist_algebra::number::Rational;
-use jurist_engine::error::{Source, Span};
 use jurist_engine::model::ClaimKind;
 use jurist_engine::show::documents::TestStatus;
 use jurist_engine::show::layout::short;
@@ -22,7 +22,7 @@ struct Job<'s> {
     file: usize,
     entry: &'s Entry,
     claim: &'s ClaimKind,
-    place: &'s Option<(Arc<Source>, Span)>,
+    place: &'s Option<InText>,
     points: Vec<Point>,
 }
 
@@ -61,8 +61,8 @@ pub(in crate::cli) fn try_all(suites: &[Suite], budget: &Budget) -> Outcomes {
     }
     let locks: Vec<Vec<Line>> = parallel_map(suites.iter().map(|suite| &suite.lock), |lock| match lock {
         None => Vec::new(),
-        Some((model, Ok(lock))) => lock::check(model, lock, budget),
-        Some((_, Err(error))) => vec![failure("the lock".to_owned(), error.clone())],
+        Some(Locked { model, lock: Ok(lock) }) => lock::check(model, lock, budget),
+        Some(Locked { lock: Err(error), .. }) => vec![failure("the lock".to_owned(), error.clone())],
     });
     for ((_, lines), locked) in files.iter_mut().zip(locks) {
         lines.extend(locked);
@@ -140,8 +140,8 @@ fn rank(line: &Line) -> (std::cmp::Reverse<TestStatus>, bool, Rational) {
 }
 
 /// Where an error stands.
-fn place_of(error: &crate::cli::status::Error) -> Option<(Arc<Source>, Span)> {
-    let crate::cli::status::Error::Refused(refused) = error else { return None };
+fn place_of(error: &Error) -> Option<InText> {
+    let Error::Refused(refused) = error else { return None };
     let source = refused.source_text()?;
     let span = refused.diagnostics().first()?.primary.as_ref()?.span;
     Some((Arc::clone(source), span))

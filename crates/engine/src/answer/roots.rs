@@ -172,8 +172,8 @@ impl Problem {
         let time = self.time();
         let (polynomial, degree, period) = exact_or_enclosed(
             budget,
-            |budget| self.from_polynomial(&narrow, budget),
-            |budget| self.from_matrix(&narrow, budget),
+            |budget| self.roots_by_polynomial(&narrow, budget),
+            |budget| self.roots_by_matrix(&narrow, budget),
         )?;
         budget.step("enclosing the roots");
         let discs = match polynomial {
@@ -195,7 +195,7 @@ impl Problem {
     }
 
     /// By the polynomial of the algebra.
-    fn from_polynomial(
+    fn roots_by_polynomial(
         &self,
         narrow: &Rational,
         budget: &Budget,
@@ -226,7 +226,7 @@ impl Problem {
     }
 
     /// By the matrix of the closed loop, as numbers.
-    fn from_matrix(
+    fn roots_by_matrix(
         &self,
         narrow: &Rational,
         budget: &Budget,
