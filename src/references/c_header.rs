@@ -52,8 +52,15 @@ impl Definition<'_> {
             Kind::Constant(words) if as_decimal => type_of(words).ok(),
             Kind::Constant(words) => Some(type_of(words).map_err(refuse)?),
         };
-        if of_type == Some(Type::Integer) && !value.is_integer() {
-            return Err(refuse(format!("C cuts off the fraction of {written}")));
+        if let Some(Type::Integer { low, high }) = of_type {
+            if !value.is_integer() {
+                return Err(refuse(format!("C cuts off the fraction of {written}")));
+            }
+            if value < Rational::from(low) || value > Rational::from(high) {
+                return Err(refuse(format!(
+                    "{written} may not fit into its type, which compilers make of different sizes"
+                )));
+            }
         }
         let rounded = |value: &Rational, format: BinaryFormat| {
             format.nearest(value).ok_or_else(|| refuse(format!("{written} is infinite in this format")))
@@ -65,9 +72,9 @@ impl Definition<'_> {
                     "{written} is a long double, which compilers hold differently; as = \"decimal\" takes it as written"
                 )));
             }
-            (_, Format::Integer, None | Some(Type::Integer)) => (value, "a whole number".to_owned()),
+            (_, Format::Integer, None | Some(Type::Integer { .. })) => (value, "a whole number".to_owned()),
             (_, Format::Integer, Some(Type::Binary(to))) => (rounded(&value, to)?, format!("as {}", words(to))),
-            (_, Format::Binary(own), None | Some(Type::Integer)) => {
+            (_, Format::Binary(own), None | Some(Type::Integer { .. })) => {
                 (rounded(&value, own)?, format!("as {}", words(own)))
             }
             (_, Format::Binary(own), Some(Type::Binary(to))) => {
@@ -95,7 +102,11 @@ fn words(format: BinaryFormat) -> &'static str {
 /// What a declaration holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Type {
-    Integer,
+    /// With the values that it has at least, whatever compiler there is; `int` is taken for 32 bits.
+    Integer {
+        low: i64,
+        high: i64,
+    },
     Binary(BinaryFormat),
 }
 
@@ -110,12 +121,30 @@ fn type_of(words: &[&str]) -> Result<Type, String> {
     if is(&["double", "float64_t", "real_T", "real64_T", "auto"]) {
         return Ok(Type::Binary(BinaryFormat::Double));
     }
-    let is_integer = |word: &&str| {
-        ["int", "long", "short", "char", "unsigned", "signed", "size_t"].contains(word)
-            || (word.trim_start_matches('u').starts_with("int") && word.ends_with("_t"))
+    let fixed = |word: &&str| -> Option<(bool, u32)> {
+        let (is_unsigned, rest) = word.strip_prefix('u').map_or((false, *word), |rest| (true, rest));
+        let bits =
+            rest.strip_prefix("int")?.strip_suffix("_t")?.trim_start_matches("_least").trim_start_matches("_fast");
+        bits.parse().ok().filter(|bits| [8, 16, 32, 64].contains(bits)).map(|bits| (is_unsigned, bits))
     };
-    if words.iter().any(is_integer) {
-        return Ok(Type::Integer);
+    let known = ["int", "long", "short", "char", "unsigned", "signed"];
+    let named = words.iter().find_map(fixed).or_else(|| {
+        let bits = if is(&["char"]) {
+            8
+        } else if is(&["short"]) {
+            16
+        } else {
+            32
+        };
+        let is_whole = !words.is_empty() && words.iter().all(|word| known.contains(word));
+        is_whole.then(|| (is(&["unsigned"]), bits)).or_else(|| is(&["size_t"]).then_some((true, 32)))
+    });
+    if let Some((is_unsigned, bits)) = named {
+        let most = i64::try_from((1_i128 << (bits - 1)) - 1).unwrap_or(i64::MAX);
+        // Whether a plain char has a sign is the compiler's choice.
+        let low = if is_unsigned || is(&["char"]) && !is(&["signed"]) { 0 } else { -most - 1 };
+        let high = if is_unsigned && bits < 64 { 2 * most + 1 } else { most };
+        return Ok(Type::Integer { low, high });
     }
     let shown = words.join(" ");
     Err(format!("the type '{shown}' is not known here; as = \"decimal\" takes the literal as written"))

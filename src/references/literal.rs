@@ -55,7 +55,21 @@ pub(super) fn literal(text: &str) -> Result<Literal<'_>, String> {
         true => format!("'{inner}' is octal in C, which is hardly meant: write it in decimal"),
         false => format!("'{shown}' is not one literal: formulas, casts and calls are not evaluated here"),
     })?;
+    if format == Format::Integer && value >= Rational::from(&Integer::ONE << 64) {
+        return Err(format!("{shown} is larger than any integer of C"));
+    }
+    if negative && format == Format::Integer && is_unsigned(inner, &value) {
+        return Err(format!("in {shown} the number is unsigned: its negative wraps to a large positive one in C"));
+    }
     Ok(Literal { written: text.trim(), value: if negative { -value } else { value }, format })
+}
+
+/// Whether a whole number without a sign may be unsigned: by its suffix, and in another base than ten where an `int` is too small.
+fn is_unsigned(text: &str, value: &Rational) -> bool {
+    let is_decimal =
+        !text.starts_with("0x") && !text.starts_with("0X") && !text.starts_with("0b") && !text.starts_with("0B");
+    let has_suffix = text.trim_end_matches(['l', 'L', 'z', 'Z']).ends_with(['u', 'U']);
+    has_suffix || text.contains(['u', 'U']) || !is_decimal && *value > Rational::from(i64::from(i32::MAX))
 }
 
 fn is_octal(text: &str) -> bool {
