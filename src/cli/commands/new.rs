@@ -38,7 +38,7 @@ macro_rules! templates {
     };
 }
 
-const TEMPLATES: [Template; 8] = templates![
+const TEMPLATES: [Template; 11] = templates![
     "gain-loop": "one loop with one gain, the shortest block diagram",
     "cascaded-drive": "cascaded PI control of a DC motor behind a hold",
     "held-plant": "a continuous plant behind a zero-order hold, with a fractional delay",
@@ -46,6 +46,9 @@ const TEMPLATES: [Template; 8] = templates![
     "matrix": "state space with output feedback",
     "polynomial": "a characteristic polynomial",
     "two-mass": "speed control of two masses with a notch filter",
+    "digital-power": "a buck converter behind its pulse-width modulator, voltage mode",
+    "cascade-two-rates": "a speed loop at a tenth of the current loop's rate",
+    "dq-current": "current control in the dq frame, the voltage held in the frame of the stator",
     "lcl-filter": "grid current through an LCL filter, one sample of computation and the hold",
 ];
 
