@@ -1,16 +1,18 @@
-//! Numbers of YAML and JSON files, by a path of keys. JSON is read as the part of YAML that it is.
+//! Numbers of YAML and JSON files, by a path of keys. What is valid JSON is read by the reader of YAML, but for characters written as surrogates.
 
 use super::{Found, Refusal};
 use jurist_algebra::number::parse_number;
 use saphyr_parser::{Event, Parser, ScalarStyle};
+use serde::de::IgnoredAny;
+use std::collections::HashSet;
 
 /// Deeper files are refused.
 const MAX_DEPTH: usize = 64;
 
 /// What is open around a node.
 enum Open {
-    /// A mapping, and the key whose value comes next.
-    Mapping(Option<String>),
+    /// A mapping: the key whose value comes next, and all keys so far.
+    Mapping(Option<String>, HashSet<String>),
     /// A sequence, and the index that comes next.
     Sequence(usize),
 }
@@ -32,9 +34,12 @@ pub(super) fn number(text: &str, path: &str) -> Result<Found, Refusal> {
     if !scalar.is_plain {
         return Err(refuse(format!("'{written}' is a text, not a number")));
     }
-    let decimal = written.strip_prefix('+').unwrap_or(&written);
-    let is_decimal = decimal.starts_with(|c: char| c.is_ascii_digit() || "-.".contains(c)) && !decimal.contains('/');
-    match parse_number(decimal) {
+    let decimal = written.strip_prefix(['+', '-']).unwrap_or(&written);
+    // With a zero in front it may be octal, and underscores are digits to some readers only.
+    let is_octal = decimal.len() > 1 && decimal.starts_with('0') && decimal.bytes().all(|b| b.is_ascii_digit());
+    let is_plain = decimal.starts_with(|c: char| c.is_ascii_digit() || c == '.') && !decimal.contains(['/', '_']);
+    let is_decimal = is_plain && !is_octal;
+    match parse_number(written.strip_prefix('+').unwrap_or(&written)) {
         Ok(number) if is_decimal => {
             Ok(Found { number, how: "as it is written".to_owned(), line: scalar.line, written })
         }
@@ -42,11 +47,33 @@ pub(super) fn number(text: &str, path: &str) -> Result<Found, Refusal> {
     }
 }
 
+/// The number at a path of a JSON file.
+pub(super) fn number_of_json(text: &str, path: &str) -> Result<Found, Refusal> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    if let Err(error) = serde_json::from_str::<IgnoredAny>(text) {
+        return Err(Refusal { line: Some(error.line()), why: format!("the file is not JSON: {error}") });
+    }
+    // A surrogate is half of a character, which YAML has no escape for.
+    let mut whole = text.to_owned();
+    let mut from = 0;
+    while let Some(at) = whole[from..].find("\\u").map(|k| from + k) {
+        let is_high = |c: char| "89abcdefABCDEF".contains(c);
+        if whole[at + 2..].starts_with(['d', 'D']) && whole[at + 3..].starts_with(is_high) {
+            whole.replace_range(at..at + 6, "??????");
+        }
+        from = at + 2;
+    }
+    number(&whole, path)
+}
+
 /// The keys and indices of a path.
 fn steps(path: &str) -> Vec<String> {
     match path.strip_prefix('/') {
         Some(pointer) => pointer.split('/').map(|step| step.replace("~1", "/").replace("~0", "~")).collect(),
-        None => path.replace('[', ".").replace(']', "").split('.').map(str::to_owned).collect(),
+        None => {
+            let dotted = path.replace('[', ".").replace(']', "");
+            dotted.strip_prefix('.').unwrap_or(&dotted).split('.').map(str::to_owned).collect()
+        }
     }
 }
 
@@ -62,16 +89,19 @@ fn scalar_at(text: &str, wanted: &[String]) -> Result<Option<Scalar>, Refusal> {
         })?;
         let line = span.start.line();
         let refuse = |why: &str| Err(Refusal { line: Some(line), why: why.to_owned() });
-        let is_key = matches!(open.last(), Some(Open::Mapping(None)));
+        let is_key = matches!(open.last(), Some(Open::Mapping(None, _)));
         let is_wanted = !is_key && is_at(&open, wanted);
         match event {
             Event::DocumentStart(_) => documents += 1,
             Event::Scalar(key, ..) if is_key => {
-                if let Some(Open::Mapping(next)) = open.last_mut() {
+                if let Some(Open::Mapping(next, known)) = open.last_mut() {
+                    if !known.insert(key.to_string()) {
+                        return refuse(&format!("the key '{key}' stands there twice"));
+                    }
                     *next = Some(key.into_owned());
                 }
-                continue;
             }
+            Event::Scalar(_, _, _, Some(_)) if is_wanted => return refuse("a number with a tag is not read"),
             Event::Scalar(value, style, ..) => {
                 if is_wanted && found.is_some() || documents > 1 {
                     return refuse(if documents > 1 {
@@ -96,7 +126,7 @@ fn scalar_at(text: &str, wanted: &[String]) -> Result<Option<Scalar>, Refusal> {
             Event::MappingStart(..) | Event::SequenceStart(..) if open.len() >= MAX_DEPTH => {
                 return refuse("the file is nested too deeply");
             }
-            Event::MappingStart(..) => open.push(Open::Mapping(None)),
+            Event::MappingStart(..) => open.push(Open::Mapping(None, HashSet::new())),
             Event::SequenceStart(..) => open.push(Open::Sequence(0)),
             Event::MappingEnd | Event::SequenceEnd => {
                 open.pop();
@@ -111,7 +141,7 @@ fn scalar_at(text: &str, wanted: &[String]) -> Result<Option<Scalar>, Refusal> {
 /// True if the next node is the wanted one.
 fn is_at(open: &[Open], wanted: &[String]) -> bool {
     let is_step = |(open, step): (&Open, &String)| match open {
-        Open::Mapping(key) => key.as_ref() == Some(step),
+        Open::Mapping(key, _) => key.as_ref() == Some(step),
         Open::Sequence(index) => index.to_string() == *step,
     };
     open.len() == wanted.len() && open.iter().zip(wanted).all(is_step)
@@ -120,7 +150,7 @@ fn is_at(open: &[Open], wanted: &[String]) -> bool {
 /// A value has ended: the next one has another place.
 fn ended(open: &mut [Open]) {
     match open.last_mut() {
-        Some(Open::Mapping(key)) => *key = None,
+        Some(Open::Mapping(key, _)) => *key = None,
         Some(Open::Sequence(index)) => *index += 1,
         None => {}
     }
@@ -156,6 +186,11 @@ mod tests {
             (JSON, "t", "not a decimal", Some(1)),
             ("a: 1\na: 2\n", "a", "twice", Some(2)),
             ("a: 1/2\n", "a", "not a decimal", Some(1)),
+            ("a: 010\n", "a", "not a decimal", Some(1)),
+            ("a: 1_000\n", "a", "not a decimal", Some(1)),
+            ("a: +-1\n", "a", "not a decimal", Some(1)),
+            ("a: !!str 1.5\n", "a", "with a tag", Some(1)),
+            ("s: {a: 1}\ns: {b: 1}\n", "s.a", "twice", Some(2)),
             ("a: 0x1F\n", "a", "not a decimal", Some(1)),
             ("a: .inf\n", "a", "not a decimal", Some(1)),
             ("a: [1\n", "a", "", None),
@@ -166,5 +201,9 @@ mod tests {
             assert!(line.is_none() || refused.line == line, "{text}: {path}: {:?}", refused.line);
         }
         assert!(number(&"[".repeat(100_000), "a").is_err());
+        for text in ["{\"a\": 01}", "{\"a\": .5}", "{'a': 1}", "{\"a\": 1,}", "{\"a\": 1} # no", ""] {
+            assert!(number_of_json(text, "a").unwrap_err().why.contains("not JSON"), "{text}");
+        }
+        assert_eq!(number_of_json("[1, {\"\\ud83d\\ude00\": 2, \"a\": 3}]", "[1].a").unwrap().number.to_string(), "3");
     }
 }

@@ -47,7 +47,7 @@ pub(super) fn literal(text: &str) -> Result<Literal<'_>, String> {
     if !inner.starts_with(|c: char| c.is_ascii_digit() || c == '.') {
         let is_name = inner.chars().all(|c| c.is_alphanumeric() || c == '_');
         return Err(match is_name {
-            true => format!("'{inner}' is another name, not a literal: ask for that one"),
+            true => format!("'{inner}' is another name, not a literal"),
             false => format!("'{shown}' is not one literal: formulas, casts and calls are not evaluated here"),
         });
     }

@@ -1,6 +1,8 @@
 //! Numbers that a model takes from other files, `from = "params.h#PID_KP"`: constants of the firmware, where they are kept.
 
 mod c_header;
+mod c_source;
+mod c_type;
 mod data;
 mod literal;
 
@@ -68,8 +70,12 @@ impl Refusal {
     }
 
     fn at(text: &str, at: usize, why: String) -> Refusal {
-        let line = text.as_bytes()[..at.min(text.len())].iter().filter(|b| **b == b'\n').count() + 1;
-        Refusal { line: Some(line), why }
+        Refusal { line: Some(Self::line(text, at)), why }
+    }
+
+    /// The number of the line of a place.
+    fn line(text: &str, at: usize) -> usize {
+        text.as_bytes()[..at.min(text.len())].iter().filter(|b| **b == b'\n').count() + 1
     }
 }
 
@@ -122,6 +128,8 @@ impl Resolved {
 ///
 /// The text of the model is that with these numbers.
 ///
+/// Cost: that of reading both.
+///
 /// ```standalone_crate
 /// let bytes = std::fs::read("examples/firmware/speed.toml").unwrap();
 /// let (model, _) = jurist::model_in_folder("speed.toml", &bytes, "examples/firmware".as_ref())?;
@@ -154,7 +162,8 @@ fn number(reference: &Reference, folder: &Path) -> Result<Number, Refusal> {
         "h" | "hh" | "hpp" | "hxx" | "c" | "cc" | "cpp" | "cxx" | "inc" | "ino" => {
             c_header::number(&text, &reference.key, reference.as_decimal)?
         }
-        "json" | "yaml" | "yml" => data::number(&text, &reference.key)?,
+        "json" => data::number_of_json(&text, &reference.key)?,
+        "yaml" | "yml" => data::number(&text, &reference.key)?,
         _ => {
             return Err(Refusal::of(
                 "the file is no C header (.h, .hpp, .c, ..), YAML or JSON, by its ending".to_owned(),
@@ -171,7 +180,7 @@ fn number(reference: &Reference, folder: &Path) -> Result<Number, Refusal> {
 
 /// The text of a file below a folder, wherever links lead.
 fn read_below(folder: &Path, file: &str) -> Result<String, Refusal> {
-    let refuse = |why: String| Refusal::of(why);
+    let refuse = Refusal::of;
     let path = Path::new(file);
     let is_below = path.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
     if !is_below || file.contains('\\') {
