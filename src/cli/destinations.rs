@@ -59,6 +59,28 @@ pub(super) fn check(arguments: &Arguments, context: &Context) -> Result<(), Erro
     Ok(())
 }
 
+/// Refuses outputs that would replace a file of which it is known only now that it is read: one of a folder, or one that another file names.
+#[cfg(feature = "cli")]
+pub(super) fn check_read<'n>(
+    context: &Context,
+    outputs: impl IntoIterator<Item = (&'static str, &'n OsString)>,
+    read: &[PathBuf],
+) -> Result<(), Error> {
+    for (what, name) in outputs {
+        let Some(identity) = Identity::of_output(name)? else { continue };
+        if let Some(path) = read.iter().find(|path| Identity::of_input(path.as_os_str()).is_some_and(|i| i == identity))
+        {
+            let message = format!("{what} would replace {}, which is read", path.display());
+            let mut error = Diagnostic::error(Code::OutputName, message).help("give it another name");
+            if let Some(span) = context.line.argument(&name.to_string_lossy()) {
+                error = error.at(span, "");
+            }
+            return Err(in_line(context.line, vec![error]).into());
+        }
+    }
+    Ok(())
+}
+
 fn is_standard(name: &OsStr) -> bool {
     name == "-" || matches!(Destination::of(Path::new(name)), Ok(Destination::StandardOutput))
 }

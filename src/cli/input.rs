@@ -5,6 +5,8 @@ use super::assignments::{assignments, domains, in_line, plain_number};
 use super::captured;
 use super::commands::Context;
 #[cfg(feature = "cli")]
+use super::destinations::check_read;
+#[cfg(feature = "cli")]
 use super::output::write_answer;
 use super::output::{note, plain};
 #[cfg(feature = "cli")]
@@ -18,6 +20,8 @@ use std::ffi::{OsStr, OsString};
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
+#[cfg(feature = "cli")]
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Longer model files are refused.
@@ -53,12 +57,9 @@ pub(super) fn tell_numbers(
     #[cfg(feature = "cli")]
     {
         if let Some(file) = &options.resolved {
-            let whole = |path: &OsStr| Path::new(path).canonicalize().ok();
-            if whole(file).is_some_and(|file| whole(OsStr::new(name)) == Some(file)) {
-                let place = context.line.option_value("--resolved", &file.to_string_lossy()).span;
-                let error = Diagnostic::error(Code::Usage, "--resolved would write over the model itself");
-                return Err(in_line(context.line, vec![error.at(place, "the model").help("give another file")]).into());
-            }
+            let read: Vec<PathBuf> =
+                std::iter::once(PathBuf::from(name)).chain(numbers.files.iter().cloned()).collect();
+            check_read(context, [("the copy of the model", file)], &read)?;
             write_answer(&numbers.file, Some(file))?;
         } else if !numbers.said.is_empty() {
             context.note_references();
@@ -80,6 +81,9 @@ pub(super) struct Numbers {
     /// The model with all of them, as a file.
     #[cfg(feature = "cli")]
     file: String,
+    /// The files.
+    #[cfg(feature = "cli")]
+    pub files: Vec<PathBuf>,
 }
 
 /// A model with the name that it was asked for by.
@@ -125,6 +129,7 @@ fn with_numbers(
     let folder = model.map(Path::new).filter(|path| *path != Path::new("-")).and_then(Path::parent);
     let folder = folder.filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let resolved = Resolved::of(&source, folder)?;
+    numbers.files = resolved.numbers.iter().map(|number| folder.join(number.file())).collect();
     numbers.said = resolved.numbers.iter().map(Number::text).collect();
     numbers.file = resolved.source.text.clone();
     Ok(resolved.source)

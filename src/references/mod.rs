@@ -38,6 +38,11 @@ pub(crate) struct Number {
 }
 
 impl Number {
+    /// The file, relative to the model's folder.
+    pub fn file(&self) -> &str {
+        self.from.split_once('#').map_or(&self.from, |(file, _)| file)
+    }
+
     /// `K_p = 0.100000001490 (params.h#PID_KP, line 12: 0.1f as float32)`.
     pub fn text(&self) -> String {
         let Found { number, written, how, line } = &self.found;
@@ -112,17 +117,21 @@ impl Resolved {
         if texts.is_empty() {
             return Ok(Resolved { source: Arc::clone(source), numbers });
         }
-        // A comment behind it says where each number is from.
+        // Comments behind it say that this is a copy, and where each number is from.
         let mut text = Reference::replaced(source, &texts).text.clone();
         if !text.ends_with('\n') {
             text.push('\n');
         }
+        text.push_str(&format!("{COPY} of {}\n", source.name.rsplit(['/', '\\']).next().unwrap_or_default()));
         for number in &numbers {
             text.push_str(&format!("# {}; SHA-256 of the file {}\n", number.text(), number.sha256));
         }
         Ok(Resolved { source: Source::new(source.name.clone(), text), numbers })
     }
 }
+
+/// How the comment of a model begins that holds the numbers of other files.
+pub(crate) const COPY: &str = "# Numbers of other files stand in this copy";
 
 /// Reads a model file with the numbers that it takes from files below a folder (`from = "params.h#PID_KP"`), with its warnings.
 ///

@@ -21,20 +21,20 @@ fn lines(expectations: &str) -> (i32, Vec<(String, String, Value)>) {
 #[test]
 fn each_claim_is_held_or_not_with_what_is_left() {
     for (claim, status, found, margin) in [
-        ("verdict = 'stable'", "passed", "stable: 1 of 1 roots inside", None),
-        ("verdict = 'marginal'", "failed", "stable: 1 of 1 roots inside", None),
+        ("verdict = 'stable'", "passed", "stable: the root is inside the unit circle", None),
+        ("verdict = 'marginal'", "failed", "stable: the root is inside the unit circle", None),
         ("verdict = 'marginal'\nset = { K = 2 }", "passed", "marginal", None),
         ("verdict = 'unstable'\nset = { K = 3 }", "passed", "unstable", None),
         // The end is 2, half of it is left; at 1.9 it is 5 % of 2.
-        ("param = 'K'\nstable = [0.1, 1]", "passed", "from 0 to 2", Some(50.0)),
-        ("param = 'K'\nstable = [0.1, 1.9]", "passed", "from 0 to 2", Some(5.0)),
-        ("param = 'K'\nstable = [0.1, 2]", "failed", "from 0 to 2", Some(0.0)),
-        ("param = 'K'\nstable = [0, 1]", "failed", "from 0 to 2", Some(0.0)),
-        ("param = 'K'\nstable = [0.5, 4]", "failed", "from 0 to 2", Some(-50.0)),
-        ("param = 'K'\nstable = ['-inf', 1]", "failed", "from 0 to 2", None),
-        ("param = 'K'\nstable = [0.1, 'inf']", "failed", "from 0 to 2", None),
-        ("param = 'c'\nstable = [1, 3]", "passed", "from 0 to 4", Some(25.0)),
-        ("param = 'K'\nset = { c = 4 }\nstable = [0.1, 1]", "failed", "from 0 to 0.5", Some(-50.0)),
+        ("param = 'K'\nstable = [0.1, 1]", "passed", "for 0 < K < 2", Some(50.0)),
+        ("param = 'K'\nstable = [0.1, 1.9]", "passed", "for 0 < K < 2", Some(5.0)),
+        ("param = 'K'\nstable = [0.1, 2]", "failed", "for 0 < K < 2", Some(0.0)),
+        ("param = 'K'\nstable = [0, 1]", "failed", "for 0 < K < 2", Some(0.0)),
+        ("param = 'K'\nstable = [0.5, 4]", "failed", "for 0 < K < 2", Some(-50.0)),
+        ("param = 'K'\nstable = ['-inf', 1]", "failed", "for 0 < K < 2", None),
+        ("param = 'K'\nstable = [0.1, 'inf']", "failed", "for 0 < K < 2", None),
+        ("param = 'c'\nstable = [1, 3]", "passed", "for 0 < c < 4", Some(25.0)),
+        ("param = 'K'\nset = { c = 4 }\nstable = [0.1, 1]", "failed", "for 0 < K < 0.5", Some(-50.0)),
         // Two intervals, and none about the nominal value: the nearest end.
         ("param = 'c'\nset = { K = 2 }\nupper = 1\nwithin = '1%'", "passed", "is 1", Some(100.0)),
         // Of 1 % of 2 a half is used.
@@ -54,15 +54,17 @@ fn each_claim_is_held_or_not_with_what_is_left() {
         ("require = { radius = 0.6 }", "passed", "met", None),
         ("require = { radius = 0.4 }", "failed", "not met", None),
         // The box reaches c = 4 at six times 50 %, and c = 0 at twice.
-        ("tolerance = 1", "passed", "proved up to", None),
-        ("tolerance = 1.9", "passed", "proved up to", None),
-        ("tolerance = 2.1", "failed", "proved up to", None),
+        ("tolerance = 1", "passed", "they can grow by", None),
+        ("tolerance = 1.9", "passed", "they can grow by", None),
+        ("tolerance = 1.9999999", "passed", "they can grow by", None),
+        ("tolerance = 2", "failed", "they can grow by", None),
+        ("tolerance = 2.1", "failed", "they can grow by", None),
         // Row 2 has c = 3.
         ("cases = 'cases.csv'\nverdict = 'stable'", "passed", "worst of 3 operating points", None),
         (
             "cases = 'cases.csv'\nparam = 'K'\nstable = [0.1, 0.5]",
             "passed",
-            "row 2 (c = 3): stable from 0 to 0.666667",
+            "row 2 (c = 3): stable for 0 < K < 0.666667",
             Some(25.0),
         ),
         (
@@ -89,12 +91,15 @@ fn without_expectations_requirements_or_the_nominal_point_are_tried() {
     let required = LOOP.to_owned() + "[require]\ngain_margin = 5\n";
     let folder = Folder::new(&[("a.toml", LOOP), ("b.toml", &required)]);
     let run = folder.jurist(&["test", "a.toml"]);
-    assert_eq!(run.stdout, "a.toml\n  passed    verdict stable: stable: 1 of 1 roots inside\n1 passed, 0 failed\n");
+    assert_eq!(
+        run.stdout,
+        "a.toml\n  passed    verdict stable: stable: the root is inside the unit circle\n1 passed, 0 failed\n"
+    );
     let run = folder.jurist(&["test", "b.toml"]);
     assert_eq!(run.status, 1);
     assert_eq!(
         run.stdout,
-        "b.toml\n  FAILED    gain_margin >= 5: is 4, 20 % too little (line 15)\n0 passed, 1 failed\n"
+        "b.toml\n  FAILED    gain_margin >= 5: is 4 (12.04 dB), 20 % too little (line 15)\n0 passed, 1 failed\n"
     );
 }
 
@@ -109,7 +114,7 @@ fn folders_are_searched_and_files_of_expectations_speak_of_models_elsewhere() {
     ]);
     let run = folder.jurist(&["test", ".", "--junit", "out.xml", "--sarif", "out.sarif", "--only-bad"]);
     assert_eq!(run.status, 1, "{}", run.stderr);
-    let line = "  FAILED    stable for 1 <= K <= 3: stable from 0 to 2, 33.3 % too little (line 7)\n";
+    let line = "  FAILED    stable for 1 <= K <= 3: stable for 0 < K < 2, 33.3 % too little (line 7)\n";
     assert_eq!(run.stdout, format!("jurist-tests.toml\n{line}1 passed, 1 failed\n"));
     let xml = folder.read("out.xml");
     assert!(xml.contains("tests=\"2\" failures=\"1\" errors=\"0\"") && xml.contains("(line 7)"), "{xml}");
@@ -121,6 +126,62 @@ fn folders_are_searched_and_files_of_expectations_speak_of_models_elsewhere() {
         (&region["artifactLocation"]["uri"], &region["region"]["startLine"]),
         (&"jurist-tests.toml".into(), &7.into())
     );
+}
+
+#[test]
+fn no_file_that_is_read_is_written_over() {
+    let entry = "[[expect]]\nverdict = 'stable'\ncases = 'cases.csv'\n";
+    let model = format!("{}{entry}", LOOP.replace("c = {", "d = { from = 'g.h#D' }\nc = {").replace("c*K", "c*d*K"));
+    let tests = "model = 'loop.toml'\n[[expect]]\nverdict = 'stable'\n";
+    let files = [
+        ("loop.toml", model.as_str()),
+        ("g.h", "#define D 1\n"),
+        ("cases.csv", "c\n1\n"),
+        ("jurist-tests.toml", tests),
+    ];
+    let folder = Folder::new(&files);
+    assert_eq!(folder.jurist(&["lock", "loop.toml", "-q"]).status, 0);
+    for output in ["loop.toml", "g.h", "cases.csv", "jurist-tests.toml", "loop.lock.json"] {
+        for option in ["--junit", "--sarif", "-o"] {
+            let run = folder.jurist(&["test", ".", option, output]);
+            assert!(run.status == 2 && run.stderr.contains("E-output-name"), "{option} {output}: {}", run.stderr);
+        }
+    }
+    for arguments in [
+        &["lock", "loop.toml", "-o", "g.h"][..],
+        &["check", "loop.toml", "--resolved", "g.h"],
+        &["lock", "loop.toml", "-o", "x.toml"],
+    ] {
+        assert_eq!(folder.jurist(arguments).status, 2, "{arguments:?}");
+    }
+    for (name, text) in files {
+        assert_eq!(folder.read(name), text);
+    }
+}
+
+/// However the entries are written, and whatever else is in the folder.
+#[test]
+fn no_expectation_of_a_folder_is_passed_over() {
+    let folder = Folder::new(&[
+        ("a.toml", &format!("{LOOP}[[ expect ]]\nverdict = 'stable'\n")),
+        ("b.toml", &format!("expect = [{{ verdict = 'stable' }}]\n{LOOP}")),
+        ("c.toml", &format!("require = {{ gain_margin = 2 }}\n{LOOP}")),
+        ("d.toml", &format!("{LOOP}[ require ]\ngain_margin = 2\n")),
+        ("e.toml", "[[expect]\n"),
+        ("f.toml", "[package]\nname = 'f'\n"),
+        ("g.toml", LOOP),
+    ]);
+    let run = folder.jurist(&["test", "."]);
+    assert!(run.status == 2 && run.stdout.ends_with("4 passed, 0 failed, 1 with errors\n"), "{}", run.stdout);
+    // A copy with the numbers of other files is not tried: its numbers are old ones.
+    let model = format!(
+        "{}[[expect]]\nverdict = 'stable'\n",
+        LOOP.replace("c = {", "d = { from = 'g.h#D' }\nc = {").replace("c*K", "c*d*K")
+    );
+    let folder = Folder::new(&[("loop.toml", &model), ("g.h", "#define D 1\n")]);
+    assert_eq!(folder.jurist(&["check", "loop.toml", "--resolved", "copy.toml"]).status, 0);
+    folder.write("g.h", "#define D 9\n");
+    assert!(folder.jurist(&["test", "."]).stdout.ends_with("0 passed, 1 failed\n"));
 }
 
 /// The worst status is told first by the exit status: a bad file, then a failure, then what is undecided.
@@ -154,7 +215,9 @@ fn mistakes_in_expectations_are_shown_where_they_stand() {
         ("[[expect]]\nparam = 'K'\nstable = [1]", "E-size", "[1]"),
         ("[[expect]]\nparam = 'K'\nupper = 1", "E-missing", "upper"),
         ("[[expect]]\nparam = 'K'\nupper = 1\nwithin = '1..2'", "E-tolerance", "'1..2'"),
-        ("[[expect]]\nparam = 'K'\nupper = inf\nwithin = 1", "E-", "inf"),
+        ("[[expect]]\nparam = 'K'\nupper = inf\nwithin = 1", "E-not-a-number", "inf"),
+        ("[[expect]]\nparam = 'K'\nstable = ['inf', 1]", "E-not-a-number", "'inf'"),
+        ("[[expect]]\nparam = 'K'\nupper = 1\nwithin = -1", "E-tolerance", "-1"),
         ("[[expect]]\nverdit = 'stable'", "E-unknown-key", "verdit"),
         ("[[expect]]\nname = 'nothing'", "E-missing", "expect"),
         ("[[expect]]\nmodel = 'x.toml'\nverdict = 'stable'", "E-unknown-key", "'x.toml'"),

@@ -37,7 +37,24 @@ fn a_limit_that_moved_names_the_number_that_moved_it() {
     // A formula is a value as well.
     folder.write("loop.toml", &model("1", "2", "e*K/(z - 1)").replace("'c*d'", "'2*c*d'"));
     let found = line(&folder.jurist(&["test", "loop.toml"]));
-    assert!(found.contains("e was c*d, is 2*c*d: with the old value nothing moved"), "{found}");
+    assert!(found.contains("e was c*d, is 2*c*d: this alone explains it"), "{found}");
+    // The same number in another form is no change, and what is gone is said.
+    folder.write(
+        "loop.toml",
+        &model("'2/2'", "2.0", "e*K/(z - 0.5)")
+            .replace("K = { nominal", "Q = 1\nK = { nominal")
+            .replace("e*K", "Q*e*K"),
+    );
+    let found = line(&folder.jurist(&["test", "loop.toml"]));
+    assert!(found.ends_with("; new since then: Q"), "{found}");
+    folder.write("loop.toml", &model("1", "2", "e*K/(z - 0.5)").replace("e = 'c*d'", "").replace("e*K", "c*d*K"));
+    let found = line(&folder.jurist(&["test", "loop.toml"]));
+    assert!(found.ends_with("; gone since then: e"), "{found}");
+    let lock = folder.read("loop.lock.json");
+    for (from, to) in [("\"exact\": \"1\"", "\"exact\": \"abc\""), ("\"within\": \"1/100\"", "\"within\": \"abc\"")] {
+        folder.write("loop.lock.json", &lock.replacen(from, to, 1));
+        assert_eq!(folder.jurist(&["test", "loop.toml"]).status, 2, "{from}");
+    }
     let run = folder.jurist(&["lock", "K/(s + 1)"]);
     assert!(run.status == 2 && run.stderr.contains("this model is not one"), "{}", run.stderr);
     folder.write("loop.lock.json", "{}");
@@ -57,8 +74,7 @@ fn one_interval_that_became_two_is_a_change() {
     let run = folder.jurist(&["test", "loop.toml"]);
     assert_eq!(run.status, 1);
     assert!(
-        run.stdout.contains("; locked: stable from ")
-            && run.stdout.contains("k was 1, is 10: with the old value nothing moved"),
+        run.stdout.contains("; locked: stable from ") && run.stdout.contains("k was 1, is 10: this alone explains it"),
         "{}",
         run.stdout
     );
@@ -83,7 +99,7 @@ fn the_firmware_of_the_examples_fails_where_a_gain_is_changed() {
         "FAILED    every drive of the series: phase_margin >= 40 deg: 1 of 4 operating points do not pass, the worst is row 1",
         "too little (line 67)",
         "FAILED    locked limits of K_i: the upper limit is ",
-        "K_p was 0.349999994, is 1.60000002: with the old value nothing moved",
+        "K_p was 0.349999994, is 1.60000002: this alone explains it",
     ] {
         assert!(run.stdout.contains(part), "{part}: {}", run.stdout);
     }

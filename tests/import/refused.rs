@@ -43,7 +43,7 @@ fn texts_that_are_no_systems() {
         ("A\n1\nD\n1\n", "there is no B"),
         ("A\n1\nTs\n-0.5\n", "the sample time Ts is -0.5"),
         ("{\"A\": [[1, 2], [3, \"4\"]]}", "row 2, column 2 of A"),
-        ("{\"A\": 1, \"E\": 2}", "the field E makes it a descriptor system"),
+        ("{\"A\": 1, \"E\": 2}", "the matrix E makes it a descriptor system"),
         ("{\"A\": [[NaN]]}", "NaN and Infinity are no numbers of JSON"),
         ("{\"A\": [1, 2]}", "A is a vector of 2, not square"),
         ("model M\n  parameter Real x = 1;\nend M;\n", "no linear model of OpenModelica"),

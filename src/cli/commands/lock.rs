@@ -3,9 +3,9 @@
 use super::{Context, Runs};
 use crate::cli::arguments::{ReadingOptions, RunOptions};
 use crate::cli::assignments::in_line;
-use crate::cli::destinations::Files;
-use crate::cli::input::{known_names, load};
-use crate::cli::output::{finish_answer, note};
+use crate::cli::destinations::{Files, check_read};
+use crate::cli::input::{known_names, read_model, tell_numbers};
+use crate::cli::output::{ending, finish_answer, note, unknown_ending};
 use crate::cli::status::{Error, Outcome, Status};
 use crate::cli::suite::lock::{file_of, limits, make};
 use clap::Args;
@@ -30,7 +30,7 @@ pub(in crate::cli) struct Options {
     /// By how much a limit may move until 'jurist test' fails
     #[arg(long, value_name = "SHARE", default_value = "0.1%")]
     pub within: String,
-    /// The file; left out it stands beside the model, as MODEL.lock.json, where 'jurist test' looks for it
+    /// The file; left out it stands beside the model, as NAME.lock.json of NAME.toml, where 'jurist test' looks for it
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<OsString>,
     #[command(flatten)]
@@ -65,7 +65,15 @@ fn run(options: &Options, context: &Context) -> Outcome {
             );
         }
     };
-    let model = load(Some(&options.model), &options.line, context)?;
+    let named = read_model(Some(&options.model), &options.line, context)?;
+    let model = named.read?.0;
+    tell_numbers(&named.name, &named.numbers, &options.line, context)?;
+    if let Some(file) = &options.output {
+        if file != "-" && ending(file).as_deref() != Some("json") {
+            return Err(unknown_ending(file, &["json"]).into());
+        }
+        check_read(context, [("the lock", file)], &named.numbers.files)?;
+    }
     if options.output.is_none() && !Path::new(&options.model).is_file() {
         let error = Diagnostic::error(Code::Usage, "a lock stands beside a model file, and this model is not one");
         let place = context.line.argument(&options.model.to_string_lossy()).unwrap_or_default();

@@ -2,7 +2,7 @@
 
 use super::{Context, Runs};
 use crate::cli::arguments::RunOptions;
-use crate::cli::destinations::Files;
+use crate::cli::destinations::{Files, check_read};
 use crate::cli::output::{finish_answer, note, write_answer};
 use crate::cli::status::{Error, Outcome, Status};
 use crate::cli::suite::cases::Cases;
@@ -69,6 +69,10 @@ fn run(options: &Options, context: &Context) -> Outcome {
     };
     let mut collector = Collector::new(cases);
     let suites = collector.suites(&options.paths)?;
+    let named =
+        [("the JUnit report", &options.junit), ("the SARIF log", &options.sarif), ("the answer", &options.output)];
+    let outputs = named.into_iter().filter_map(|(what, file)| Some((what, file.as_ref()?)));
+    check_read(context, outputs, &collector.read)?;
     let outcomes = try_all(&suites, &context.budget);
     context.reporter.finish();
     if !context.quiet {

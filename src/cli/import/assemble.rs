@@ -98,8 +98,14 @@ pub(in crate::cli) fn assemble(variables: Variables, sample_time: Option<Time>) 
 /// Dead times and descriptor matrices are not left out in silence.
 fn refuse_other_systems(variables: &Variables) -> Result<(), Diagnostic> {
     let nonzero = |name: &str| variables.get(name).filter(|variable| !variable.is_zero());
-    if let Some(matrix) = nonzero(DESCRIPTOR) {
-        let message = "the field E makes it a descriptor system, which is not imported";
+    let side = variables.get("A").map_or(0, |a| match a.shape {
+        Shape::Matrix(rows, _) => rows,
+        _ => 1,
+    });
+    // Another E is none of the system's.
+    let is_of_system = |e: &&Variable| e.sized(side, side).is_some_and(|e| e != Matrix::identity(side));
+    if let Some(matrix) = nonzero(DESCRIPTOR).filter(is_of_system) {
+        let message = "the matrix E makes it a descriptor system, which is not imported";
         return Err(matrix.wrong(message).help("in MATLAB: ss(sys, 'explicit')"));
     }
     if let Some(delay) = DELAYS.iter().find_map(|name| nonzero(name)) {
@@ -211,6 +217,9 @@ fn time_of(variables: &Variables) -> Result<Time, Diagnostic> {
     let Some(found) = ["Ts", "dt"].iter().find_map(|name| variables.get(name).filter(is_given)) else {
         return Ok(Time::Continuous);
     };
+    if let Some(other) = variables.get("dt").filter(|other| is_given(other) && other.entries != found.entries) {
+        return Err(other.wrong("Ts and dt are two sample times").help("'--sample-time T' replaces both"));
+    }
     let [number] = found.entries.as_slice() else {
         return Err(found.wrong(format!("{} is {}, not one number", found.name, found.shape.shown())));
     };

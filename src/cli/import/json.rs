@@ -1,7 +1,7 @@
 //! A JSON object with the matrices as arrays of rows. Numbers are taken over as they are written.
 
 use super::number::{Number, Unread};
-use super::{MAX_SIDE, Shape, Variable, Variables, bad_entry, is_read, refused};
+use super::{DESCRIPTOR, MAX_SIDE, Shape, Variable, Variables, bad_entry, is_read, refused};
 use jurist_engine::error::{Diagnostic, Span};
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use serde_json::value::RawValue;
@@ -103,7 +103,7 @@ fn variables(whole: Whole<'_>, members: &[(String, &RawValue)]) -> Result<Variab
     for (name, value) in members {
         out.present.push(name.clone());
         // MATLAB writes what is empty, and Python what is missing, as null.
-        if !is_read(name, true) || value.get() == "null" {
+        if !(is_read(name) || name == DESCRIPTOR) || value.get() == "null" {
             continue;
         }
         let span = whole.span(value.get());

@@ -2,7 +2,7 @@
 
 use super::mat_element::{Bytes, COMPRESSED, Element, MATRIX, cut_off};
 use super::number::Unread;
-use super::{MAX_SIDE, MAX_UNPACKED, Shape, Variable, Variables, bad_entry, is_read, refused};
+use super::{DESCRIPTOR, MAX_SIDE, MAX_UNPACKED, Shape, Variable, Variables, bad_entry, is_read, refused};
 use jurist_engine::error::Diagnostic;
 
 /// What stands before the first element.
@@ -85,8 +85,13 @@ impl Found {
     fn add(&mut self, element: Element<'_>) -> Result<(), Diagnostic> {
         let Some(array) = Array::read(element)? else { return Ok(()) };
         let name = array.name.clone();
-        if is_read(&name, false) {
+        if is_read(&name) {
             add(numbers(array, &name)?, &mut self.top)?;
+        } else if name == DESCRIPTOR && class::NUMERIC.contains(&array.class) {
+            // It may be anything else.
+            if let Ok(matrix) = numbers(array, &name) {
+                add(matrix, &mut self.top)?;
+            }
         } else if array.class == class::STRUCT && array.sides.iter().all(|side| *side == 1) {
             self.structs.push((name.clone(), fields(array)?));
         } else if array.class == class::OBJECT || array.class == class::OPAQUE {
@@ -184,7 +189,7 @@ fn fields(mut array: Array<'_>) -> Result<Variables, Diagnostic> {
         let end = name.iter().position(|byte| *byte == 0).unwrap_or(length);
         let name = String::from_utf8_lossy(&name[..end]).into_owned();
         let element = array.content.element()?;
-        if is_read(&name, true)
+        if (is_read(&name) || name == DESCRIPTOR)
             && let Some(field) = Array::read(element)?
         {
             add(numbers(field, &name)?, &mut out)?;

@@ -104,11 +104,11 @@ const WANTED: [&str; 6] = ["A", "B", "C", "D", "Ts", "dt"];
 /// Names of what would make it another system.
 const DELAYS: [&str; 4] = ["InputDelay", "OutputDelay", "IODelay", "InternalDelay"];
 
-/// The matrix of a descriptor system. Among the variables of a file it may be anything.
+/// The matrix of a descriptor system, where it is of the size of A.
 const DESCRIPTOR: &str = "E";
 
-fn is_read(name: &str, is_struct: bool) -> bool {
-    WANTED.contains(&name) || DELAYS.contains(&name) || is_struct && name == DESCRIPTOR
+fn is_read(name: &str) -> bool {
+    WANTED.contains(&name) || DELAYS.contains(&name)
 }
 
 /// An error of this command.

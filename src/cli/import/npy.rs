@@ -1,7 +1,7 @@
 //! Arrays of NumPy in an archive, `.npz`.
 
 use super::number::{Number, Unread};
-use super::{MAX_SIDE, MAX_UNPACKED, Shape, Variable, Variables, bad_entry, is_read, refused, zip};
+use super::{DESCRIPTOR, MAX_SIDE, MAX_UNPACKED, Shape, Variable, Variables, bad_entry, is_read, refused, zip};
 use jurist_engine::error::Diagnostic;
 
 const HELP: &str = "in Python: numpy.savez(\"system.npz\", A=A, B=B, C=C, D=D, dt=dt)";
@@ -13,7 +13,10 @@ pub(super) fn read_archive(bytes: &[u8]) -> Result<Variables, Diagnostic> {
     let mut out = Variables::default();
     for member in zip::members(bytes)? {
         let name = member.name.strip_suffix(".npy").unwrap_or(&member.name).to_owned();
-        if is_read(&name, false) {
+        if name == DESCRIPTOR {
+            // It may be anything else.
+            out.list.extend(member.content(MAX_UNPACKED).and_then(|content| array(&name, &content)).ok());
+        } else if is_read(&name) {
             if out.list.iter().any(|variable| variable.name == name) {
                 return Err(refused(format!("{name} stands there twice")));
             }

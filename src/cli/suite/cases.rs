@@ -27,12 +27,14 @@ impl Cases {
         let mut start = skipped;
         let mut names: Vec<(String, Span)> = Vec::new();
         let (mut points, mut errors) = (Vec::new(), Vec::new());
-        let comma = if text.lines().next().is_some_and(|l| l.contains(';') && !l.contains(',')) { ';' } else { ',' };
+        // The head decides what parts cells.
+        let head = text.lines().find(|line| !is_left_out(line));
+        let comma = if head.is_some_and(|head| head.contains(';') && !head.contains(',')) { ';' } else { ',' };
         for line in text.split_inclusive('\n') {
             let at = start;
             start += line.len();
             let content = line.trim_end_matches(['\n', '\r']);
-            if content.trim().is_empty() || content.trim_start().starts_with('#') {
+            if is_left_out(content) {
                 continue;
             }
             let cells = cells(content, at, comma);
@@ -88,6 +90,11 @@ impl Cases {
     }
 }
 
+/// Empty lines and comments.
+fn is_left_out(line: &str) -> bool {
+    line.trim().is_empty() || line.trim_start().starts_with('#')
+}
+
 /// The cells of a line, each with its place.
 fn cells(line: &str, at: usize, comma: char) -> Vec<(String, Span)> {
     let mut out = Vec::new();
@@ -131,7 +138,11 @@ mod tests {
 
     #[test]
     fn tables_of_both_kinds_are_read() {
-        for text in ["L,R\n1e-3,1/2\n2e-3,3\n", "\u{feff}\"L\"; R\r\n# none\r\n1e-3; 1/2\r\n\r\n2e-3;\"3\"\r\n"] {
+        for text in [
+            "# a; b\nL,R\n1e-3,1/2\n2e-3,3\n",
+            "L,R\n1e-3,1/2\n2e-3,3\n",
+            "\u{feff}\"L\"; R\r\n# none\r\n1e-3; 1/2\r\n\r\n2e-3;\"3\"\r\n",
+        ] {
             let cases = Cases::read(&Source::new("cases.csv", text)).unwrap();
             let shown: Vec<String> = cases
                 .points

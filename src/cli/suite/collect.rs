@@ -3,11 +3,11 @@
 use super::cases::Cases;
 use super::{InText, lock};
 use crate::cli::status::Error;
-use crate::references::Resolved;
+use crate::references::{COPY, Resolved};
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Source, Span};
 use jurist_engine::model::{Claim, ClaimKind, Expectation, Model, source_from_bytes};
 use jurist_engine::show::documents::Lock;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -53,11 +53,13 @@ pub(in crate::cli) struct Collector {
     cases: Option<Arc<Cases>>,
     /// Sentences about numbers that came from other files.
     pub notes: Vec<String>,
+    /// All files that were read.
+    pub read: Vec<PathBuf>,
 }
 
 impl Collector {
     pub fn new(cases: Option<Arc<Cases>>) -> Collector {
-        Collector { models: HashMap::new(), cases, notes: Vec::new() }
+        Collector { models: HashMap::new(), cases, notes: Vec::new(), read: Vec::new() }
     }
 
     /// What is expected in the files, and in those of folders that expect or require something.
@@ -78,13 +80,16 @@ impl Collector {
                 files.push(path.to_owned());
             }
         }
-        files.dedup();
+        let mut known = HashSet::new();
+        files.retain(|file| known.insert(file.canonicalize().unwrap_or_else(|_| file.clone())));
+        self.read.extend(files.iter().flat_map(|file| [file.clone(), lock::file_of(file)]));
         Ok(files.iter().map(|file| self.suite(file)).collect())
     }
 
     fn suite(&mut self, path: &Path) -> Suite {
         let file = path.display().to_string();
-        let read = text(path).and_then(|source| match Expectation::is_a_file_of(&source.text) {
+        let is_named = path.file_name().is_some_and(|name| name == "jurist-tests.toml");
+        let read = text(path).and_then(|source| match is_named || Expectation::is_a_file_of(&source.text) {
             true => self.of_tests(&source, path).map(|entries| (entries, None)),
             false => self.of_model(path),
         });
@@ -150,6 +155,12 @@ impl Collector {
     }
 
     fn entry(&mut self, expectation: &Expectation, model: &Arc<Model>, folder: &Path) -> Result<Entry, Error> {
+        let certificate = |claim: &Claim| match &claim.kind {
+            ClaimKind::Certificate(file) => Some(folder.join(file)),
+            _ => None,
+        };
+        self.read.extend(expectation.claims.iter().filter_map(certificate));
+        self.read.extend(expectation.cases.iter().map(|(file, _)| folder.join(file)));
         let cases = match &expectation.cases {
             Some((file, span)) => {
                 let table = text(&folder.join(file)).map_err(|error| placed(error, expectation, *span))?;
@@ -175,8 +186,10 @@ impl Collector {
         if let Some(known) = self.models.get(path) {
             return known.clone();
         }
+        self.read.push(path.to_owned());
         let read = text(path).and_then(|source| {
             let resolved = Resolved::of(&source, &folder(path))?;
+            self.read.extend(resolved.numbers.iter().map(|number| folder(path).join(number.file())));
             self.notes.extend(resolved.numbers.iter().map(|number| format!("{}: {}", path.display(), number.text())));
             let (model, _) = Model::from_toml(&resolved.source)?;
             Ok(Arc::new(model))
@@ -234,10 +247,10 @@ fn in_folder(folder: &Path, depth: usize, files: &mut Vec<PathBuf>) {
     }
 }
 
-/// Whether a file expects or requires something, or is locked.
+/// Whether a file expects or requires something, or is locked, or cannot be read, which is an error of its own. A copy of a model that
+/// holds numbers of other files is not the model.
 fn expects(path: &Path) -> bool {
-    let says = |text: &str| {
-        text.lines().map(str::trim_start).any(|l| l.starts_with("[[expect]]") || l.starts_with("[require]"))
-    };
-    lock::file_of(path).is_file() || text(path).is_ok_and(|source| says(&source.text))
+    let is_copy = |text: &str| text.lines().any(|line| line.starts_with(COPY));
+    let says = |source: &Source| Expectation::are_in(&source.text) && !is_copy(&source.text);
+    lock::file_of(path).is_file() || text(path).map_or(true, |source| says(&source))
 }

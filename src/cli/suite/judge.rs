@@ -4,14 +4,17 @@ use super::{Line, percent};
 use crate::cli::status::Error;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Rational, parse_number};
+use jurist_algebra::real::Real;
 use jurist_check::{Limits, check};
-use jurist_engine::answer::ToleranceRequest;
+use jurist_engine::answer::{ToleranceRequest, Verdict};
 use jurist_engine::error::{Code, Diagnostic};
 use jurist_engine::model::{ClaimKind, Model, RequirementText, Tolerance};
 use jurist_engine::problem::Question;
 use jurist_engine::show::documents::TestStatus;
 use jurist_engine::show::layout::short;
-use jurist_engine::stability::{Cause, End, StableInterval, StableSet};
+use jurist_engine::show::margins::margin;
+use jurist_engine::stability::boxes::BoxDecision;
+use jurist_engine::stability::{Cause, End, Range, StableInterval, StableSet};
 use std::path::Path;
 
 /// Digits of numbers in what was found.
@@ -34,7 +37,6 @@ pub(super) fn judge(claim: &ClaimKind, model: &Model, point: &Point, folder: &Pa
 
 /// What a claim says.
 pub(super) fn words(claim: &ClaimKind) -> String {
-    let number = |x: &Option<Rational>, none: &str| x.as_ref().map_or_else(|| none.to_owned(), short);
     match claim {
         ClaimKind::Verdict(word) => format!("verdict {word}"),
         ClaimKind::Stable { param, low, high } => match (low, high) {
@@ -45,7 +47,8 @@ pub(super) fn words(claim: &ClaimKind) -> String {
         },
         ClaimKind::Limit { param, is_upper, value, within } => {
             let side = if *is_upper { "upper" } else { "lower" };
-            let expected = number(value, if *is_upper { "inf" } else { "-inf" });
+            let none = if *is_upper { "inf" } else { "-inf" };
+            let expected = value.as_ref().map_or_else(|| none.to_owned(), short);
             let within = match within {
                 _ if value.is_none() => String::new(),
                 Tolerance::Width(width) => format!(" within {}", short(width)),
@@ -64,13 +67,19 @@ pub(super) fn words(claim: &ClaimKind) -> String {
 /// The line of a claim without an answer.
 pub(super) fn failure(name: String, error: Error) -> Line {
     match error {
-        Error::Stopped(stopped) => Line::new(name, TestStatus::Undecided, stopped.to_string()),
+        // How far the work was depends on what other threads did.
+        Error::Stopped(stopped) => Line::new(name, TestStatus::Undecided, format!("not decided: {}", stopped.stop)),
         Error::Refused(refused) => {
             // A picture of the place would not fit into a line.
             let said = refused.diagnostics().iter().map(|d| {
+                let place = refused
+                    .source_text()
+                    .zip(d.primary.as_ref())
+                    .map(|(source, label)| format!("{}:{}: ", source.name, source.line_column(label.span.start).0));
                 let label = d.primary.as_ref().map(|l| l.text.as_str()).filter(|text| !text.is_empty());
                 let label = label.map(|label| format!(" ({label})")).unwrap_or_default();
-                format!("{}: {}{label}", d.code, d.message)
+                let help = d.help.as_ref().map(|help| format!("; {help}")).unwrap_or_default();
+                format!("{}{}: {}{label}{help}", place.unwrap_or_default(), d.code, d.message)
             });
             Line::new(name, TestStatus::Error, said.collect::<Vec<_>>().join("; "))
         }
@@ -87,22 +96,19 @@ fn one(claim: &ClaimKind, model: &Model, point: &Point, folder: &Path, budget: &
     match claim {
         ClaimKind::Verdict(expected) => {
             let found = asked(model, point).verdict(budget)?;
-            let document = found.json();
-            let document = serde_json::to_value(&document).unwrap_or_default();
-            let count = |key: &str| document[key].to_string();
-            let word = document["verdict"].as_str().unwrap_or_default().to_owned();
-            let place = format!("{word}: {} of {} roots inside", count("inside"), count("degree"));
-            Ok(Line::new(name, passed_if(word == *expected), place))
+            let text = found.text();
+            let line = text.lines().nth(1).unwrap_or_default();
+            Ok(Line::new(name, passed_if(found.value().verdict.name() == expected), line))
         }
         ClaimKind::Stable { param, low, high } => {
             let set = stable_set(model, point, &param.name, budget)?;
-            Ok(in_range(name, &set, low.as_ref(), high.as_ref()))
+            Ok(in_range(name, &param.name, &set, low.as_ref(), high.as_ref()))
         }
         ClaimKind::Limit { param, is_upper, value, within } => {
             let set = stable_set(model, point, &param.name, budget)?;
             let nominal = asked(model, point).nominal(&param.name)?;
             let nominal = nominal.or_else(|| model.constant(&param.name)?.number.clone());
-            Ok(limit(name, &set, *is_upper, value.as_ref(), within, nominal.as_ref()))
+            Ok(limit(name, &param.name, &set, *is_upper, (value.as_ref(), within), nominal.as_ref()))
         }
         ClaimKind::Tolerance(factor) => tolerance(name, factor, model, point, budget),
         ClaimKind::Certificate(file) => certificate(name, &folder.join(file), model),
@@ -115,21 +121,32 @@ fn passed_if(holds: bool) -> TestStatus {
 }
 
 fn stable_set(model: &Model, point: &Point, name: &str, budget: &Budget) -> Result<StableSet, Error> {
-    let question = asked(model, point).without_value(name).free(name);
+    let mut question = asked(model, point).without_value(name).free(name);
+    if model.constant(name).is_some() {
+        // A range is about all of its values, whatever sign a constant has.
+        question = question.domain(name, Range::all());
+    }
     Ok(question.stable_set(budget)?.value().clone())
 }
 
 /// The intervals of a set in words.
-fn shown(set: &StableSet) -> String {
-    let end = |end: &Option<End>, none: &str| end.as_ref().map_or_else(|| none.to_owned(), |e| e.value.decimal(DIGITS));
-    let interval = |i: &StableInterval| format!("{} to {}", end(&i.lower, "-inf"), end(&i.upper, "inf"));
+fn shown(set: &StableSet, name: &str) -> String {
+    let sign = |end: &End| if end.closed { "<=" } else { "<" };
+    let interval = |i: &StableInterval| {
+        let lower = i.lower.as_ref().map(|end| format!("{} {} ", end.value.decimal(DIGITS), sign(end)));
+        let upper = i.upper.as_ref().map(|end| format!(" {} {}", sign(end), end.value.decimal(DIGITS)));
+        match (lower, upper) {
+            (None, None) => format!("every {name}"),
+            (lower, upper) => format!("{}{name}{}", lower.unwrap_or_default(), upper.unwrap_or_default()),
+        }
+    };
     match set.intervals() {
         [] => "stable nowhere".to_owned(),
-        intervals => format!("stable from {}", intervals.iter().map(interval).collect::<Vec<_>>().join(", and from ")),
+        intervals => format!("stable for {}", intervals.iter().map(interval).collect::<Vec<_>>().join(", and for ")),
     }
 }
 
-/// The distance from a value to an end in units of the greater of both; positive on the stable side of an upper end.
+/// The distance from a value to an end in units of the greater of both; positive on the stable side.
 fn distance(value: &Rational, end: &End, is_upper: bool) -> Option<Rational> {
     let exact = end.value.exact().or_else(|| parse_number(&end.value.decimal(DISTANCE_DIGITS)).ok())?;
     let size = value.abs().max(exact.abs());
@@ -150,10 +167,10 @@ fn is_within(bound: Option<&Rational>, end: Option<&End>, is_upper: bool) -> boo
     }
 }
 
-fn in_range(name: String, set: &StableSet, low: Option<&Rational>, high: Option<&Rational>) -> Line {
+fn in_range(name: String, param: &str, set: &StableSet, low: Option<&Rational>, high: Option<&Rational>) -> Line {
     let holds =
         |i: &&StableInterval| is_within(low, i.lower.as_ref(), false) && is_within(high, i.upper.as_ref(), true);
-    let text = shown(set);
+    let text = shown(set, param);
     if let Some(interval) = set.intervals().iter().find(holds) {
         let sides = [(low, &interval.lower, false), (high, &interval.upper, true)];
         let left = sides.into_iter().filter_map(|(bound, end, is_upper)| distance(bound?, end.as_ref()?, is_upper));
@@ -167,21 +184,30 @@ fn in_range(name: String, set: &StableSet, low: Option<&Rational>, high: Option<
         let text = format!("{text}; not everything in this range is decided");
         return Line::new(name, TestStatus::Undecided, text);
     }
-    // How far the worst end is inside of the range, against the interval that leaves out the least.
-    let missing = |i: &StableInterval| {
-        let sides = [(low, &i.lower, false), (high, &i.upper, true)];
-        sides.into_iter().filter_map(|(bound, end, is_upper)| distance(bound?, end.as_ref()?, is_upper)).min()
+    // The interval that leaves out the least of the range, and by how much its worst end is too near.
+    let missing = |i: &&StableInterval| {
+        let exact = |end: &End| end.value.exact().or_else(|| parse_number(&end.value.decimal(DISTANCE_DIGITS)).ok());
+        let beyond = |bound: Option<&Rational>, end: &Option<End>, is_upper: bool| -> Option<Rational> {
+            let (bound, end) = (bound?, exact(end.as_ref()?)?);
+            Some(if is_upper { bound - &end } else { &end - bound }.max(Rational::ZERO))
+        };
+        let sides = [beyond(low, &i.lower, false), beyond(high, &i.upper, true)];
+        sides.into_iter().flatten().fold(Rational::ZERO, |sum, side| sum + side)
     };
-    let margin = set.intervals().iter().filter_map(missing).max().filter(|m| !m.sign().is_gt());
+    let nearest = set.intervals().iter().min_by_key(missing);
+    let sides = nearest.map(|i| [(low, &i.lower, false), (high, &i.upper, true)]);
+    let distances =
+        sides.into_iter().flatten().filter_map(|(bound, end, is_upper)| distance(bound?, end.as_ref()?, is_upper));
+    let margin = distances.min().filter(|m| !m.sign().is_gt());
     Line::new(name, TestStatus::Failed, text).with_margin(margin)
 }
 
 fn limit(
     name: String,
+    param: &str,
     set: &StableSet,
     is_upper: bool,
-    expected: Option<&Rational>,
-    within: &Tolerance,
+    (expected, within): (Option<&Rational>, &Tolerance),
     nominal: Option<&Rational>,
 ) -> Line {
     let end = |i: &'_ StableInterval| if is_upper { i.upper.clone() } else { i.lower.clone() };
@@ -195,7 +221,7 @@ fn limit(
     let Some(nearest) = ends.into_iter().min_by_key(far) else {
         let is_open = !set.undecided().is_empty();
         let status = if is_open { TestStatus::Undecided } else { TestStatus::Failed };
-        return Line::new(name, status, shown(set));
+        return Line::new(name, status, shown(set, param));
     };
     let text = nearest
         .as_ref()
@@ -250,19 +276,16 @@ fn requirements(
     let problem = question.problem()?;
     let mut lines = Vec::new();
     for met in problem.requirements_met(&required.list, required.at.as_deref(), budget)? {
-        let found = met.value(DIGITS);
-        let text = match (found, met.met) {
-            (Some(value), _) => format!("is {value}"),
+        let text = match (met.value(DIGITS), met.met) {
+            (Some(value), _) => format!("is {}", with_unit(&value, met.requirement.name())),
             (None, true) => "met".to_owned(),
             (None, false) => "not met".to_owned(),
         };
         lines.push(Line::new(met.requirement.text(), passed_if(met.met), text).with_margin(met.margin_left()));
     }
     if !required.regional.is_empty() {
-        let found = problem.verdict(budget)?.json();
-        let word = serde_json::to_value(&found).unwrap_or_default()["verdict"].as_str().unwrap_or_default().to_owned();
+        let holds = problem.verdict(budget)?.value().verdict == Verdict::Stable;
         for (name, text) in &required.regional {
-            let holds = word == "stable";
             lines.push(Line::new(format!("{name} {text}"), passed_if(holds), if holds { "met" } else { "not met" }));
         }
     }
@@ -272,28 +295,61 @@ fn requirements(
 fn tolerance(name: String, factor: &Rational, model: &Model, point: &Point, budget: &Budget) -> Result<Line, Error> {
     /// The bracket of the largest factor is no wider, as a share.
     const GAP: i64 = 10_000;
-    let request = ToleranceRequest::of_model(model).gap(Rational::new(1.into(), GAP.into()));
-    let answer = asked(model, point).tolerance(&request, budget)?;
-    let Some(found) = &answer.value().factor else {
-        let is_stable = answer.value().decision.is_stable();
-        let (status, text) = match is_stable {
-            true if *factor <= Rational::ONE => (TestStatus::Passed, "stable within the tolerances"),
-            true => (TestStatus::Undecided, "stable within the tolerances; how much further was not decided"),
-            false => (TestStatus::Failed, "not stable within the tolerances"),
+    let request = ToleranceRequest::of_model(model);
+    // The box itself is asked first: it may be decided where no bracket of the largest factor is close enough.
+    let mut scaled = Vec::new();
+    for (name, tolerance) in &request.tolerances {
+        let nominal = match point.iter().find(|(n, _)| n == name) {
+            Some((_, value)) => Some(value.clone()),
+            None => asked(model, point).nominal(name)?.or_else(|| model.constant(name)?.number.clone()),
+        };
+        let widths = nominal.as_ref().and_then(|nominal| tolerance.widths(nominal).ok());
+        let own = match (nominal, widths) {
+            (Some(nominal), Some([below, above])) => {
+                Tolerance::Range { low: &nominal - &(factor * &below), high: &nominal + &(factor * &above) }
+            }
+            _ => tolerance.clone(),
+        };
+        scaled.push((name.clone(), own));
+    }
+    let alone = asked(model, point).tolerance(&ToleranceRequest::new(scaled).box_alone(), budget)?;
+    let status = match &alone.value().decision {
+        BoxDecision::Stable(_) => TestStatus::Passed,
+        BoxDecision::Undecided { .. } => TestStatus::Undecided,
+        _ => TestStatus::Failed,
+    };
+    let request = request.gap(Rational::new(1.into(), GAP.into()));
+    let found = asked(model, point).tolerance(&request, budget);
+    let Some(bracket) = found.ok().and_then(|answer| answer.value().factor.clone()) else {
+        let text = match status {
+            TestStatus::Passed => "proved",
+            TestStatus::Failed => "not stable for some values",
+            _ => "neither proved nor refuted",
         };
         return Ok(Line::new(name, status, text));
     };
-    let proved = short_digits(&found.lower);
-    let (status, text) = match &found.upper {
-        _ if found.lower >= *factor => (TestStatus::Passed, format!("proved up to {proved} times the tolerances")),
-        Some(upper) if upper <= factor => (
-            TestStatus::Failed,
-            format!("proved up to {proved} times the tolerances, not at {} times", short_digits(upper)),
-        ),
-        _ => (TestStatus::Undecided, format!("proved up to {proved} times the tolerances")),
+    let proved = short_digits(&bracket.lower);
+    let text = match &bracket.upper {
+        Some(upper) => format!("they can grow by {proved}, not by {}", short_digits(upper)),
+        None => format!("they can grow by {proved} at least"),
     };
-    let left = (&found.lower - factor).checked_div(factor);
+    let left = (&bracket.lower - factor).checked_div(factor);
+    // What is proved of the box is proved, however near the bracket comes.
+    let left = left.map(|left| if status == TestStatus::Passed { left.max(Rational::ZERO) } else { left });
     Ok(Line::new(name, status, text).with_margin(left))
+}
+
+/// A number in the unit of its requirement.
+fn with_unit(value: &str, requirement: &str) -> String {
+    let decibels = || {
+        let value = Real::from(parse_number(value).ok()?);
+        margin(&value, Some(&Rational::ONE), 4)?.decibels
+    };
+    match requirement {
+        "gain_margin" => decibels().map_or_else(|| value.to_owned(), |db| format!("{value} ({db} dB)")),
+        "phase_margin" => format!("{value} deg"),
+        _ => value.to_owned(),
+    }
 }
 
 fn short_digits(x: &Rational) -> String {

@@ -5,7 +5,6 @@ use super::{Line, percent};
 use crate::cli::status::Error;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Rational, parse_number};
-use jurist_check::sha256;
 use jurist_engine::error::{Code, Diagnostic};
 use jurist_engine::model::Model;
 use jurist_engine::show::documents::{Bounds, End, Lock, LockedLimits, TestStatus};
@@ -46,7 +45,7 @@ pub(in crate::cli) fn make(
     budget: &Budget,
 ) -> Result<Lock, Error> {
     let values = model.written().into_iter().map(|written| (written.name, written.text)).collect();
-    let mut lock = Lock::new(name.to_owned(), sha256(&model.source().text), within.into(), values);
+    let mut lock = Lock::new(name.to_owned(), within.into(), values);
     for parameter in parameters {
         lock.limits.push(limits(model, parameter, budget)?);
     }
@@ -79,8 +78,8 @@ fn compared(
     lock: &Lock,
     budget: &Budget,
 ) -> Result<Line, Error> {
-    let within = parse_number(lock.within.as_str()).unwrap_or(Rational::ZERO);
-    let moved = Moved::between(now, locked);
+    let within = parse_number(lock.within.as_str()).ok().ok_or_else(damaged)?;
+    let moved = Moved::between(now, locked).ok_or_else(damaged)?;
     let status = match &moved {
         Moved::By { share, .. } if *share <= within => TestStatus::Passed,
         _ => TestStatus::Failed,
@@ -92,6 +91,12 @@ fn compared(
     Ok(Line::new(name, status, text))
 }
 
+/// A lock with something else in the place of a number.
+fn damaged() -> Error {
+    let error = Diagnostic::error(Code::Read, "the lock has no number where one belongs");
+    error.help("'jurist lock MODEL' writes it anew").into()
+}
+
 /// How limits moved.
 enum Moved {
     /// The end that moved most, as a share of where it was locked.
@@ -101,9 +106,10 @@ enum Moved {
 }
 
 impl Moved {
-    fn between(now: &LockedLimits, locked: &LockedLimits) -> Moved {
+    /// `None` where a limit is no number.
+    fn between(now: &LockedLimits, locked: &LockedLimits) -> Option<Moved> {
         if now.stable.len() != locked.stable.len() {
-            return Moved::Otherwise(format!("{}; locked: {}", intervals(now), intervals(locked)));
+            return Some(Moved::Otherwise(format!("{}; locked: {}", intervals(now), intervals(locked))));
         }
         let mut most = (Rational::ZERO, "not moved".to_owned());
         for (new, old) in now.stable.iter().zip(&locked.stable) {
@@ -111,9 +117,9 @@ impl Moved {
                 let (new, old) = match (new, old) {
                     (None, None) => continue,
                     (Some(new), Some(old)) => (new, old),
-                    _ => return Moved::Otherwise(format!("{}; locked: {}", intervals(now), intervals(locked))),
+                    _ => return Some(Moved::Otherwise(format!("{}; locked: {}", intervals(now), intervals(locked)))),
                 };
-                let (Some(x), Some(was)) = (value(new), value(old)) else { continue };
+                let (x, was) = (value(new)?, value(old)?);
                 let share = match (&x - &was).abs().checked_div(&was.abs()) {
                     Some(share) => share,
                     // From zero any way is far.
@@ -136,7 +142,7 @@ impl Moved {
                 }
             }
         }
-        Moved::By { share: most.0, what: most.1 }
+        Some(Moved::By { share: most.0, what: most.1 })
     }
 
     fn text(&self) -> String {
@@ -145,13 +151,19 @@ impl Moved {
         }
     }
 
-    /// The least is nearest to the lock.
+    /// By how much, where the ends are the same.
     fn share(&self) -> Option<&Rational> {
         match self {
             Moved::By { share, .. } => Some(share),
             Moved::Otherwise(_) => None,
         }
     }
+}
+
+/// Whether two values of TOML are the same number, or written alike.
+fn is_same(a: &str, b: &str) -> bool {
+    let number = |text: &str| parse_number(text.trim_matches(['"', '\''])).ok();
+    a == b || number(a).is_some_and(|a| number(b) == Some(a))
 }
 
 /// A value of TOML for people: without quotes, a long number with its first digits.
@@ -188,7 +200,8 @@ fn culprits(model: &Model, locked: &LockedLimits, lock: &Lock, budget: &Budget) 
     let changed: Vec<(&str, &str, &str)> = written
         .iter()
         .filter_map(|now| {
-            let (_, was) = lock.values.entries().iter().find(|(name, was)| *name == now.name && *was != now.text)?;
+            let (_, was) =
+                lock.values.entries().iter().find(|(name, was)| *name == now.name && !is_same(was, &now.text))?;
             Some((now.name.as_str(), was.as_str(), now.text.as_str()))
         })
         .collect();
@@ -201,21 +214,26 @@ fn culprits(model: &Model, locked: &LockedLimits, lock: &Lock, budget: &Budget) 
             Err(Error::Stopped(stopped)) => return Err(stopped.into()),
             Err(_) => continue,
         };
-        let moved = Moved::between(&found, locked);
+        let Some(moved) = Moved::between(&found, locked) else { continue };
         let text = match moved.share() {
-            Some(share) if share.is_zero() => "nothing moved".to_owned(),
-            Some(share) => format!("it moved by {}", percent(share)),
-            None => intervals(&found),
+            Some(share) if share.is_zero() => "this alone explains it".to_owned(),
+            Some(share) => format!("with the old value it moved by {}", percent(share)),
+            None => format!("with the old value {}", intervals(&found)),
         };
-        let text = format!("{name} was {}, is {}: with the old value {text}", plain(was), plain(now));
+        let text = format!("{name} was {}, is {}: {text}", plain(was), plain(now));
         tried.push((moved.share().is_none(), moved.share().cloned(), text));
     }
     tried.sort();
     let known = |name: &str| lock.values.entries().iter().any(|(n, _)| n == name);
     let added: Vec<&str> = written.iter().map(|w| w.name.as_str()).filter(|name| !known(name)).collect();
+    let is_left = |name: &str| written.iter().any(|w| w.name == name);
+    let removed: Vec<&str> = lock.values.entries().iter().map(|(n, _)| n.as_str()).filter(|n| !is_left(n)).collect();
     let mut said: Vec<String> = tried.into_iter().map(|(_, _, text)| text).collect();
     if !added.is_empty() {
         said.push(format!("new since then: {}", added.join(", ")));
+    }
+    if !removed.is_empty() {
+        said.push(format!("gone since then: {}", removed.join(", ")));
     }
     if said.is_empty() {
         said.push("no constant and no nominal value changed, so the loop itself did".to_owned());

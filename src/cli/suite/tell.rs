@@ -84,13 +84,16 @@ impl Line {
             TestStatus::Undecided => "UNDECIDED",
             TestStatus::Error => "ERROR",
         };
-        let left = match &self.margin {
+        let is_decided = matches!(self.status, TestStatus::Passed | TestStatus::Failed);
+        let left = match self.margin.as_ref().filter(|_| is_decided) {
+            Some(margin) if margin.is_zero() && self.status == TestStatus::Failed => ", nothing left".to_owned(),
             Some(margin) if margin.is_negative() => format!(", {} too little", percent(&margin.abs())),
             Some(margin) => format!(", {} left", percent(margin)),
             None => String::new(),
         };
         let line = match (self.status, self.line_number()) {
-            (TestStatus::Passed, _) | (_, None) => String::new(),
+            // An error says itself where it is.
+            (TestStatus::Passed | TestStatus::Error, _) | (_, None) => String::new(),
             (_, Some(line)) => format!(" (line {line})"),
         };
         format!("  {status:<9} {}: {}{left}{line}\n", visible(&self.name), visible(&self.text))

@@ -95,11 +95,11 @@ fn with(point: &Point, set: &Point) -> Point {
 /// Of each line the one at the worst operating point.
 fn worst(job: &Job<'_>, rows: Vec<Vec<Line>>) -> Vec<Line> {
     let named = |line: Line| Line {
+        place: own_place(job, &line.name).or(job.place.clone()),
         name: match &job.entry.name {
             Some(name) => format!("{name}: {}", line.name),
             None => line.name,
         },
-        place: job.place.clone(),
         ..line
     };
     if job.points.len() == 1 {
@@ -132,6 +132,15 @@ fn worst(job: &Job<'_>, rows: Vec<Vec<Line>>) -> Vec<Line> {
         names.push(words(job.claim));
     }
     names.into_iter().filter_map(of_name).map(named).collect()
+}
+
+/// Where the model's `[require]` has the requirement of a line.
+fn own_place(job: &Job<'_>, name: &str) -> Option<InText> {
+    let ClaimKind::Require(further) = job.claim else { return None };
+    let is_of_line = |text: &str| name.strip_prefix(text).is_some_and(|rest| rest.starts_with(' '));
+    let model = &job.entry.model;
+    let own = model.require().iter().find(|r| is_of_line(&r.name) && !further.iter().any(|f| f.name == r.name))?;
+    Some((Arc::clone(model.source()), own.span))
 }
 
 /// The worst comes first: by what became of it, then by what is left.

@@ -9,6 +9,9 @@ use std::fmt;
 /// Digits up to which a number is written as a decimal rather than as a fraction.
 const SHORT_DIGITS: usize = 15;
 
+/// The same for numbers of binary floating point: those of single precision next to 1 have 24 to 28.
+const BINARY_DIGITS: usize = 28;
+
 /// Digits of a number or a fraction that are written out for people.
 const WHOLE_DIGITS: usize = 60;
 
@@ -61,6 +64,14 @@ pub fn short(value: &Rational) -> String {
     let decimal = to_decimal(value, SHORT_DIGITS);
     if parse_number(&decimal).as_ref() == Ok(value) {
         return decimal;
+    }
+    // A number of binary floating point says more as a decimal.
+    let below = value.denominator();
+    if below.trailing_zeros().is_some_and(|bits| bits + 1 == below.bit_length()) {
+        let whole = to_decimal(value, BINARY_DIGITS);
+        if parse_number(&whole).as_ref() == Ok(value) {
+            return whole;
+        }
     }
     match fraction(value) {
         Ok(whole) => whole,

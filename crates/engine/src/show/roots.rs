@@ -15,9 +15,16 @@ pub(super) fn bits_of(digits: usize) -> u64 {
     super::real::bits_for(digits) + SPARE_BITS
 }
 
-/// The decimal of as many of these digits as are certain; 0, with a bound, of a number that may be 0.
-pub(super) fn certain(x: &Enclosure, digits: usize) -> String {
-    if let Some(decimal) = (1..=digits).rev().find_map(|digits| enclosed_decimal(x.lower(), x.upper(), digits)) {
+/// The decimal of as many of these digits as are certain; 0 of a number that may be 0.
+pub(super) fn certain_digits(x: &Enclosure, digits: usize) -> String {
+    let certain = (1..=digits).rev().find_map(|digits| enclosed_decimal(x.lower(), x.upper(), digits));
+    certain.unwrap_or_else(|| "0".to_owned())
+}
+
+/// The same with a bound of a number that may be 0.
+fn certain(x: &Enclosure, digits: usize) -> String {
+    let decimal = certain_digits(x, digits);
+    if decimal != "0" {
         return decimal;
     }
     let most = x.lower().abs().max(x.upper().abs());

@@ -19,6 +19,15 @@ impl Expectation {
         toml_reader::read(text).is_ok_and(|root| root.entry("expect").is_some() && root.iter().all(is_known))
     }
 
+    /// Whether a text expects or requires something. Of a text that is not TOML this is so where it seems so: its reader says what is wrong.
+    pub fn are_in(text: &str) -> bool {
+        let keys = ["expect", "require"];
+        match toml_reader::read(text) {
+            Ok(root) => keys.iter().any(|key| root.entry(key).is_some()),
+            Err(_) => keys.iter().any(|key| text.contains(key)),
+        }
+    }
+
     /// Reads a file of expectations: entries `[[expect]]`, each about the model file that its key `model` names, or that of the whole file.
     ///
     /// ```
@@ -191,7 +200,17 @@ fn param(entry: &Entry, table: &Table, reader: &mut Reader) -> Option<Name> {
 /// An end: a number, or the word for none.
 fn end(value: &Value, infinite: &str, reader: &mut Reader) -> Option<Option<Rational>> {
     let is_infinite = matches!(&value.kind, Kind::String(text) if text.as_str() == infinite);
-    if is_infinite { Some(None) } else { reader.number(value, "an end").map(Some) }
+    if is_infinite {
+        return Some(None);
+    }
+    let is_bare = matches!(&value.kind, Kind::Number(text) if text.trim_start_matches(['+', '-']) == "inf");
+    if is_bare || matches!(&value.kind, Kind::String(text) if ["inf", "-inf"].contains(&text.as_str())) {
+        let error =
+            Diagnostic::error(Code::NotANumber, "an end that is not there is written in quotes, on its own side");
+        reader.report(error.at(value.span, "not understood").help(format!("write \"{infinite}\" here, or a number")));
+        return None;
+    }
+    reader.number(value, "an end").map(Some)
 }
 
 /// How far a limit may be from the expected one.
@@ -205,7 +224,7 @@ fn within(entry: &Entry, table: &Table, reader: &mut Reader) -> Option<Tolerance
     };
     let tolerance: Result<Tolerance, String> = match &value.kind {
         Kind::String(text) => text.as_str().parse(),
-        _ => return reader.number(value, "'within'").map(Tolerance::Width),
+        _ => reader.number(value, "'within'").map(Tolerance::Width)?.checked(),
     };
     match tolerance {
         Ok(tolerance @ (Tolerance::Share { .. } | Tolerance::Width(_))) => Some(tolerance),

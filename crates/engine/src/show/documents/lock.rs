@@ -17,8 +17,6 @@ pub struct Lock {
     pub schema: LockName,
     /// The model file.
     pub model: String,
-    /// SHA-256 of the model's text, with the numbers of other files in it.
-    pub sha256: String,
     /// By which share of itself a limit may move.
     pub within: Exact,
     /// The constants and the nominal values of parameters, as they are written; those of other files as numbers.
@@ -39,8 +37,8 @@ pub struct LockedLimits {
 
 impl Lock {
     /// Without limits yet.
-    pub fn new(model: String, sha256: String, within: Exact, values: Named<String>) -> Lock {
-        Lock { schema: LockName::V1, model, sha256, within, values, limits: Vec::new() }
+    pub fn new(model: String, within: Exact, values: Named<String>) -> Lock {
+        Lock { schema: LockName::V1, model, within, values, limits: Vec::new() }
     }
 }
 

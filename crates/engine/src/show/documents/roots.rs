@@ -6,7 +6,7 @@ use super::{Answered, PointQuestion};
 use crate::answer::{self, Answer, ClosedLoopRoot};
 use crate::problem::Problem;
 use crate::show::real;
-use crate::show::roots::{bits_of, certain, hertz};
+use crate::show::roots::{bits_of, certain_digits, hertz};
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number;
 use serde::{Deserialize, Serialize};
@@ -43,7 +43,7 @@ pub struct RootsFound {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RootFound {
-    /// The real part, with as many digits as were asked for and are certain.
+    /// The real part, with as many digits as were asked for and are certain; 0 where the enclosure holds 0.
     pub re: String,
     /// The imaginary part; positive of a pair.
     pub im: String,
@@ -79,12 +79,12 @@ impl RootFound {
     fn new(root: &ClosedLoopRoot, digits: usize) -> RootFound {
         let bits = bits_of(digits);
         let places = digits.min(real::JSON_NUMBER_DIGITS);
-        let number = |x: Option<number::Enclosure>| real::json_number(&certain(&x?, places));
+        let number = |x: Option<number::Enclosure>| real::json_number(&certain_digits(&x?, places));
         let (re, im) = (root.real(), root.imaginary());
         let rate = root.natural_frequency(bits);
         RootFound {
-            re: certain(&re, digits),
-            im: certain(&im, digits),
+            re: certain_digits(&re, digits),
+            im: certain_digits(&im, digits),
             re_enclosure: enclosure(re.lower(), re.upper()),
             im_enclosure: enclosure(im.lower(), im.upper()),
             pair: root.disc.is_pair,
