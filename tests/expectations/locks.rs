@@ -97,7 +97,7 @@ fn the_firmware_of_the_examples_fails_where_a_gain_is_changed() {
     assert_eq!(run.status, 1, "{}", run.stdout);
     for part in [
         "FAILED    every drive of the series: phase_margin >= 40 deg: 1 of 4 operating points do not pass, the worst is row 1",
-        "too little (line 67)",
+        "too little (line 46)",
         "FAILED    locked limits of K_i: the upper limit is ",
         "K_p was 0.349999994, is 1.60000002: this alone explains it",
     ] {

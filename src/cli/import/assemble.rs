@@ -25,6 +25,14 @@ impl Matrix {
         Matrix { rows: size, columns: size, entries: (0..size * size).map(entry).collect() }
     }
 
+    fn is_identity(&self) -> bool {
+        let is_own = |(k, entry): (usize, &Number)| match k / self.columns == k % self.columns {
+            true => entry.to_string() == "1",
+            false => entry.sign() == Ordering::Equal,
+        };
+        self.entries.iter().enumerate().all(is_own)
+    }
+
     pub(super) fn zero(rows: usize, columns: usize) -> Matrix {
         Matrix { rows, columns, entries: vec![Number::zero(); rows * columns] }
     }
@@ -103,7 +111,7 @@ fn refuse_other_systems(variables: &Variables) -> Result<(), Diagnostic> {
         _ => 1,
     });
     // Another E is none of the system's.
-    let is_of_system = |e: &&Variable| e.sized(side, side).is_some_and(|e| e != Matrix::identity(side));
+    let is_of_system = |e: &&Variable| e.sized(side, side).is_some_and(|e| !e.is_identity());
     if let Some(matrix) = nonzero(DESCRIPTOR).filter(is_of_system) {
         let message = "the matrix E makes it a descriptor system, which is not imported";
         return Err(matrix.wrong(message).help("in MATLAB: ss(sys, 'explicit')"));
