@@ -106,8 +106,6 @@ mod certified_intervals;
 pub mod cli;
 #[cfg(feature = "cli")]
 mod references;
-#[cfg(feature = "cli")]
-pub use references::model_in_folder;
 
 /// Pages of documentation.
 pub mod _documentation {

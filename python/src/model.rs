@@ -30,7 +30,7 @@ impl Model {
     fn read(py: Python<'_>, name: String, content: Vec<u8>, folder: Option<PathBuf>) -> PyResult<(Model, Warnings)> {
         let read = move |_: &Budget| {
             Ok(match &folder {
-                Some(folder) => jurist::model_in_folder(&name, &content, folder)?,
+                Some(folder) => jurist::cli::model_in_folder(&name, &content, folder)?,
                 None => jurist::Model::from_bytes(&name, &content)?,
             })
         };

@@ -1,6 +1,8 @@
 //! What the command line looks like: commands and options.
 
-use super::commands::{self, Command};
+#[cfg(feature = "cli")]
+use super::commands;
+use super::commands::Command;
 use clap::{Args, Parser};
 use std::ffi::OsString;
 use std::time::Duration;

@@ -33,6 +33,8 @@ mod sweep;
 mod watch;
 mod written;
 
+#[cfg(feature = "cli")]
+pub use crate::references::model_in_folder;
 pub use captured::{Captured, captured};
 
 use arguments::Arguments;
