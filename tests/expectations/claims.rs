@@ -60,7 +60,7 @@ fn each_claim_is_held_or_not_with_what_is_left() {
         ("tolerance = 2", "failed", "they can grow by", None),
         ("tolerance = 2.1", "failed", "they can grow by", None),
         // Row 2 has c = 3.
-        ("cases = 'cases.csv'\nverdict = 'stable'", "passed", "worst of 3 operating points", None),
+        ("cases = 'cases.csv'\nverdict = 'stable'", "passed", "the worst of 3 operating points is row", None),
         (
             "cases = 'cases.csv'\nparam = 'K'\nstable = [0.1, 0.5]",
             "passed",
@@ -70,7 +70,7 @@ fn each_claim_is_held_or_not_with_what_is_left() {
         (
             "cases = 'cases.csv'\nset = { K = 0.8 }\nverdict = 'stable'",
             "failed",
-            "1 of 3 operating points do not pass, the worst is row 2",
+            "not so at 1 of 3 operating points, the worst is row 2",
             None,
         ),
         ("cases = 'cases.csv'\nrequire = { gain_margin = 1.3 }", "passed", "row 2 (c = 3): is 1.33333", None),

@@ -96,7 +96,7 @@ fn the_firmware_of_the_examples_fails_where_a_gain_is_changed() {
     let run = folder.jurist(&["test", ".", "--only-bad"]);
     assert_eq!(run.status, 1, "{}", run.stdout);
     for part in [
-        "FAILED    every drive of the series: phase_margin >= 40 deg: 1 of 4 operating points do not pass, the worst is row 1",
+        "FAILED    every drive of the series: phase_margin >= 40 deg: not so at 1 of 4 operating points, the worst is row 1",
         "too little (line 46)",
         "FAILED    locked limits of K_i: the upper limit is ",
         "K_p was 0.349999994, is 1.60000002: this alone explains it",

@@ -119,8 +119,8 @@ fn worst(job: &Job<'_>, rows: Vec<Vec<Line>>) -> Vec<Line> {
         let values = job.points[row].iter().take(SHOWN).map(|(name, value)| format!("{name} = {}", short(value)));
         let values = values.collect::<Vec<_>>().join(", ");
         let of = match bad {
-            0 => format!("worst of {} operating points", job.points.len()),
-            bad => format!("{bad} of {} operating points do not pass, the worst is", job.points.len()),
+            0 => format!("the worst of {} operating points is", job.points.len()),
+            bad => format!("not so at {bad} of {} operating points, the worst is", job.points.len()),
         };
         Some(Line {
             text: format!("{of} row {} ({values}): {}", row + 1, line.text),
