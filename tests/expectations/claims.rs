@@ -5,7 +5,7 @@ use crate::helpers::schema::fits;
 use serde_json::Value;
 
 /// z - 1 + K: stable for 0 < K < 2, margin of the gain 2/K; in the series it is c K.
-const LOOP: &str = "time = 'discrete'\nsample_time = 1\n[constants]\nc = { value = 1, tolerance = '50%' }\n[parameters]\nK = 0.5\n\
+const LOOP: &str = "time = 'discrete'\nsample_time = 1\n[constants]\nc = { value = 1, tolerance = '50%' }\n[parameters]\nK = { nominal = 0.5, min = -20, max = 20 }\n\
     [loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\ninput = 'r - y'\noutput = 'y'\ntransfer = 'c*K/(z - 1)'\n";
 
 fn lines(expectations: &str) -> (i32, Vec<(String, String, Value)>) {
@@ -25,6 +25,7 @@ fn each_claim_is_held_or_not_with_what_is_left() {
         ("verdict = 'marginal'", "failed", "stable: the root is inside the unit circle", None),
         ("verdict = 'marginal'\nset = { K = 2 }", "passed", "marginal", None),
         ("verdict = 'unstable'\nset = { K = 3 }", "passed", "unstable", None),
+        ("verdict = 'unstable'\nset = { K = 30 }", "passed", "; outside of its domain: K", None),
         // The end is 2, half of it is left; at 1.9 it is 5 % of 2.
         ("param = 'K'\nstable = [0.1, 1]", "passed", "for 0 < K < 2", Some(50.0)),
         ("param = 'K'\nstable = [0.1, 1.9]", "passed", "for 0 < K < 2", Some(5.0)),

@@ -9,6 +9,8 @@ use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
 use jurist_check::format::MAX_TEXT;
 use jurist_check::{Limits, Names, check, report};
+use jurist_engine::error::Source;
+use jurist_engine::model::Reference;
 use std::ffi::{OsStr, OsString};
 
 /// Options of `jurist verify`.
@@ -73,6 +75,12 @@ fn run(options: &Options, context: &Context) -> Outcome {
         }
         Err(reason) => {
             note(&reason);
+            let refers = |text: &str| Reference::all(&Source::new("", text)).is_ok_and(|found| !found.is_empty());
+            if model.is_ok_and(|text| refers(&text)) {
+                note(
+                    "the model takes numbers from other files: the certificate is about the copy that '--resolved FILE' wrote",
+                );
+            }
             Ok(Status::Rejected)
         }
     }

@@ -32,7 +32,15 @@ pub(super) fn judge(claim: &ClaimKind, model: &Model, point: &Point, folder: &Pa
         ClaimKind::Require(further) => requirements(further, model, point, budget),
         other => one(other, model, point, folder, budget).map(|line| vec![line]),
     };
-    found.unwrap_or_else(|error| vec![failure(words(claim), error)])
+    let outside: Vec<&str> = point
+        .iter()
+        .filter(|(name, value)| model.parameter(name).is_some_and(|p| !p.contains(value)))
+        .map(|(name, _)| name.as_str())
+        .collect();
+    let remark =
+        if outside.is_empty() { String::new() } else { format!("; outside of its domain: {}", outside.join(", ")) };
+    let lines = found.unwrap_or_else(|error| vec![failure(words(claim), error)]);
+    lines.into_iter().map(|line| Line { text: line.text + &remark, ..line }).collect()
 }
 
 /// What a claim says.
