@@ -1,6 +1,6 @@
 //! `jurist test`: each kind of claim, held and not held, on a loop whose limits are known by hand.
 
-use super::folder::Folder;
+use super::folder::{Folder, lines_of};
 use crate::helpers::schema::fits;
 use serde_json::Value;
 
@@ -116,7 +116,7 @@ fn folders_are_searched_and_files_of_expectations_speak_of_models_elsewhere() {
     let run = folder.jurist(&["test", ".", "--junit", "out.xml", "--sarif", "out.sarif", "--only-bad"]);
     assert_eq!(run.status, 1, "{}", run.stderr);
     let line = "  FAILED    stable for 1 <= K <= 3: stable for 0 < K < 2, 33.3 % too little (line 7)\n";
-    assert_eq!(run.stdout, format!("jurist-tests.toml\n{line}1 passed, 1 failed\n"));
+    assert_eq!(lines_of(&run), format!("jurist-tests.toml\n{line}1 passed, 1 failed\n"));
     let xml = folder.read("out.xml");
     assert!(xml.contains("tests=\"2\" failures=\"1\" errors=\"0\"") && xml.contains("(line 7)"), "{xml}");
     let log: Value = serde_json::from_str(&folder.read("out.sarif")).unwrap();
@@ -173,7 +173,7 @@ fn no_expectation_of_a_folder_is_passed_over() {
         ("g.toml", LOOP),
     ]);
     let run = folder.jurist(&["test", "."]);
-    assert!(run.status == 2 && run.stdout.ends_with("4 passed, 0 failed, 1 with errors\n"), "{}", run.stdout);
+    assert!(run.status == 2 && lines_of(&run).ends_with("4 passed, 0 failed, 1 with errors\n"), "{}", run.stdout);
     // A copy with the numbers of other files is not tried: its numbers are old ones.
     let model = format!(
         "{}[[expect]]\nverdict = 'stable'\n",
@@ -202,7 +202,7 @@ fn a_bad_file_goes_before_a_failure_and_a_failure_before_undecided() {
         assert_eq!(run.status, status, "{paths:?}: {}{}", run.stdout, run.stderr);
     }
     let run = folder.jurist(&["test", "bad.toml", "good.toml"]);
-    assert!(run.stdout.contains("  ERROR     the file: E-missing: "), "{}", run.stdout);
+    assert!(lines_of(&run).contains("  ERROR     the file: E-missing: "), "{}", run.stdout);
 }
 
 #[test]
@@ -261,8 +261,8 @@ fn certificates_hold_beside_expectations() {
         assert!(!python.unwrap().contains("another text"));
     }
     let run = folder.jurist(&["test", "loop.toml"]);
-    assert!(run.stdout.contains("  passed    certificate k.json: proves: "), "{}", run.stdout);
+    assert!(lines_of(&run).contains("  passed    certificate k.json: proves: "), "{}", run.stdout);
     folder.write("loop.toml", &format!("{head}{entry}{}", blocks.replace("c*K", "2*c*K")));
     let run = folder.jurist(&["test", "loop.toml"]);
-    assert!(run.stdout.contains("  FAILED    certificate k.json: the certificate is rejected"), "{}", run.stdout);
+    assert!(lines_of(&run).contains("  FAILED    certificate k.json: the certificate is rejected"), "{}", run.stdout);
 }

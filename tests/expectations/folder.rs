@@ -47,6 +47,18 @@ impl Folder {
     }
 }
 
+/// The lines of `jurist test`, each as one: long ones are broken.
+pub fn lines_of(run: &Run) -> String {
+    let mut out = String::new();
+    for line in run.stdout.lines() {
+        match line.strip_prefix("            ") {
+            Some(rest) => out = format!("{} {rest}\n", out.trim_end()),
+            None => out += &format!("{line}\n"),
+        }
+    }
+    out
+}
+
 impl Drop for Folder {
     fn drop(&mut self) {
         let _ = std::fs::remove_dir_all(&self.0);

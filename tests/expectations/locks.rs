@@ -1,6 +1,6 @@
 //! `jurist lock`: limits that moved, and because of which number.
 
-use super::folder::Folder;
+use super::folder::{Folder, lines_of};
 
 fn model(c: &str, d: &str, transfer: &str) -> String {
     format!(
@@ -14,7 +14,7 @@ fn a_limit_that_moved_names_the_number_that_moved_it() {
     let folder = Folder::new(&[("loop.toml", &model("1", "2", "e*K/(z - 1)"))]);
     let run = folder.jurist(&["lock", "loop.toml", "--within", "1%"]);
     assert_eq!(run.status, 0, "{}", run.stderr);
-    let line = |run: &crate::helpers::program::Run| run.stdout.lines().nth(1).unwrap_or_default().to_owned();
+    let line = |run: &crate::helpers::program::Run| lines_of(run).lines().nth(1).unwrap_or_default().to_owned();
     assert_eq!(line(&folder.jurist(&["test", "loop.toml"])), "  passed    locked limits of K: not moved");
     // 1/(c d): c moves it by a fifth, d does not reach a hundredth.
     folder.write("loop.toml", &model("1.25", "2.01", "e*K/(z - 1)"));
@@ -74,7 +74,8 @@ fn one_interval_that_became_two_is_a_change() {
     let run = folder.jurist(&["test", "loop.toml"]);
     assert_eq!(run.status, 1);
     assert!(
-        run.stdout.contains("; locked: stable from ") && run.stdout.contains("k was 1, is 10: this alone explains it"),
+        lines_of(&run).contains("; locked: stable from ")
+            && lines_of(&run).contains("k was 1, is 10: this alone explains it"),
         "{}",
         run.stdout
     );
@@ -101,6 +102,6 @@ fn the_firmware_of_the_examples_fails_where_a_gain_is_changed() {
         "FAILED    locked limits of K_i: the upper limit is ",
         "K_p was 0.349999994, is 1.60000002: this alone explains it",
     ] {
-        assert!(run.stdout.contains(part), "{part}: {}", run.stdout);
+        assert!(lines_of(&run).contains(part), "{part}: {}", run.stdout);
     }
 }

@@ -4,7 +4,7 @@ use super::{Line, Outcomes, percent};
 use jurist_algebra::number::{Rational, to_decimal};
 use jurist_engine::error::{Code, Diagnostic, Source};
 use jurist_engine::show::documents::{Check, Test, TestStatus, Tested, TestedFile};
-use jurist_engine::show::layout::visible;
+use jurist_engine::show::layout::{visible, wrapped};
 use serde_json::Value;
 use std::sync::Arc;
 
@@ -72,6 +72,12 @@ impl Outcomes {
     }
 }
 
+/// Characters of a line.
+const WIDTH: usize = 100;
+
+/// Where what was found begins, where it has lines of its own.
+const INDENT: usize = 12;
+
 impl Line {
     fn line_number(&self) -> Option<usize> {
         self.place.as_ref().map(|(source, span)| source.line_column(span.start).0)
@@ -96,7 +102,13 @@ impl Line {
             (TestStatus::Passed | TestStatus::Error, _) | (_, None) => String::new(),
             (_, Some(line)) => format!(" (line {line})"),
         };
-        format!("  {status:<9} {}: {}{left}{line}\n", visible(&self.name), visible(&self.text))
+        let (name, found) = (visible(&self.name), format!("{}{left}{line}", visible(&self.text)));
+        let whole = format!("  {status:<9} {name}: {found}");
+        if whole.chars().count() <= WIDTH {
+            return whole + "\n";
+        }
+        let indent = " ".repeat(INDENT);
+        format!("  {status:<9} {name}:\n{indent}{}\n", wrapped(&found, WIDTH - INDENT, &indent))
     }
 
     fn diagnostic(&self) -> Diagnostic {
