@@ -20,6 +20,9 @@ pub(crate) const CERTIFICATE_OVER_SYMBOLS: Precisions = Precisions::new(256, 1 <
 /// Roots of a polynomial with enclosed coefficients. Equal ones are told apart by no bits.
 pub(crate) const ROOTS: Precisions = Precisions::new(256, 1 << 12);
 
+/// Entries of matrices that are rounded for other programs. Of one that may be zero no bits tell.
+pub(crate) const ROUNDED_ENTRIES: Precisions = Precisions::new(256, 1 << 12);
+
 /// A loop behind holds as numbers alone. A loop that these bits do not decide is so near to the boundary that exact algebra
 /// has to be asked.
 pub(crate) const LOOP_IN_NUMBERS: Precisions = Precisions::new(128, 1 << 11);

@@ -1,7 +1,7 @@
 //! `jurist export`: the loop as a script of another program.
 
 use super::{Context, Runs};
-use crate::cli::arguments::{ModelOptions, ReadingOptions, RegionOptions, RunOptions};
+use crate::cli::arguments::{ModelOptions, RegionOptions, RunOptions};
 use crate::cli::destinations::Files;
 use crate::cli::export::{Script, Target, matlab, python_control};
 use crate::cli::input::{load, question};
@@ -13,17 +13,11 @@ use std::ffi::OsString;
 /// Options of `jurist export`.
 #[derive(Args, Debug)]
 pub(in crate::cli) struct Options {
-    /// A model file, '-' for standard input, or a loop in one line such as 'K/(s*(s + 1))'; left out: the built-in drive
-    #[arg(value_name = "MODEL")]
-    pub model: Option<OsString>,
     #[command(flatten)]
-    pub line: ReadingOptions,
+    pub model: ModelOptions,
     /// The program that reads the script
     #[arg(long, value_enum)]
     pub to: Program,
-    /// Gives a parameter or constant another value, exactly: 545, 1e-4, 1/3 [repeatable]
-    #[arg(long, value_name = "NAME=VALUE")]
-    pub set: Vec<String>,
     /// Writes to a file
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<OsString>,
@@ -59,21 +53,15 @@ impl Runs for Options {
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
-        files.question(&self.model, &self.output);
+        files.question(&self.model.model, &self.output);
         Ok(())
     }
 }
 
 /// Writes the script to standard output or to a file.
 fn run(options: &Options, context: &Context) -> Outcome {
-    let of = ModelOptions {
-        model: options.model.clone(),
-        line: options.line.clone(),
-        set: options.set.clone(),
-        domain: Vec::new(),
-    };
-    let model = load(of.model.as_ref(), &of.line, context)?;
-    let problem = question(context, &model, &of, &RegionOptions::default())?.problem()?;
+    let model = load(options.model.model.as_ref(), &options.model.line, context)?;
+    let problem = question(context, &model, &options.model, &RegionOptions::default())?.problem()?;
     context.warn(None, problem.warnings());
     let target = options.to.target();
     let script = Script::of(&problem, target, &context.budget)?;

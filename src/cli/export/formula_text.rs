@@ -29,24 +29,14 @@ fn write(target: &dyn Target, e: &Expression, least: Level, out: &mut String) {
         }
         Node::Sum(terms) => {
             for (i, (sign, term)) in terms.iter().enumerate() {
-                out.push_str(match (i, sign) {
-                    (0, Sign::Plus) => "",
-                    (0, Sign::Minus) => "-",
-                    (_, Sign::Plus) => " + ",
-                    (_, Sign::Minus) => " - ",
-                });
+                out.push_str(sign.before(i == 0));
                 let is_first = i == 0 && *sign == Sign::Plus;
                 write(target, term, if is_first { Level::Negative } else { Level::Product }, out);
             }
         }
         Node::Product(factors) => {
             for (i, (factor, e)) in factors.iter().enumerate() {
-                out.push_str(match (i, factor) {
-                    (0, Factor::Times) => "",
-                    (0, Factor::Over) => "1/",
-                    (_, Factor::Times) => "*",
-                    (_, Factor::Over) => "/",
-                });
+                out.push_str(factor.before(i == 0));
                 // A sign in front of all factors needs no parentheses.
                 let is_first = i == 0 && *factor == Factor::Times;
                 write(target, e, if is_first { Level::Negative } else { Level::Power }, out);

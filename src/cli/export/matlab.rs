@@ -1,38 +1,19 @@
 //! Scripts for MATLAB's Control System Toolbox, and for Octave's package `control`.
 
 use super::Target;
+use jurist_engine::show::notation::MATLAB_KEYWORDS;
 
 /// A script that MATLAB and Octave read.
 pub(in crate::cli) struct Matlab;
 
-/// Keywords, and functions that scripts use.
-const RESERVED: [&str; 50] = [
-    "break",
-    "case",
-    "catch",
-    "classdef",
-    "continue",
+/// Keywords of Octave, and functions that scripts use.
+const OWN: [&str; 30] = [
     "do",
-    "else",
-    "elseif",
-    "end",
     "endfor",
     "endfunction",
     "endif",
     "endwhile",
-    "for",
-    "function",
-    "global",
-    "if",
-    "otherwise",
-    "parfor",
-    "persistent",
-    "return",
-    "spmd",
-    "switch",
-    "try",
     "until",
-    "while",
     "append",
     "c2d",
     "compan",
@@ -92,8 +73,8 @@ impl Target for Matlab {
         "MATLAB's Control System Toolbox and Octave's package control"
     }
 
-    fn reserved(&self) -> &'static [&'static str] {
-        &RESERVED
+    fn reserved(&self) -> [&'static [&'static str]; 2] {
+        [MATLAB_KEYWORDS, &OWN]
     }
 
     fn comment(&self) -> &'static str {

@@ -37,7 +37,7 @@ const OWN: [&str; 20] = [
 
 impl Names {
     pub fn of(model: &Model, target: &dyn Target) -> Names {
-        let mut used: BTreeSet<String> = target.reserved().iter().map(|name| (*name).to_owned()).collect();
+        let mut used: BTreeSet<String> = target.reserved().concat().iter().map(|name| (*name).to_owned()).collect();
         // A diagram has no matrices of the whole loop beside its blocks.
         let is_diagram = matches!(model.form(), Form::Blocks(_)) && model.hyperperiod() == 1;
         used.extend(OWN.iter().filter(|name| !is_diagram || name.len() > 1).map(|name| (*name).to_owned()));

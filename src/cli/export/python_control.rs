@@ -1,16 +1,15 @@
 //! Scripts for the Python package python-control.
 
 use super::Target;
+use jurist_engine::show::notation::PYTHON_KEYWORDS;
 
 /// A Python file for the package `control`.
 pub(in crate::cli) struct PythonControl;
 
-/// Keywords, and names of the script's own imports.
-const RESERVED: [&str; 51] = [
-    "False", "None", "True", "and", "as", "assert", "async", "await", "break", "class", "continue", "def", "del",
-    "elif", "else", "except", "finally", "for", "from", "global", "if", "import", "in", "is", "lambda", "nonlocal",
-    "not", "or", "pass", "raise", "return", "try", "while", "with", "yield", "append", "c2d", "conv", "control", "cos",
-    "exp", "feedback", "np", "pi", "print", "roots", "sin", "sorted", "sqrt", "ss", "tan",
+/// Names of the script's own imports.
+const OWN: [&str; 16] = [
+    "append", "c2d", "conv", "control", "cos", "exp", "feedback", "np", "pi", "print", "roots", "sin", "sorted",
+    "sqrt", "ss", "tan",
 ];
 
 /// Functions of `control` that scripts use.
@@ -68,8 +67,8 @@ impl Target for PythonControl {
         "python-control 0.10"
     }
 
-    fn reserved(&self) -> &'static [&'static str] {
-        &RESERVED
+    fn reserved(&self) -> [&'static [&'static str]; 2] {
+        [PYTHON_KEYWORDS, &OWN]
     }
 
     fn comment(&self) -> &'static str {

@@ -5,8 +5,8 @@ pub(in crate::cli) trait Target: Sync {
     /// What it is called.
     fn words(&self) -> &'static str;
 
-    /// Words that cannot be names in a script.
-    fn reserved(&self) -> &'static [&'static str];
+    /// Words that cannot be names in a script: keywords, and what scripts use.
+    fn reserved(&self) -> [&'static [&'static str]; 2];
 
     /// What a comment begins with.
     fn comment(&self) -> &'static str;

@@ -138,9 +138,7 @@ mod tests {
     use super::read;
 
     fn shown(text: &str) -> Vec<String> {
-        let variables = read(text).unwrap();
-        let numbers = |v: &super::Variable| v.entries.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ");
-        variables.list.iter().map(|v| format!("{} {:?} {}", v.name, v.shape, numbers(v))).collect()
+        read(text).unwrap().shown()
     }
 
     #[test]

@@ -98,6 +98,15 @@ pub(super) struct Variables {
     names: Names,
 }
 
+#[cfg(test)]
+impl Variables {
+    /// `A Matrix(1, 2) 0 1.50`, one for each variable.
+    fn shown(&self) -> Vec<String> {
+        let numbers = |v: &Variable| v.entries.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ");
+        self.list.iter().map(|v| format!("{} {:?} {}", v.name, v.shape, numbers(v))).collect()
+    }
+}
+
 /// Names that are read.
 const WANTED: [&str; 6] = ["A", "B", "C", "D", "Ts", "dt"];
 

@@ -154,11 +154,16 @@ fn shown(set: &StableSet, name: &str) -> String {
     }
 }
 
+/// An end, exactly where it is rational, else rounded: for what is said beside a verdict, which compares the end itself.
+fn rounded(end: &End) -> Option<Rational> {
+    end.value.exact().or_else(|| parse_number(&end.value.decimal(DISTANCE_DIGITS)).ok())
+}
+
 /// The distance from a value to an end in units of the greater of both; positive on the stable side.
 fn distance(value: &Rational, end: &End, is_upper: bool) -> Option<Rational> {
-    let exact = end.value.exact().or_else(|| parse_number(&end.value.decimal(DISTANCE_DIGITS)).ok())?;
-    let size = value.abs().max(exact.abs());
-    let distance = if is_upper { &exact - value } else { value - &exact };
+    let end = rounded(end)?;
+    let size = value.abs().max(end.abs());
+    let distance = if is_upper { &end - value } else { value - &end };
     if distance.is_zero() { Some(distance) } else { distance.checked_div(&size) }
 }
 
@@ -194,9 +199,8 @@ fn in_range(name: String, param: &str, set: &StableSet, low: Option<&Rational>, 
     }
     // The interval that leaves out the least of the range, and by how much its worst end is too near.
     let missing = |i: &&StableInterval| {
-        let exact = |end: &End| end.value.exact().or_else(|| parse_number(&end.value.decimal(DISTANCE_DIGITS)).ok());
         let beyond = |bound: Option<&Rational>, end: &Option<End>, is_upper: bool| -> Option<Rational> {
-            let (bound, end) = (bound?, exact(end.as_ref()?)?);
+            let (bound, end) = (bound?, rounded(end.as_ref()?)?);
             Some(if is_upper { bound - &end } else { &end - bound }.max(Rational::ZERO))
         };
         let sides = [beyond(low, &i.lower, false), beyond(high, &i.upper, true)];
@@ -259,9 +263,7 @@ fn limit(
 
 /// How far an end is from where it is expected; `None` where one of them is infinite.
 fn moved(end: Option<&End>, expected: Option<&Rational>) -> Option<Rational> {
-    let end = &end?.value;
-    let exact = end.exact().or_else(|| parse_number(&end.decimal(DISTANCE_DIGITS)).ok())?;
-    Some((&exact - expected?).abs())
+    Some((&rounded(end?)? - expected?).abs())
 }
 
 fn requirements(

@@ -97,7 +97,7 @@ fn damaged() -> Error {
     error.help("'jurist lock MODEL' writes it anew").into()
 }
 
-/// How limits moved.
+/// How limits moved: by the 20 digits that the lock has, which is what 'moved' means here.
 enum Moved {
     /// The end that moved most, as a share of where it was locked.
     By { share: Rational, what: String },

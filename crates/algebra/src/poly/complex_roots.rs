@@ -10,7 +10,7 @@ use crate::ball::Ball;
 use crate::limits::{Budget, Exhausted, checkpoint};
 use crate::number::{Integer, Rational};
 
-/// A disc in the complex plane with so many roots, none of which lies in another disc of the list.
+/// A disc in the complex plane, and the number of roots in it. Discs of one square-free polynomial do not touch.
 ///
 /// ```
 /// use jurist_algebra::limits::Budget;

@@ -37,7 +37,7 @@ pub struct Roots {
     pub list: Vec<ClosedLoopRoot>,
 }
 
-/// A root, or several that are not told apart.
+/// A root, or a cluster: several roots that share one disc.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct ClosedLoopRoot {
@@ -62,7 +62,7 @@ impl ClosedLoopRoot {
         }
     }
 
-    /// The magnitude.
+    /// The magnitude, computed with so many bits; its width is that of the disc.
     pub fn magnitude(&self, bits: u64) -> Enclosure {
         let (re, im) = (self.real(), self.imaginary());
         if im.upper().is_zero() && im.lower().is_zero() {
@@ -103,8 +103,8 @@ impl ClosedLoopRoot {
         }
     }
 
-    /// The damping ratio: the cosine of the angle that `s`, or `ln(z)`, makes with the negative real axis; `None` of a root at 0 of `s`
-    /// or `z`, at 1 of `z`, and of roots that are not told apart.
+    /// The damping ratio: the cosine of the angle that `s`, or `ln(z)`, makes with the negative real axis; `None` for the roots
+    /// `s = 0`, `z = 0` and `z = 1`, and for a cluster.
     pub fn damping(&self, bits: u64) -> Option<Enclosure> {
         let [re, im] = self.exponent(bits).filter(|_| self.disc.is_one)?;
         let size = re.mul(&re, bits).add(&im.mul(&im, bits), bits).sqrt(bits);
@@ -112,7 +112,7 @@ impl ClosedLoopRoot {
     }
 
     /// The natural frequency `|s|`, or `|ln(z)|` over the sample time, in radians per unit of time; `None` of a discrete loop without a
-    /// sample time, of a root at `z = 0`, and of roots that are not told apart.
+    /// sample time, for the root `z = 0`, and for a cluster.
     pub fn natural_frequency(&self, bits: u64) -> Option<Enclosure> {
         let [re, im] = self.exponent(bits).filter(|_| self.disc.is_one)?;
         let size = re.mul(&re, bits).add(&im.mul(&im, bits), bits).sqrt(bits);
@@ -237,8 +237,8 @@ impl Problem {
     }
 }
 
-/// The roots of a polynomial with coefficients of as many bits as one likes, of which so many are zero from the constant term up. Where no
-/// precision tells roots apart they share a disc.
+/// The roots of a polynomial. `enclosed` gives its coefficients with a number of bits; the first `zeros` coefficients, from the constant term up, are 0.
+/// Roots that the last precision does not separate share a disc.
 fn discs(
     enclosed: impl Fn(u64) -> Option<Vec<Ball>>,
     zeros: usize,

@@ -52,6 +52,8 @@ impl Model {
 
     /// The model whose text has another value for a name; the model itself where nothing is written for it.
     ///
+    /// Cost: that of [`Model::from_toml`].
+    ///
     /// # Errors
     /// As [`Model::from_toml`].
     pub fn rewritten(&self, name: &str, text: &str) -> Result<(Model, Vec<Diagnostic>), Diagnostics> {

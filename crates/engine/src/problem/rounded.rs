@@ -3,6 +3,7 @@
 use super::Problem;
 use crate::error::Error;
 use crate::model::{Symbols, quotient_at};
+use crate::precisions::ROUNDED_ENTRIES;
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::RationalMatrix;
@@ -10,7 +11,7 @@ use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
 
 /// A linear system `x' = A x + B u`, `y = C x + D u`, where `x'` is the next sample or the derivative. Each entry is the
-/// floating-point number nearest to its exact value, but for the last bit.
+/// floating-point number nearest to its exact value, but for the last bit; one that 4096 bits do not tell from 0 is 0.
 ///
 /// ```
 /// use jurist_algebra::limits::Budget;
@@ -39,9 +40,6 @@ pub struct RoundedSystem {
     /// Direct matrix, outputs x inputs.
     pub d: Vec<Vec<f64>>,
 }
-
-/// The first number of bits after the point, and that at which an entry that may still be zero is taken for zero.
-const BITS: [u64; 2] = [256, 4096];
 
 /// Bits of an entry that have to be known before it is rounded.
 const KNOWN_BITS: u64 = 64;
@@ -107,13 +105,11 @@ impl Problem {
 
 fn rounded(matrices: [&RationalMatrix; 4], symbols: &Symbols) -> Result<RoundedSystem, Error> {
     let mut values = Vec::new();
-    let mut bits = BITS[0];
-    while bits <= BITS[1] {
+    for bits in ROUNDED_ENTRIES.bits() {
         values.push((bits, symbols.enclosed(bits)));
         if matrices.iter().all(|m| m.entries().iter().all(|f| of_entry(f, &values).is_some())) {
             break;
         }
-        bits *= 2;
     }
     let undefined = || Error::Undefined("an entry of the loop's matrices has no value there".into());
     let entry = |f: &RationalFunction| match of_entry(f, &values) {

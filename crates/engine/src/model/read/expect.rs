@@ -14,12 +14,16 @@ use std::sync::Arc;
 
 impl Expectation {
     /// Whether a text is a file of expectations, not a model: it has no other keys.
+    ///
+    /// Cost: that of reading the text as TOML.
     pub fn is_a_file_of(text: &str) -> bool {
         let is_known = |entry: &Entry| keys::EXPECTATIONS.iter().any(|key| key.name == entry.key);
         toml_reader::read(text).is_ok_and(|root| root.entry("expect").is_some() && root.iter().all(is_known))
     }
 
     /// Whether a text expects or requires something. Of a text that is not TOML this is so where it seems so: its reader says what is wrong.
+    ///
+    /// Cost: that of reading the text as TOML.
     pub fn are_in(text: &str) -> bool {
         let keys = ["expect", "require"];
         match toml_reader::read(text) {
@@ -38,6 +42,8 @@ impl Expectation {
     /// assert_eq!(read[0].model.as_ref().unwrap().0, "loop.toml");
     /// # Ok::<(), jurist_engine::error::Diagnostics>(())
     /// ```
+    ///
+    /// Cost: linear in the text, but for the conversion of its numbers.
     ///
     /// # Errors
     /// Everything that is wrong with the text, with its place.

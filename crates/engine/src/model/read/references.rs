@@ -44,6 +44,8 @@ impl Reference {
     /// # Ok::<(), jurist_engine::error::Diagnostics>(())
     /// ```
     ///
+    /// Cost: that of reading the text as TOML.
+    ///
     /// # Errors
     /// `E-from` for a reference that is not `FILE#NAME`, and `E-two-forms` for one that stands beside a number.
     pub fn all(source: &Arc<Source>) -> Result<Vec<Reference>, Diagnostics> {

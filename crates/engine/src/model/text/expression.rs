@@ -65,6 +65,40 @@ pub enum Factor {
     Over,
 }
 
+impl Sign {
+    /// What stands before a term of a sum, the first or a later one.
+    ///
+    /// ```
+    /// use jurist_engine::model::Sign;
+    /// assert_eq!((Sign::Plus.before(true), Sign::Minus.before(false)), ("", " - "));
+    /// ```
+    pub fn before(self, is_first: bool) -> &'static str {
+        match (is_first, self) {
+            (true, Sign::Plus) => "",
+            (true, Sign::Minus) => "-",
+            (false, Sign::Plus) => " + ",
+            (false, Sign::Minus) => " - ",
+        }
+    }
+}
+
+impl Factor {
+    /// What stands before a factor of a product, the first or a later one.
+    ///
+    /// ```
+    /// use jurist_engine::model::Factor;
+    /// assert_eq!((Factor::Over.before(true), Factor::Times.before(false)), ("1/", "*"));
+    /// ```
+    pub fn before(self, is_first: bool) -> &'static str {
+        match (is_first, self) {
+            (true, Factor::Times) => "",
+            (true, Factor::Over) => "1/",
+            (false, Factor::Times) => "*",
+            (false, Factor::Over) => "/",
+        }
+    }
+}
+
 /// Two expressions are equal when they have the same form, wherever they stand.
 impl PartialEq for Expression {
     fn eq(&self, other: &Self) -> bool {
@@ -160,24 +194,14 @@ impl Expression {
             }
             Node::Sum(terms) => {
                 for (i, (sign, term)) in terms.iter().enumerate() {
-                    match (i, sign) {
-                        (0, Sign::Plus) => {}
-                        (0, Sign::Minus) => f.write_str("-")?,
-                        (_, Sign::Plus) => f.write_str(" + ")?,
-                        (_, Sign::Minus) => f.write_str(" - ")?,
-                    }
+                    f.write_str(sign.before(i == 0))?;
                     term.write(f, if i == 0 { Level::Negative } else { Level::Product })?;
                 }
                 Ok(())
             }
             Node::Product(factors) => {
                 for (i, (factor, e)) in factors.iter().enumerate() {
-                    match (i, factor) {
-                        (0, Factor::Times) => {}
-                        (0, Factor::Over) => f.write_str("1/")?,
-                        (_, Factor::Times) => f.write_str("*")?,
-                        (_, Factor::Over) => f.write_str("/")?,
-                    }
+                    f.write_str(factor.before(i == 0))?;
                     // A leading fraction reads as it was meant; a later one would be torn apart.
                     let leading = i == 0 && *factor == Factor::Times;
                     e.write(f, if leading { Level::Negative } else { Level::Power })?;

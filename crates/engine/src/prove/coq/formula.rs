@@ -129,12 +129,7 @@ impl Formulas<'_> {
     fn sum(&mut self, terms: &[(Sign, Expression)]) -> String {
         let mut out = String::new();
         for (i, (sign, term)) in terms.iter().enumerate() {
-            out.push_str(match (i, sign) {
-                (0, Sign::Plus) => "",
-                (0, Sign::Minus) => "-",
-                (_, Sign::Plus) => " + ",
-                (_, Sign::Minus) => " - ",
-            });
+            out.push_str(sign.before(i == 0));
             let leading = i == 0 && *sign == Sign::Plus;
             out.push_str(&match &term.node {
                 Node::Negative(_) | Node::Number(_) if leading => self.at(term, Level::Sum),
@@ -147,12 +142,7 @@ impl Formulas<'_> {
     fn product(&mut self, factors: &[(Factor, Expression)]) -> String {
         let mut out = String::new();
         for (i, (factor, e)) in factors.iter().enumerate() {
-            out.push_str(match (i, factor) {
-                (0, Factor::Times) => "",
-                (0, Factor::Over) => "1/",
-                (_, Factor::Times) => "*",
-                (_, Factor::Over) => "/",
-            });
+            out.push_str(factor.before(i == 0));
             let leading = i == 0 && *factor == Factor::Times && matches!(e.node, Node::Negative(_));
             out.push_str(&self.at(e, if leading { Level::Sum } else { Level::Power }));
         }

@@ -4,7 +4,12 @@ use super::code::{FloatLiteral, identifiers};
 use super::terms::Syntax;
 use super::{Coefficient, PolynomialReport};
 
-const RESERVED: [&str; 28] = [
+/// The keywords of MATLAB.
+///
+/// ```
+/// assert!(jurist_engine::show::notation::MATLAB_KEYWORDS.contains(&"parfor"));
+/// ```
+pub const MATLAB_KEYWORDS: &[&str] = &[
     "break",
     "case",
     "catch",
@@ -25,18 +30,13 @@ const RESERVED: [&str; 28] = [
     "switch",
     "try",
     "while",
-    "pi",
-    "i",
-    "j",
-    "eps",
-    "inf",
-    "Q",
-    "num",
-    "den",
 ];
 
+/// Names that mean something in MATLAB, or in what is written here.
+const OWN: [&str; 8] = ["pi", "i", "j", "eps", "inf", "Q", "num", "den"];
+
 pub(super) fn write(report: &PolynomialReport, digits: Option<usize>) -> String {
-    let names = identifiers(&report.parameters, &RESERVED);
+    let names = identifiers(&report.parameters, &[MATLAB_KEYWORDS, &OWN].concat());
     let syntax = Syntax {
         number: &|v| match FloatLiteral::new(v, digits) {
             FloatLiteral::Decimal(text) => text,

@@ -10,6 +10,9 @@ mod rust;
 mod terms;
 mod text;
 
+pub use matlab::MATLAB_KEYWORDS;
+pub use python::PYTHON_KEYWORDS;
+
 use super::documents::report_text;
 use super::layout::is_unseen;
 use crate::model::Symbols;

@@ -4,14 +4,22 @@ use super::code::identifiers;
 use super::terms::{Syntax, plain_number};
 use super::{Coefficient, PolynomialReport};
 
-const RESERVED: [&str; 39] = [
+/// The keywords of Python.
+///
+/// ```
+/// assert!(jurist_engine::show::notation::PYTHON_KEYWORDS.contains(&"lambda"));
+/// ```
+pub const PYTHON_KEYWORDS: &[&str] = &[
     "False", "None", "True", "and", "as", "assert", "async", "await", "break", "class", "continue", "def", "del",
     "elif", "else", "except", "finally", "for", "from", "global", "if", "import", "in", "is", "lambda", "nonlocal",
-    "not", "or", "pass", "raise", "return", "try", "while", "with", "yield", "Fraction", "Q", "num", "den",
+    "not", "or", "pass", "raise", "return", "try", "while", "with", "yield",
 ];
 
+/// Names of what is written here.
+const OWN: [&str; 4] = ["Fraction", "Q", "num", "den"];
+
 pub(super) fn write(report: &PolynomialReport, digits: Option<usize>) -> String {
-    let names = identifiers(&report.parameters, &RESERVED);
+    let names = identifiers(&report.parameters, &[PYTHON_KEYWORDS, &OWN].concat());
     let syntax = Syntax {
         number: &|v| match digits {
             None if !v.is_integer() => format!("Fraction({}, {})", v.numerator(), v.denominator()),
