@@ -8,6 +8,7 @@ use super::c_type::{Type, type_of};
 use super::literal::{Format, Literal, literal};
 use super::{Found, Refusal};
 use jurist_algebra::number::{BinaryFormat, Rational};
+use jurist_engine::model::nearest_name;
 
 /// The number of a name.
 pub(super) fn number(text: &str, name: &str, as_decimal: bool) -> Result<Found, Refusal> {
@@ -18,7 +19,7 @@ pub(super) fn number(text: &str, name: &str, as_decimal: bool) -> Result<Found, 
     let [first, others @ ..] = definitions.as_slice() else {
         return Err(match other {
             Some(at) => Refusal::at(text, at, format!("'{name}' stands there in a form that is not read")),
-            None => Refusal::of(format!("there is no '#define {name}' and no constant '{name}'")),
+            None => Refusal::of(missing(&source, name)),
         });
     };
     if let Some(other) = others.iter().find(|other| (other.body, &other.kind) != (first.body, &first.kind)) {
@@ -27,6 +28,16 @@ pub(super) fn number(text: &str, name: &str, as_decimal: bool) -> Result<Found, 
         return Err(Refusal::at(text, other.at, why));
     }
     first.value(text, as_decimal)
+}
+
+/// That a name is not there, with the macro that it may be.
+fn missing(source: &Source, name: &str) -> String {
+    let lines = source.lines();
+    let defined =
+        lines.iter().filter_map(|line| Source::directive(line.text)).filter(|(directive, _)| *directive == "define");
+    let meant = nearest_name(name, defined.map(|(_, rest)| word(rest).0));
+    let meant = meant.map(|meant| format!("; did you mean '{meant}'?")).unwrap_or_default();
+    format!("there is no '#define {name}' and no constant '{name}'{meant}")
 }
 
 /// How a name is defined.

@@ -90,6 +90,7 @@ fn everything_else_is_refused_with_its_line() {
     for (header, why) in [
         ("", "there is no '#define KP'"),
         ("#define KP2 1\n", "there is no '#define KP'"),
+        ("#define SPEED_LIMIT 1\n#define KPP 2\n", "did you mean 'KPP'?"),
         ("\n#define KP (1 + 2)\n", "params.h, line 2"),
         ("#define KP (float)1.5\n", "casts"),
         ("#define KP ((float)1.5)\n", "casts"),
