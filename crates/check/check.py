@@ -605,7 +605,7 @@ class Model:
 
     def __init__(self, text):
         need(len(text) <= MAX_MODEL, "the model is too long")
-        keys = "title time sample_time constants parameters loop block simulation expect"  # what is expected changes nothing of the loop
+        keys = "title time sample_time constants parameters loop block simulation expect ship"  # the last two change nothing of the loop
         self.root = table(parsed(text.removeprefix("\ufeff")), keys)
         need(not any(match["number"] for match in NOT_DECIMAL.finditer(text)), "a number is not decimal")
         text_of(self.root.get("title", ""))
@@ -3934,13 +3934,13 @@ def fnv1a64(text):
         digest = (digest ^ byte) * 0x100000001b3 % (1 << 64)
     return f"{digest:016x}"
 
-def without_expectations(text):
-    """The text without the lines from one that begins with `[[expect` to the next that begins with another `[`."""
+def loop_alone(text):
+    """The text without the sections `[[expect]]` and `[ship]`: their lines from the one in brackets to the next that begins with another `[`."""
     kept, left_out = [], False
     for line in re.findall(r"[^\n]*\n|[^\n]+", text):
         start = line.lstrip(" \t")
         if start.startswith("["):
-            left_out = start.startswith(("[[expect", "[expect"))
+            left_out = start.lstrip("[").startswith(("expect", "ship"))
         if not left_out:
             kept.append(line)
     return "".join(kept)
@@ -3955,7 +3955,7 @@ def report(sentence, model, certificate, names):
     about = json.loads(certificate).get("model")
     digest = about.get("digest") if isinstance(about, dict) else None
     kind, _, digest = digest.partition(":") if isinstance(digest, str) else ("", "", "")
-    own = {"sha256": lambda: hashlib.sha256(without_expectations(model).encode()).hexdigest(), "fnv1a64": lambda: fnv1a64(model)}.get(kind)
+    own = {"sha256": lambda: hashlib.sha256(loop_alone(model).encode()).hexdigest(), "fnv1a64": lambda: fnv1a64(model)}.get(kind)
     if own and own() != digest:
         lines.append("note: the certificate was written for another text of a model; what it proves of this one stands above")
     return "\n".join(lines)

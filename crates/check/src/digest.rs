@@ -33,14 +33,17 @@ pub fn sha256(text: &str) -> String {
     state.iter().map(|word| format!("{word:08x}")).collect()
 }
 
-/// The text without what is expected of the loop: without the lines from one that begins with `[[expect` to the next that begins with another
-/// `[`. No such line changes the loop.
-pub(super) fn without_expectations(text: &str) -> String {
+/// How the names of sections begin that change nothing of the loop.
+const ASIDE: [&str; 2] = ["expect", "ship"];
+
+/// The text without the sections that change nothing of the loop, what is expected of it and how it is stored: without the lines from one that
+/// begins with the name of such a section in brackets to the next that begins with another `[`.
+pub(super) fn loop_alone(text: &str) -> String {
     let mut is_left_out = false;
     let lines = text.split_inclusive('\n').filter(|line| {
         let line = line.trim_start_matches([' ', '\t']);
         if line.starts_with('[') {
-            is_left_out = line.starts_with("[[expect") || line.starts_with("[expect");
+            is_left_out = ASIDE.iter().any(|section| line.trim_start_matches('[').starts_with(section));
         }
         !is_left_out
     });

@@ -1,7 +1,7 @@
 //! The record of a check: the proved statement, the names and SHA-256 of both texts, and the version of the checker.
 
 use super::Proved;
-use super::digest::{sha256, without_expectations};
+use super::digest::{loop_alone, sha256};
 use super::format::Json;
 use super::number::shorten;
 use super::toml;
@@ -42,7 +42,7 @@ pub fn report(proved: &Proved, model: &str, certificate: &str, names: Names<'_>)
         one_line(names.certificate),
         env!("CARGO_PKG_VERSION")
     );
-    if is_for_another(model, &sha256(&without_expectations(model)), certificate) {
+    if is_for_another(model, &sha256(&loop_alone(model)), certificate) {
         out.push_str(
             "note: the certificate was written for another text of a model; what it proves of this one stands above\n",
         );

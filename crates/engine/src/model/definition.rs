@@ -2,6 +2,7 @@
 
 use super::discretization::{Edges, Method};
 use super::expectation::Expectation;
+use super::shipping::Shipping;
 use super::text::Expression;
 use super::tolerance::Tolerance;
 use crate::error::{Source, Span};
@@ -455,6 +456,7 @@ pub struct Model {
     pub(super) simulation: Simulation,
     pub(super) require: Vec<RequirementText>,
     pub(super) expect: Vec<Expectation>,
+    pub(super) shipping: Option<Shipping>,
     /// Positions of constants and parameters by name.
     pub(super) index: HashMap<String, Position>,
 }
@@ -537,6 +539,11 @@ impl Model {
     /// What 'jurist test' is to find.
     pub fn expectations(&self) -> &[Expectation] {
         &self.expect
+    }
+
+    /// How the controller is stored and run, as it is written.
+    pub fn shipping(&self) -> Option<&Shipping> {
+        self.shipping.as_ref()
     }
 
     /// The unit of a signal, where the model names one.

@@ -1,8 +1,10 @@
 //! The values of a model as they are written, and the model with another text in the place of one.
 
 use super::Model;
+use super::builder::quoted;
+use super::definition::Form;
 use super::text::toml_reader;
-use super::text::toml_value::{Kind, Table, Value};
+use super::text::toml_value::{Entry, Kind, Table, Value};
 use crate::error::{Diagnostic, Diagnostics, Source, Span};
 
 /// The value of a constant, or the nominal value of a parameter, as it is written.
@@ -63,6 +65,105 @@ impl Model {
         }
         Model::from_toml(&Source::new(self.source.name.clone(), whole))
     }
+}
+
+/// The keys of a block that say how it is wired and when it is active; the others say what it does.
+const WIRING: [&str; 6] = ["name", "input", "output", "every", "phase", "sample_time"];
+
+impl Model {
+    /// The text of the model with another dynamic in the place of a block's own, which is given by its keys and their values in TOML. Its wiring
+    /// and its rate stay, or are replaced by keys of the same name. `None` for a loop that has no such block.
+    ///
+    /// Cost: that of reading the text as TOML.
+    ///
+    /// ```
+    /// use jurist_engine::error::Source;
+    /// use jurist_engine::model::Model;
+    /// let text = "time = 'discrete'\n[loop]\n[[block]]\nname = 'c'\ninput = '-y'\noutput = 'y'\ntransfer = '1/(2*z)'\n";
+    /// let (model, _) = Model::from_toml(&Source::new("model.toml", text))?;
+    /// let other = model.with_block("c", &[("num", "[1]".into()), ("den", "[4, 0]".into())]).unwrap();
+    /// assert!(other.contains("den = [4, 0]") && !other.contains("transfer"));
+    /// # Ok::<(), jurist_engine::error::Diagnostics>(())
+    /// ```
+    pub fn with_block(&self, name: &str, keys: &[(&str, String)]) -> Option<String> {
+        let text = &self.source.text;
+        let root = toml_reader::read(text).ok()?;
+        let Form::Blocks(diagram) = &self.form else { return None };
+        let at = diagram.blocks.iter().position(|block| block.name == name)?;
+        let Kind::Array(items) = &root.get("block")?.kind else { return None };
+        let item = items.get(at)?;
+        let Kind::Table(table) = &item.kind else { return None };
+        let is_kept =
+            |entry: &&Entry| WIRING.contains(&entry.key.as_str()) && keys.iter().all(|(key, _)| *key != entry.key);
+        let kept = table.iter().filter(is_kept).map(|entry| (entry.key.as_str(), written(text, &entry.value)));
+        let lines: Vec<String> = kept
+            .chain(keys.iter().map(|(key, value)| (*key, value.clone())))
+            .map(|(key, value)| format!("{key} = {value}"))
+            .collect();
+        let mut out = text.clone();
+        if text[item.span.start..].starts_with('{') {
+            out.replace_range(item.span.start..item.span.end, &format!("{{ {} }}", lines.join(", ")));
+        } else {
+            let start = text[..item.span.start].rfind('[')?;
+            let start = text[..start].rfind('[')?;
+            out.replace_range(start..end_of(item), &format!("[[block]]\n{}", lines.join("\n")));
+        }
+        Some(out)
+    }
+
+    /// A text of a model with more parameters, each with its keys and their values in TOML.
+    ///
+    /// Cost: that of reading the text as TOML.
+    pub fn with_parameters(text: &str, parameters: &[(String, Vec<(&str, String)>)]) -> String {
+        let root = toml_reader::read(text).ok();
+        let entry = root.as_ref().and_then(|root| root.entry("parameters"));
+        let lines = |keys: &[(&str, String)]| -> Vec<String> {
+            keys.iter().map(|(key, value)| format!("{key} = {value}")).collect()
+        };
+        let joined = |separator: &str, before: &str| -> String {
+            let one = |(name, keys): &(String, Vec<(&str, String)>)| {
+                format!("{before}{} = {{ {} }}{separator}", quoted(name), lines(keys).join(", "))
+            };
+            parameters.iter().map(one).collect()
+        };
+        let mut out = text.to_owned();
+        match entry {
+            Some(entry) if text[entry.value.span.start..].starts_with('{') => {
+                let is_empty = matches!(&entry.value.kind, Kind::Table(table) if table.iter().next().is_none());
+                let inside = joined(", ", "");
+                let inside = if is_empty { inside.trim_end_matches(", ") } else { &inside };
+                out.insert_str(entry.value.span.start + 1, inside);
+            }
+            Some(entry) if !is_header(text, entry) => {
+                out.insert_str(entry.key_span.start, &joined("\n", "parameters."))
+            }
+            _ => {
+                for (name, keys) in parameters {
+                    out.push_str(&format!("\n[parameters.{}]\n{}\n", quoted(name), lines(keys).join("\n")));
+                }
+            }
+        }
+        out
+    }
+}
+
+/// Whether a section begins with its name in brackets.
+fn is_header(text: &str, entry: &Entry) -> bool {
+    text[..entry.key_span.start].trim_end_matches([' ', '\t']).ends_with('[')
+}
+
+/// A value as it is written.
+fn written(text: &str, value: &Value) -> String {
+    text[value.span.start..value.span.end].to_owned()
+}
+
+/// Where the last value of a table ends, the tables in it included.
+fn end_of(value: &Value) -> usize {
+    let inside = match &value.kind {
+        Kind::Table(table) => table.iter().map(|entry| end_of(&entry.value)).max(),
+        _ => None,
+    };
+    inside.map_or(value.span.end, |inside| inside.max(value.span.end))
 }
 
 /// The value alone, or that under a key of its table.

@@ -3,6 +3,7 @@
 //! [`Question`] is what is being asked, built step by step from a model; [`Problem`] is the same question resolved: every
 //! name is known, every value has its place, and the algebra is computed at most once, when it is first needed.
 
+mod block;
 mod by_enclosures;
 mod by_samples;
 mod delayed;
@@ -21,6 +22,7 @@ mod resolved;
 mod rounded;
 mod substitution;
 
+pub use block::EnclosedBlock;
 pub(crate) use by_enclosures::{EnclosedParts, EnclosedQuotient, exact_or_enclosed};
 pub(crate) use delayed::refused;
 pub use delayed::{BaseDelay, DelayedLoop};

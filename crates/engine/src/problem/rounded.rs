@@ -103,6 +103,10 @@ impl Problem {
     }
 }
 
+fn undefined() -> Error {
+    Error::Undefined("an entry of the loop's matrices has no value there".into())
+}
+
 fn rounded(matrices: [&RationalMatrix; 4], symbols: &Symbols) -> Result<RoundedSystem, Error> {
     let mut values = Vec::new();
     for bits in ROUNDED_ENTRIES.bits() {
@@ -111,7 +115,6 @@ fn rounded(matrices: [&RationalMatrix; 4], symbols: &Symbols) -> Result<RoundedS
             break;
         }
     }
-    let undefined = || Error::Undefined("an entry of the loop's matrices has no value there".into());
     let entry = |f: &RationalFunction| match of_entry(f, &values) {
         Some(value) => Ok(value.to_f64_approximate()),
         // As many bits as are asked for do not tell it from zero.

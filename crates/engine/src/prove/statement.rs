@@ -1,7 +1,7 @@
 //! What every certificate says in the same words: its model, its statement, the identity of its pair.
 
 use super::cofactors::Identity;
-use super::digest::{sha256, without_expectations};
+use super::digest::{loop_alone, sha256};
 use super::no_certificate;
 use crate::answer::PointVerdict;
 use crate::error::Error;
@@ -37,7 +37,7 @@ pub(super) fn about(problem: &Problem) -> Result<Value, Error> {
     if problem.model().hyperperiod() > 1 {
         return Err(no_certificate("no certificate: the checkers read no loops of several rates yet"));
     }
-    let digest = sha256(&without_expectations(&problem.model().source().text));
+    let digest = sha256(&loop_alone(&problem.model().source().text));
     let title = problem.title().map_or(Value::Null, Value::from);
     Ok(object([("title", title), ("digest", format!("sha256:{digest}").into())]))
 }

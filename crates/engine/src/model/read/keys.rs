@@ -92,7 +92,7 @@ pub(super) const EDGES: [&str; EDGE_LIST.len() + 1] = {
 pub(super) const HELD: &str = "hold";
 
 /// The whole file.
-pub(super) const MODEL: [Key; 10] = [
+pub(super) const MODEL: [Key; 11] = [
     key("title", Shape::Text, "what the loop is, for people"),
     needed(
         "time",
@@ -111,7 +111,46 @@ pub(super) const MODEL: [Key; 10] = [
     key("simulation", Shape::Table(&SIMULATION), "defaults of a time response"),
     key("require", Shape::Table(&REQUIRE), "what is required of the loop beyond stability"),
     key("expect", Shape::Tables(&EXPECT), "what 'jurist test' is to find"),
+    key("ship", Shape::Table(&SHIP), "how the controller is stored and run, for 'jurist ship'"),
 ];
+
+/// The realisations of `[ship]`.
+pub(super) const REALISATIONS: [&str; 6] = ["df1", "df2", "df2t", "sos", "delta", "state"];
+
+/// The table `[ship]`.
+pub(super) const SHIP: [Key; 7] = [
+    key("block", Shape::Text, "the block that is the controller"),
+    key("realisation", Shape::OneOf(&REALISATIONS), "the order of its operations, df1 when missing"),
+    key(
+        "format",
+        Shape::TableOrWord(&NUMBER_FORMAT),
+        "how coefficients are stored: fixed point, \"float32\" or \"float64\"",
+    ),
+    key(
+        "signal",
+        Shape::TableOrWord(&NUMBER_FORMAT),
+        "how signals are stored: fixed point; as coefficients where these are floats",
+    ),
+    key("inputs", Shape::Named(&Shape::Number), "bounds of the magnitude of the loop's inputs, for ranges"),
+    key("saturate", Shape::Flag, "whether signals saturate; they wrap around else"),
+    key("delta", Shape::Number, "the step of the delta operator: a power of two"),
+];
+
+/// How numbers are stored.
+pub(super) const NUMBER_FORMAT: [Key; 5] = [
+    key("bits", Shape::Number, "all bits, the sign among them"),
+    key("integer", Shape::Number, "in the place of 'bits': bits before the point, the sign among them"),
+    key("fraction", Shape::Number, "bits behind the point"),
+    key("round", Shape::OneOf(&ROUNDINGS), "the rounding mode, nearest when missing"),
+    key(
+        "scale",
+        Shape::Number,
+        "numbers are divided by 2 to this power before they are stored; \"auto\" takes the least power that fits",
+    ),
+];
+
+/// The rounding modes.
+pub(super) const ROUNDINGS: [&str; 6] = ["nearest", "even", "half-up", "floor", "ceil", "zero"];
 
 /// The words of an expected verdict.
 pub(super) const VERDICTS: [&str; 3] = ["stable", "marginal", "unstable"];

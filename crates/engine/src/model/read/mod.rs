@@ -19,6 +19,7 @@ mod reader;
 mod references;
 mod require;
 mod schema;
+mod ship;
 mod simulation;
 mod tolerance;
 

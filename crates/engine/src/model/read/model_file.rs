@@ -5,7 +5,7 @@ use super::loop_forms::read_form;
 use super::reader::{Meant, NamedMatrix, Reader};
 use super::tolerance::read_tolerance;
 use super::{check_names, check_rules, check_values, rates};
-use super::{domain, expect, nominal, references, require, simulation};
+use super::{domain, expect, nominal, references, require, ship, simulation};
 use crate::error::{Code, Diagnostic, Diagnostics, Severity, Source, Span};
 use crate::model::definition::{Constant, Diagram, Form, Model, Name, Parameter, Time};
 use crate::model::evaluate::work::constant_value;
@@ -132,6 +132,7 @@ fn read_model(root: &Table, source: &Arc<Source>, reader: &mut Reader) -> Option
     let simulation = simulation::read(root, reader);
     let require = require::read(root, reader);
     let expect = expect::of_model(root, source, reader);
+    let shipping = ship::read(root, reader);
     let mut index = HashMap::new();
     check_names::definitions(&constants, &parameters, time.unwrap_or(Time::Discrete), &mut index, reader);
     let order = check_names::order(&constants, &parameters, &index, reader);
@@ -149,6 +150,7 @@ fn read_model(root: &Table, source: &Arc<Source>, reader: &mut Reader) -> Option
         simulation,
         require,
         expect,
+        shipping,
         index,
     };
     let form_is_broken = form.is_none();
