@@ -25,7 +25,7 @@ const ROOT_BITS: u64 = 256;
 /// // (z - 0.2)/((z - 0.5)(z^2 - z + 0.7))
 /// let chain = sections(&exact(&["0", "0", "1", "-0.2"]), &exact(&["1", "-1.5", "1.2", "-0.35"]), &Budget::unlimited())?.unwrap();
 /// let names: Vec<&str> = chain.program.coefficients.iter().map(|c| c.name.as_str()).collect();
-/// assert_eq!(names, ["b2_1", "a2_1", "a1_2"]);
+/// assert_eq!(names, ["a2_1", "b1_2", "a1_2"]);
 /// # Ok::<(), jurist_algebra::limits::Exhausted>(())
 /// ```
 ///
