@@ -2,6 +2,8 @@
 //!
 //! | room | what it does |
 //! |---|---|
+//! | [`asked`] | what `[ship]` and options ask for |
+//! | [`shipped`] | the stored coefficients, put into the loop; every rounding |
 //! | [`format`] | number formats of processors, exact rounding |
 //! | [`program`] | a realisation as a list of sums: run exactly, read as a linear system, printed as code |
 //! | [`realise`] | from a transfer function to programs: direct forms, second-order sections, delta operator, state space |
@@ -13,7 +15,10 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod asked;
+mod every;
 pub mod format;
 pub mod program;
 pub mod realise;
 pub mod run;
+pub mod shipped;

@@ -111,45 +111,66 @@ impl Model {
         Some(out)
     }
 
-    /// A text of a model with more parameters, each with its keys and their values in TOML.
+    /// A text of a model in which a section has these keys, each with its value in TOML: in the place of those of the same name, else in addition.
     ///
-    /// Cost: that of reading the text as TOML.
-    pub fn with_parameters(text: &str, parameters: &[(String, Vec<(&str, String)>)]) -> String {
-        let root = toml_reader::read(text).ok();
-        let entry = root.as_ref().and_then(|root| root.entry("parameters"));
-        let lines = |keys: &[(&str, String)]| -> Vec<String> {
-            keys.iter().map(|(key, value)| format!("{key} = {value}")).collect()
-        };
-        let joined = |separator: &str, before: &str| -> String {
-            let one = |(name, keys): &(String, Vec<(&str, String)>)| {
-                format!("{before}{} = {{ {} }}{separator}", quoted(name), lines(keys).join(", "))
-            };
-            parameters.iter().map(one).collect()
-        };
-        let mut out = text.to_owned();
-        match entry {
-            Some(entry) if text[entry.value.span.start..].starts_with('{') => {
-                let is_empty = matches!(&entry.value.kind, Kind::Table(table) if table.iter().next().is_none());
-                let inside = joined(", ", "");
-                let inside = if is_empty { inside.trim_end_matches(", ") } else { &inside };
-                out.insert_str(entry.value.span.start + 1, inside);
-            }
-            Some(entry) if !is_header(text, entry) => {
-                out.insert_str(entry.key_span.start, &joined("\n", "parameters."))
-            }
-            _ => {
-                for (name, keys) in parameters {
-                    out.push_str(&format!("\n[parameters.{}]\n{}\n", quoted(name), lines(keys).join("\n")));
-                }
-            }
-        }
-        out
+    /// Cost: that of reading the text as TOML, for each key.
+    ///
+    /// ```
+    /// use jurist_engine::model::Model;
+    /// let text = Model::with_keys("[loop]\ninputs = ['r']\n", "loop", &[("inputs", "['r', 'd']".into()), ("outputs", "['y']".into())]);
+    /// assert_eq!(text, "[loop]\noutputs = ['y']\ninputs = ['r', 'd']\n");
+    /// assert_eq!(Model::with_keys("a = 1\n", "b", &[("c", "2".into())]), "a = 1\n\n[b]\nc = 2\n");
+    /// ```
+    pub fn with_keys(text: &str, section: &str, keys: &[(&str, String)]) -> String {
+        keys.iter().fold(text.to_owned(), |text, (key, value)| with_key(&text, section, key, value))
     }
 }
 
-/// Whether a section begins with its name in brackets.
-fn is_header(text: &str, entry: &Entry) -> bool {
-    text[..entry.key_span.start].trim_end_matches([' ', '\t']).ends_with('[')
+/// The text with one key in a section.
+fn with_key(text: &str, section: &str, key: &str, value: &str) -> String {
+    let root = toml_reader::read(text).ok();
+    let entry = root.as_ref().and_then(|root| root.entry(section));
+    let mut out = text.to_owned();
+    let known = entry.and_then(|entry| match &entry.value.kind {
+        Kind::Table(table) => table.get(key),
+        _ => None,
+    });
+    if let Some(known) = known {
+        out.replace_range(known.span.start..known.span.end, value);
+        return out;
+    }
+    let key = if key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_') { key.to_owned() } else { quoted(key) };
+    let line = format!("{key} = {value}");
+    if let Some(end) = header_end(text, section) {
+        let line_break = if text[..end].ends_with('\n') { "" } else { "\n" };
+        out.insert_str(end, &format!("{line_break}{line}\n"));
+        return out;
+    }
+    match entry {
+        Some(entry) if text[entry.value.span.start..].starts_with('{') => {
+            let is_empty = matches!(&entry.value.kind, Kind::Table(table) if table.iter().next().is_none());
+            let comma = if is_empty { "" } else { "," };
+            out.insert_str(entry.value.span.start + 1, &format!(" {line}{comma}"));
+        }
+        Some(entry) if !text[..entry.key_span.start].trim_end_matches([' ', '\t']).ends_with('[') => {
+            out.insert_str(entry.key_span.start, &format!("{section}.{line}\n"));
+        }
+        _ => out.push_str(&format!("\n[{section}]\n{line}\n")),
+    }
+    out
+}
+
+/// Where the line after `[section]` begins.
+fn header_end(text: &str, section: &str) -> Option<usize> {
+    let mut end = 0;
+    for line in text.split_inclusive('\n') {
+        end += line.len();
+        let name = line.trim_start().strip_prefix('[').and_then(|rest| rest.split_once(']'));
+        if name.is_some_and(|(name, _)| name.trim() == section) {
+            return Some(end);
+        }
+    }
+    None
 }
 
 /// A value as it is written.
