@@ -36,8 +36,9 @@ impl<'a> Brackets<'a> {
     /// The sum to so many digits and two more.
     pub fn sum(&self, digits: usize) -> Result<AbsoluteSum, Exhausted> {
         let mut bits = self.first_bits(digits);
+        let last = bits + IMPULSE_RESPONSE.last;
         loop {
-            if bits > IMPULSE_RESPONSE.last {
+            if bits > last {
                 return Err(IMPULSE_RESPONSE.exhausted("impulse response"));
             }
             bits = match (self.coefficients)(bits).map(|monic| self.attempt(&monic, digits)) {

@@ -21,10 +21,11 @@ mod tests;
 
 use bracket::Brackets;
 use coefficients::Monic;
+use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::{Domain, MultiPoly, Poly, UniPoly};
-use jurist_algebra::symbols::Symbols;
+use jurist_algebra::poly::{Domain, UniPoly};
+use std::fmt;
 use std::sync::Arc;
 
 /// The impulse response of a transfer function `N/D` in `z` whose poles are all inside of the unit circle.
@@ -44,10 +45,19 @@ pub struct ImpulseResponse {
 }
 
 /// What the coefficients are.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 enum Over {
     Integers { numerator: UniPoly, denominator: UniPoly },
-    Constants { numerator: Poly<MultiPoly>, denominator: Poly<MultiPoly>, symbols: Arc<Symbols> },
+    Enclosed(Arc<dyn Fn(u64) -> Option<[Vec<Ball>; 2]> + Send + Sync>),
+}
+
+impl fmt::Debug for Over {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Over::Integers { numerator, denominator } => write!(f, "({numerator:?})/({denominator:?})"),
+            Over::Enclosed(_) => f.write_str("enclosed coefficients"),
+        }
+    }
 }
 
 /// The sum of the absolute values of an impulse response, between two numbers.
@@ -76,24 +86,46 @@ impl ImpulseResponse {
     /// What is left of the denominator has to have all its roots inside of the unit circle, as
     /// [`is_stable`](crate::is_stable) proves: else the sum is not finite, and only a budget ends its computation.
     ///
+    /// Cost: that of a greatest common divisor.
+    ///
     /// # Panics
     /// When the denominator is zero, or of a lower degree than the numerator.
     pub fn of_integers(numerator: &UniPoly, denominator: &UniPoly) -> ImpulseResponse {
-        let [numerator, denominator] = in_lowest_terms(numerator, denominator);
-        ImpulseResponse { over: Over::Integers { numerator, denominator } }
+        assert!(!denominator.is_zero(), "a transfer function has a denominator");
+        assert!(numerator.coeffs().len() <= denominator.coeffs().len(), "a transfer function of samples is proper");
+        let common = numerator.gcd(denominator);
+        let divided = |p: &UniPoly| p.div_exact(&common).expect("a gcd divides");
+        ImpulseResponse { over: Over::Integers { numerator: divided(numerator), denominator: divided(denominator) } }
     }
 
-    /// The same with coefficients that are polynomials in constants; symbol `i` is variable `i`.
+    /// Of a quotient whose coefficients are known by enclosures: those of the numerator and of the denominator, from the constant term
+    /// up, with so many bits after the point; `None` where they cannot be had with so few.
     ///
-    /// # Panics
-    /// As [`Self::of_integers`].
-    pub fn over_symbols(
-        numerator: &Poly<MultiPoly>,
-        denominator: &Poly<MultiPoly>,
-        symbols: &Arc<Symbols>,
+    /// The denominator is to be stable, and its degree not below that of the numerator. A common factor makes nothing wrong. The numerator is to
+    /// have a coefficient other than 0: that all are is not seen.
+    ///
+    /// ```
+    /// use jurist_algebra::ball::{Ball, exp};
+    /// use jurist_algebra::limits::Budget;
+    /// use jurist_stability::ImpulseResponse;
+    /// // (1 - e)/(z - e) with e = exp(-1/10)
+    /// let response = ImpulseResponse::by_enclosures(|bits| {
+    ///     let (e, one) = (exp(&Ball::from_rational(&"-1/10".parse().unwrap(), bits)), Ball::from_integer(&1.into(), bits));
+    ///     Some([vec![one.sub(&e)], vec![e.neg(), one]])
+    /// });
+    /// let sum = response.absolute_sum(20, &Budget::unlimited())?;
+    /// assert!(sum.lower < 1.into() && sum.upper > 1.into() && sum.exact.is_none());
+    /// # Ok::<(), jurist_algebra::limits::Exhausted>(())
+    /// ```
+    pub fn by_enclosures(
+        coefficients: impl Fn(u64) -> Option<[Vec<Ball>; 2]> + Send + Sync + 'static,
     ) -> ImpulseResponse {
-        let [numerator, denominator] = in_lowest_terms(numerator, denominator);
-        ImpulseResponse { over: Over::Constants { numerator, denominator, symbols: Arc::clone(symbols) } }
+        ImpulseResponse { over: Over::Enclosed(Arc::new(coefficients)) }
+    }
+
+    /// That is 0 at all samples.
+    pub fn zero() -> ImpulseResponse {
+        ImpulseResponse::of_integers(&UniPoly::zero(), &UniPoly::one())
     }
 
     /// The sum of the absolute values: exactly, or between two numbers that differ by at most `10^-(digits + 2)` of it.
@@ -109,13 +141,6 @@ impl ImpulseResponse {
     pub fn absolute_sum(&self, digits: usize, budget: &Budget) -> Result<AbsoluteSum, Exhausted> {
         budget.step("impulse response");
         budget.enter(|| {
-            let is_zero = match &self.over {
-                Over::Integers { numerator, .. } => numerator.is_zero(),
-                Over::Constants { numerator, .. } => numerator.is_zero(),
-            };
-            if is_zero {
-                return Ok(AbsoluteSum::exactly(Rational::ZERO, 0));
-            }
             if let Over::Integers { numerator, denominator } = &self.over
                 && let Some((sum, terms)) = one_sign::sum(numerator, denominator)
             {
@@ -143,18 +168,10 @@ impl ImpulseResponse {
     fn monic(&self, bits: u64) -> Option<Monic> {
         match &self.over {
             Over::Integers { numerator, denominator } => Some(Monic::of_integers(numerator, denominator, bits)),
-            Over::Constants { numerator, denominator, symbols } => {
-                let enclosed = |p: &Poly<MultiPoly>| p.coeffs().iter().map(|c| symbols.enclose(c, bits)).collect();
-                Monic::of_balls(enclosed(numerator), enclosed(denominator))
+            Over::Enclosed(coefficients) => {
+                let [numerator, denominator] = coefficients(bits)?;
+                Monic::of_balls(numerator, denominator)
             }
         }
     }
-}
-
-/// Both polynomials without their common factors.
-fn in_lowest_terms<R: Domain>(numerator: &Poly<R>, denominator: &Poly<R>) -> [Poly<R>; 2] {
-    assert!(!denominator.is_zero(), "a transfer function has a denominator");
-    assert!(numerator.coeffs().len() <= denominator.coeffs().len(), "a transfer function of samples is proper");
-    let common = numerator.gcd(denominator);
-    [numerator, denominator].map(|p| p.div_exact(&common).expect("a gcd divides"))
 }

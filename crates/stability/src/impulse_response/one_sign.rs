@@ -7,7 +7,6 @@
 //! and the sum is that of all samples, `H(1)` with the sign of `c`, and twice those of the other sign. For negative `l` the same holds of `H(-z)`,
 //! whose samples are `(-1)^k h_k`.
 
-use super::bracket::Brackets;
 use super::bracket::rough_bound;
 use super::coefficients::Monic;
 use crate::root_count::count_roots;
@@ -39,8 +38,10 @@ const BITS: u64 = 192;
 
 /// The sum, and how many samples were computed; `None` where no proof is found.
 pub(super) fn sum(numerator: &UniPoly, denominator: &UniPoly) -> Option<(Rational, usize)> {
-    let at_zero = zeros_at_0(denominator);
-    if at_zero + 1 == denominator.coeffs().len() {
+    if numerator.is_zero() {
+        return Some((Rational::ZERO, 0));
+    }
+    if denominator.coeffs().iter().rev().skip(1).all(Integer::is_zero) {
         let leading = denominator.leading().expect("the denominator is not zero").abs();
         let above = numerator.coeffs().iter().fold(Integer::ZERO, |sum, c| sum + c.abs());
         return Some((Rational::new(above, leading), denominator.coeffs().len()));
@@ -54,10 +55,6 @@ pub(super) fn sum(numerator: &UniPoly, denominator: &UniPoly) -> Option<(Rationa
     }
     let [numerator, denominator] = [numerator, denominator].map(UniPoly::negated_argument);
     sum_over(&numerator, &denominator, &greatest.negated())
-}
-
-fn zeros_at_0(p: &UniPoly) -> usize {
-    p.coeffs().iter().take_while(|c| c.is_zero()).count()
 }
 
 /// The real pole of greatest modulus; `None` where there is none, or two of them are.
@@ -198,8 +195,8 @@ fn samples_of_other_sign(numerator: &UniPoly, denominator: &UniPoly, sign: Sign,
         checkpoint(4 * n as u64 + power.bit_length() / 16);
         let mut sample = if k <= n { numerator.coeff(n - k) * &power } else { Integer::ZERO };
         below.iter().zip(&recent).for_each(|(a, h)| sample.sub_mul_assign(a, h));
-        power = power * leading;
-        others = others * leading;
+        power *= leading;
+        others *= leading;
         if sample.sign() == sign.reverse() {
             others += sample.abs();
         }

@@ -1,11 +1,10 @@
 use super::reference;
 use super::{AbsoluteSum, ImpulseResponse};
+use jurist_algebra::ball::{Ball, exp};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational, to_decimal};
-use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
-use jurist_algebra::symbols::{Definition, Symbols};
+use jurist_algebra::poly::{Domain, UniPoly};
 use proptest::prelude::*;
-use std::sync::Arc;
 
 fn sum_of(numerator: &UniPoly, denominator: &UniPoly, digits: usize) -> AbsoluteSum {
     ImpulseResponse::of_integers(numerator, denominator).absolute_sum(digits, &Budget::unlimited()).unwrap()
@@ -60,9 +59,12 @@ fn a_slow_integrator_of_few_bits_has_its_gain_at_frequency_0() {
 
 /// The bracket, also where the sum is known as a rational number.
 fn enclosed(numerator: &UniPoly, denominator: &UniPoly, digits: usize) -> AbsoluteSum {
-    let constant = |p: &UniPoly| p.map(|c| MultiPoly::from_integer(c));
-    let symbols = Arc::new(Symbols::new());
-    let response = ImpulseResponse::over_symbols(&constant(numerator), &constant(denominator), &symbols);
+    if numerator.is_zero() {
+        return sum_of(numerator, denominator, digits);
+    }
+    let both = [numerator.clone(), denominator.clone()];
+    let balls = |p: &UniPoly, bits| p.coeffs().iter().map(|c| Ball::from_integer(c, bits)).collect();
+    let response = ImpulseResponse::by_enclosures(move |bits| Some(both.each_ref().map(|p| balls(p, bits))));
     response.absolute_sum(digits, &Budget::unlimited()).unwrap()
 }
 
@@ -115,23 +117,28 @@ fn signs_are_those_of_the_samples() {
     assert_eq!(signs[..9], [0, 1, 1, 1, 0, -1, -1, -1, 0]);
 }
 
-/// `(1 - e)/(z - e)` with `e = exp(-1/10)` has the sum 1, and 1/(z^2 - 2 c z + 1/2) one that a rational `c` near to it has nearly.
+/// 1/(2 z^2 - e z + 1) with `e = exp(-1/10)`, which is next to 0.904837.
 #[test]
-fn coefficients_over_constants_are_enclosed() {
-    let mut symbols = Symbols::new();
-    symbols.push("e", Definition::Exponential(RationalFunction::from(rational("-1/10"))));
-    let symbols = Arc::new(symbols);
-    let (e, one) = (MultiPoly::variable(0), MultiPoly::one());
-    let lag = [Poly::constant(one.minus(&e)), Poly::new(vec![e.negated(), one.clone()])];
-    let found =
-        ImpulseResponse::over_symbols(&lag[0], &lag[1], &symbols).absolute_sum(30, &Budget::unlimited()).unwrap();
-    assert!(found.lower < Rational::ONE && Rational::ONE < found.upper);
-    assert!(&found.upper - &found.lower < Rational::dyadic(&Integer::ONE, 100));
-    let pair = Poly::new(vec![one.clone(), e.negated(), one.plus(&one)]);
-    let found = ImpulseResponse::over_symbols(&Poly::constant(one), &pair, &symbols);
-    let found = found.absolute_sum(12, &Budget::unlimited()).unwrap();
+fn coefficients_that_are_not_rational_are_enclosed() {
+    let response = ImpulseResponse::by_enclosures(|bits| {
+        let whole = |n: i64| Ball::from_integer(&n.into(), bits);
+        let e = exp(&Ball::from_rational(&rational("-1/10"), bits));
+        Some([vec![whole(1)], vec![whole(1), e.neg(), whole(2)]])
+    });
+    let found = response.absolute_sum(12, &Budget::unlimited()).unwrap();
     let near = sum(&[1_000_000], &[1_000_000, -904_837, 2_000_000], 12);
     assert!((found.lower - near.lower).abs() < rational("1/100000"));
+    assert_eq!(response.signs(5, &Budget::unlimited()).unwrap(), [0, 0, 1, 1, -1]);
+}
+
+#[test]
+fn a_numerator_that_is_zero_by_an_identity_is_not_decided() {
+    let response = ImpulseResponse::by_enclosures(|bits| {
+        let root = Ball::from_integer(&2.into(), bits).sqrt()?;
+        let zero = root.square().sub(&Ball::from_integer(&2.into(), bits));
+        Some([vec![zero], vec![Ball::from_integer(&(-1).into(), bits), Ball::from_integer(&2.into(), bits)]])
+    });
+    assert!(response.absolute_sum(6, &Budget::unlimited()).unwrap_err().stop.is_precision());
 }
 
 /// Stable denominators from their roots: rational ones, and pairs `a +- b i` with `a^2 + b^2 < 1`.
