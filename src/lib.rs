@@ -37,6 +37,7 @@
 //! | [`Question::map`] | [`Map`] | the stable regions in the plane of two parameters |
 //! | [`Question::margins`] | [`Margins`] | gain, phase, delay, modulus and disk margins of the loop cut at a signal |
 //! | [`Question::norm`] | [`Norm`] | the peak gain of a closed-loop transfer function |
+//! | [`Question::peak_to_peak`] | [`PeakToPeak`] | how far bounded inputs drive an output, in discrete time |
 //! | [`Question::analyze`] | [`Analysis`] | the verdict, and the stable set of each parameter |
 //!
 //! An answer writes itself for people (`text`), for programs (`json`) and for checkers (`certificate`, `smt2`); [`check()`]
@@ -74,7 +75,7 @@ pub use jurist_engine::model::{
     Time, Tolerance, TransferFunction,
 };
 pub use jurist_engine::problem::{Algebra, Bound, Free, Problem, Question, Region};
-pub use jurist_engine::response::{Extreme, Margins, Norm, OpenLoop, Place, Requirement, Value};
+pub use jurist_engine::response::{Extreme, Margins, Norm, OpenLoop, PeakToPeak, Place, Requirement, Value};
 pub use jurist_engine::show::documents;
 pub use jurist_engine::show::notation::Notation;
 pub use jurist_stability::{

@@ -4,7 +4,7 @@ use super::{Answer, Body, Map, MapBoxes, ParametricTable, PointTable, PointVerdi
 use crate::coverage::Asked;
 use crate::error::Error;
 use crate::problem::Plan;
-use crate::response::{Margins, Norm};
+use crate::response::{Margins, Norm, PeakToPeak};
 use crate::stability::StableSet;
 use jurist_algebra::limits::Budget;
 
@@ -39,6 +39,7 @@ answers! {
     ParametricTable: JuryInParameter,
     Margins: Margins,
     Norm: Norm,
+    PeakToPeak: PeakToPeak,
 }
 
 impl<T: Answers> Answer<T> {

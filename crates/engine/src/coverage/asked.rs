@@ -41,6 +41,10 @@ questions! {
     Margins,
     /// The peak gain of a transfer function.
     Norm,
+    /// The peak-to-peak gain of a transfer function, discrete time.
+    PeakToPeak,
+    /// The same in continuous time.
+    PeakToPeakContinuous,
     /// Modulus and phase of the open loop over frequency.
     Bode,
     /// The curve of the open loop.

@@ -124,6 +124,16 @@ pub(super) static DIFFERENCES: Method = Method::new(
     "Each limit is a zero of a boundary polynomial; its derivative by another name is a quotient of partial derivatives there.",
     "answer::Sensitivities",
 );
+pub(super) static IMPULSES: Method = Method::new(
+    "sum of the absolute impulse response",
+    "Samples are computed in fixed point, with a proved bound of all errors. A power of the companion matrix has a norm below a half, which bounds what follows after a block of samples. Where the signs of all samples are proved the sum is a rational number.",
+    "stability::ImpulseResponse",
+);
+pub(super) static ENCLOSED_IMPULSES: Method = Method::new(
+    "sum of the absolute impulse response with enclosed coefficients",
+    "The same, with coefficients that are enclosed with more bits until the digits are certain: their errors are among the errors of samples.",
+    "stability::ImpulseResponse",
+);
 pub(super) static PEAKS: Method = Method::new(
     "greatest modulus on the boundary",
     "The square of the modulus is a rational function of the half-size variable; the zeros of its derivative are isolated exactly or with enclosed constants, and the greatest of its values is taken.",

@@ -82,6 +82,11 @@ pub(crate) static FEEDBACK: Refusal = Refusal::new(
     "the peak gain is not known yet where dead time is in the feedback, or in one of several paths to the output",
     "the peak of the sensitivity 1/(1 + L) is the inverse of the modulus margin: 'jurist margins'",
 );
+pub(crate) static NOT_OF_SAMPLES: Refusal = Refusal::new(
+    Code::Discretize,
+    "the peak-to-peak gain (l1 norm) is known in discrete time only, and this loop is continuous",
+    "write time = \"discrete\" and 'discretize' at the continuous blocks; the peak over frequencies is 'jurist norm' without '--l1'",
+);
 pub(crate) static ONE_FACTOR: Refusal = Refusal::new(
     Code::DeadTime,
     "with dead time this is known where one factor of the open loop has it, and all else is rational",

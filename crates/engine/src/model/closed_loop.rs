@@ -540,6 +540,15 @@ impl ClosedLoop {
     /// # Errors
     /// `E-unknown-signal`; [`Error::Stopped`].
     pub fn transfer_function(&self, input: &str, output: &str, budget: &Budget) -> Result<TransferFunction, Error> {
+        let (i, j) = self.ports(input, output)?;
+        self.transfer_function_at(i, j, budget)
+    }
+
+    /// The row of an output and the column of an input.
+    ///
+    /// # Errors
+    /// `E-unknown-signal`.
+    pub(crate) fn ports(&self, input: &str, output: &str) -> Result<(usize, usize), Error> {
         let find = |names: &[String], name: &str, what: &str| {
             names.iter().position(|n| n == name).ok_or_else(|| {
                 let message = format!("the loop has no {what} '{}'", shorten(name));
@@ -551,7 +560,7 @@ impl ClosedLoop {
         };
         let j = find(&self.inputs, input, "input")?;
         let i = find(&self.outputs, output, "output")?;
-        self.transfer_function_at(i, j, budget)
+        Ok((i, j))
     }
 
     /// The transfer function from input `j` to output `i`, nothing cancelled.
@@ -569,12 +578,23 @@ impl ClosedLoop {
     /// When there is no such input or output.
     pub fn transfer_function_at(&self, i: usize, j: usize, budget: &Budget) -> Result<TransferFunction, Error> {
         let denominator = self.characteristic_polynomial(budget)?;
+        let numerator = self.numerator_at(i, j, &denominator.coefficients, budget)?;
+        Ok(TransferFunction { numerator, denominator })
+    }
+
+    /// The numerator over the characteristic polynomial, whose coefficients are known.
+    pub(crate) fn numerator_at(
+        &self,
+        i: usize,
+        j: usize,
+        denominator: &[RationalFunction],
+        budget: &Budget,
+    ) -> Result<Vec<RationalFunction>, Error> {
         let n = self.a.rows();
         let changed = RationalMatrix::from_fn(n, n, |r, k| &self.a[(r, k)] - &(&self.e[(r, j)] * &self.c[(i, k)]));
         let other = changed.characteristic_polynomial(self.variables.clone(), budget)?;
         let direct = &self.d[(i, j)];
-        let pairs = other.coefficients.iter().zip(&denominator.coefficients);
-        let numerator = pairs.map(|(b, a)| &(b - a) + &(direct * a)).collect();
-        Ok(TransferFunction { numerator, denominator })
+        let pairs = other.coefficients.iter().zip(denominator);
+        Ok(pairs.map(|(b, a)| &(b - a) + &(direct * a)).collect())
     }
 }

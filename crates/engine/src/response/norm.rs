@@ -83,6 +83,16 @@ fn dead_time_in_the_feedback() -> Error {
     FEEDBACK.diagnostic(&[]).into()
 }
 
+/// Refuses a loop of several rates.
+pub(super) fn of_one_rate(problem: &Problem) -> Result<(), Error> {
+    if problem.model().hyperperiod() == 1 {
+        return Ok(());
+    }
+    let message = "a loop of several rates has no transfer function from sample to sample, so no peak gain";
+    let error = Diagnostic::error(Code::RateMargin, message);
+    Err(error.help("'margins' has the loop at a signal that is used once in a hyperperiod").into())
+}
+
 impl Question {
     /// The peak gain from an input to an output with every parameter at its set or nominal value.
     ///
@@ -109,11 +119,7 @@ impl Problem {
     /// # Panics
     /// When a parameter is free.
     pub fn norm(self: &Arc<Self>, input: &str, output: &str, budget: &Budget) -> Result<Answer<Norm>, Error> {
-        if self.model().hyperperiod() > 1 {
-            let message = "a loop of several rates has no transfer function from sample to sample, so no peak gain";
-            let error = Diagnostic::error(Code::RateMargin, message);
-            return Err(error.help("'margins' has the loop at a signal that is used once in a hyperperiod").into());
-        }
+        of_one_rate(self)?;
         budget.enter(|| {
             let verdict = self.verdict(budget)?.into_value();
             let (closed_loop, symbols) = self.closed_loop_over_symbols(budget)?;

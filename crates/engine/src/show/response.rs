@@ -1,5 +1,6 @@
 //! Margins and norms for people.
 
+use super::bounded::at_least;
 use super::intervals::heading;
 use super::layout::{Columns, short, visible};
 use super::margins::margin;
@@ -9,10 +10,11 @@ use crate::answer::{Answer, Frequency};
 use crate::model::Cut;
 use crate::problem::Problem;
 use crate::response::{
-    self, DelayMargin, Direction, Extreme, GainCrossing, HeldDelay, Margins, Norm, PhaseMargin, Place, StableMargins,
+    self, DelayMargin, Direction, Extreme, GainCrossing, HeldDelay, Margins, Norm, PeakToPeak, PhaseMargin, Place,
+    StableMargins,
 };
-use crate::stability::{End, Shape};
-use jurist_algebra::number::{Enclosure, Rational};
+use crate::stability::{AbsoluteSum, End, Shape};
+use jurist_algebra::number::{Enclosure, Rational, enclosed_decimal, to_decimal};
 use jurist_algebra::real::Real;
 
 /// Digits of frequencies and decibels.
@@ -271,4 +273,34 @@ fn norm_line(problem: &Problem, norm: &Norm, digits: usize) -> String {
     let decibels = decibels.map(|d| format!(" ({d} dB)")).unwrap_or_default();
     let (input, output) = (visible(&norm.input), visible(&norm.output));
     format!("peak gain from {input} to {output}: {value}{decibels} {place}")
+}
+
+impl Answer<PeakToPeak> {
+    /// The gain for people, and what it bounds.
+    pub fn text(&self, digits: usize) -> String {
+        let (problem, found) = (self.problem(), self.value());
+        let Some(gain) = &found.gain else {
+            let verdict = verdict_line(problem, &found.verdict);
+            return format!("{}\n{verdict}\nno peak-to-peak gain: only a stable loop has one\n", heading(problem));
+        };
+        let (input, output) = (visible(&found.input), visible(&found.output));
+        let exact = gain.exact.as_ref().filter(|x| !x.is_integer());
+        let exact = exact.map(|x| format!(", exactly {x}")).unwrap_or_default();
+        let (value, bound) = (gain_decimal(gain, digits), at_least(&gain.upper, digits));
+        let how = match gain.exact {
+            Some(_) => String::new(),
+            None => format!("{} samples of the impulse response, and a bound of all that follow\n", gain.terms),
+        };
+        format!(
+            "{}\npeak-to-peak gain (l1 norm) from {input} to {output}: {value}{exact}\n\
+             from rest |{output}| <= {bound} max |{input}|, and no smaller gain holds for all inputs\n{how}",
+            heading(problem)
+        )
+    }
+}
+
+/// The gain correctly rounded; next to a tie either neighbour.
+pub(super) fn gain_decimal(gain: &AbsoluteSum, digits: usize) -> String {
+    enclosed_decimal(&gain.lower, &gain.upper, digits)
+        .unwrap_or_else(|| to_decimal(&gain.lower.midpoint(&gain.upper), digits))
 }

@@ -68,7 +68,7 @@ pub use margins::{
     ComplementaryPeak, CrossingsFound, DelayMarginFound, DiskMarginFound, GainCrossingFound, GainMargins, Margins,
     MarginsFound, MarginsName, MarginsOpen, ModulusMargin, PhaseCrossingFound, PhaseMarginFound,
 };
-pub use norm::{Norm, NormFound, NormName, NormOpen, PeakFound};
+pub use norm::{Norm, NormFound, NormName, NormOpen, PeakFound, PeakToPeakFound};
 pub use number::{Enclosure, Exact, Named, Number, NumberKind};
 pub use over::{AlgebraicPlace, Over};
 pub use plan::{Plan, PlannedMethod};

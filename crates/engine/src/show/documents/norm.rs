@@ -1,10 +1,13 @@
 //! The document `jurist/norm/1`.
 
+use super::number::enclosure;
 use super::schema_name;
-use super::{Answered, FrequencyOfPair, Number, PointQuestion, RootsByPlace};
+use super::{Answered, Enclosure, Exact, FrequencyOfPair, Number, PointQuestion, RootsByPlace};
 use crate::answer::{self, Answer};
 use crate::problem::Problem;
 use crate::response::{self, Extreme};
+use crate::show::response::gain_decimal;
+use crate::stability::AbsoluteSum;
 use jurist_algebra::limits::Exhausted;
 use serde::{Deserialize, Serialize};
 
@@ -37,8 +40,25 @@ pub struct NormFound {
     /// The verdict on the closed loop, and where its roots are.
     #[serde(flatten)]
     pub roots: RootsByPlace,
-    /// The peak; `null` unless the loop is stable.
+    /// The peak; `null` unless the loop is stable, and where the l1 norm was asked for instead.
     pub norm: Option<PeakFound>,
+    /// The peak-to-peak gain (l1 norm); left out where it was not asked for, and unless the loop is stable.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub l1: Option<PeakToPeakFound>,
+}
+
+/// The sum of the absolute values of the impulse response: from rest `max |output| <= l1 max |input|`, and no smaller number does.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct PeakToPeakFound {
+    /// Correctly rounded to the digits asked for; next to a tie either neighbour.
+    pub decimal: String,
+    /// The gain itself where it is proved to be this rational number, else `null`; a gain that is rational may have `null`.
+    pub exact: Option<Exact>,
+    /// Lower and upper bound; equal where `exact` is not `null`.
+    pub enclosure: Enclosure,
+    /// How many samples of the impulse response were computed.
+    pub terms: usize,
 }
 
 /// The greatest modulus over all frequencies.
@@ -75,8 +95,42 @@ impl Norm {
                 attained: !matches!(peak.extreme, Extreme::At { attained: false, .. }),
                 frequency: FrequencyOfPair::new(digits, |bits| norm.frequency(problem.shape(), bits)),
             }),
+            l1: None,
         };
         Norm { schema: NormName::V1, question: PointQuestion::new(problem), answer: Answered::of(norm, found) }
+    }
+}
+
+impl PeakToPeakFound {
+    fn new(gain: &AbsoluteSum, digits: usize) -> Self {
+        PeakToPeakFound {
+            decimal: gain_decimal(gain, digits),
+            exact: gain.exact.as_ref().map(Exact::from),
+            enclosure: enclosure(&gain.lower, &gain.upper),
+            terms: gain.terms,
+        }
+    }
+}
+
+impl Norm {
+    /// The document of a peak-to-peak gain, also of one that the budget did not allow.
+    pub fn of_peak_to_peak(problem: &Problem, found: Result<&response::PeakToPeak, &Exhausted>, digits: usize) -> Self {
+        let found_as = |found: &response::PeakToPeak| NormFound {
+            input: found.input.clone(),
+            output: found.output.clone(),
+            stable: found.verdict.verdict == answer::Verdict::Stable,
+            roots: RootsByPlace::from(&found.verdict),
+            norm: None,
+            l1: found.gain.as_ref().map(|gain| PeakToPeakFound::new(gain, digits)),
+        };
+        Norm { schema: NormName::V1, question: PointQuestion::new(problem), answer: Answered::of(found, found_as) }
+    }
+}
+
+impl Answer<response::PeakToPeak> {
+    /// The document `jurist/norm/1` with the key `l1`, decimals to so many significant digits.
+    pub fn json(&self, digits: usize) -> Norm {
+        Norm::of_peak_to_peak(self.problem(), Ok(self.value()), digits)
     }
 }
 
