@@ -203,6 +203,8 @@ fn signal(shipping: &Shipping, overrides: &Overrides, coefficients: &Format) -> 
     match (format, coefficients) {
         (Format::Fixed(fixed), Format::Fixed(_)) => Ok(Some(fixed)),
         (found, other) if found == *other => Ok(None),
+        // A format in floating point that stands in the place of the model's says what signals are, too.
+        (Format::Fixed(_), Format::Binary(_)) if overrides.format.is_some() && span.is_some() => Ok(None),
         _ => {
             let error = Diagnostic::error(
                 Code::ShipFormat,

@@ -5,7 +5,7 @@ use crate::program::Coefficient;
 use crate::realise::Entry;
 use crate::shipped::{Shipped, question_of};
 use jurist_algebra::limits::Budget;
-use jurist_algebra::number::{Rational, to_decimal};
+use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, ToleranceAnswer, ToleranceRequest};
 use jurist_engine::error::Error;
 use jurist_engine::model::{Model, Tolerance};
@@ -82,9 +82,4 @@ fn unused(name: &str, model: &Model) -> String {
         name.push('x');
     }
     name
-}
-
-/// A number of the answer in few digits.
-pub(crate) fn few(value: &Rational) -> String {
-    to_decimal(value, 6)
 }

@@ -2,8 +2,12 @@
 //!
 //! | room | what it does |
 //! |---|---|
+//! | [`answer`] | everything together, for people and programs |
 //! | [`asked`] | what `[ship]` and options ask for |
 //! | [`shipped`] | the stored coefficients, put into the loop; every rounding |
+//! | [`fewest`] | how many bits behind the point are enough |
+//! | [`ranges`] | how large signals become, and what their rounding adds |
+//! | [`document`] | the answer as JSON |
 //! | [`format`] | number formats of processors, exact rounding |
 //! | [`program`] | a realisation as a list of sums: run exactly, read as a linear system, printed as code |
 //! | [`realise`] | from a transfer function to programs: direct forms, second-order sections, delta operator, state space |
@@ -15,10 +19,15 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod answer;
 pub mod asked;
+pub mod document;
 mod every;
+pub mod fewest;
 pub mod format;
 pub mod program;
+pub mod ranges;
 pub mod realise;
 pub mod run;
 pub mod shipped;
+mod text;

@@ -35,6 +35,8 @@ pub(super) mod paper;
 pub(super) mod report;
 pub(super) mod roots;
 #[cfg(feature = "cli")]
+pub(super) mod ship;
+#[cfg(feature = "cli")]
 pub(super) mod simulate;
 #[cfg(feature = "cli")]
 pub(super) mod sweep;
@@ -320,6 +322,8 @@ commands! {
     sweep: Sweep in "cli";
     /// Stable for every value within tolerances: proof or counterexample, and how far they can grow
     tolerance: Tolerance;
+    /// The controller as it is stored and run: rounded coefficients, every rounding, fewest bits, ranges of signals
+    ship: Ship in "cli";
     /// One page about one's own loop: verdict, limits and causes, margins, what moves them, worst corner, figures
     report: Report in "cli";
     /// The built-in drive's paper once more, as one HTML report with figures

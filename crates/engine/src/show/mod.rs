@@ -19,7 +19,7 @@ mod roots;
 mod sensitivity;
 mod table;
 mod tolerance;
-mod verdict;
+pub mod verdict;
 mod words;
 
 pub use intervals::intervals_text;

@@ -1,0 +1,206 @@
+//! How large signals become inside of a controller, and what the rounding of signals adds.
+
+use crate::program::{LinearSystem, Operand};
+use crate::realise::Entry;
+use crate::run::FixedProgram;
+use crate::shipped::{Shipped, question_of};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::{Integer, Rational};
+use jurist_engine::error::Error;
+use jurist_engine::model::{Form, Model};
+use jurist_engine::problem::Problem;
+use std::sync::Arc;
+
+/// Bounds of signals, from rest and while nothing leaves its range.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Ranges {
+    /// The inner signals, in the order of the operations.
+    pub nodes: Vec<NodeRange>,
+    /// By how much the rounding of signals can move each output of the loop, in the end and at any time: a bound of all limit cycles. None where
+    /// signals are not rounded.
+    pub moved: Vec<(String, Rational)>,
+    /// The loop in which each inner signal is an output, and each rounding error an input.
+    pub problem: Arc<Problem>,
+}
+
+/// The range of an inner signal.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct NodeRange {
+    /// Its name in the controller.
+    pub name: String,
+    /// Its name as an output of the loop in [`Ranges::problem`].
+    pub output: String,
+    /// Its greatest magnitude under all inputs within their bounds, between two numbers; `None` without bounds.
+    pub greatest: Option<[Rational; 2]>,
+    /// What the rounding of signals adds at most.
+    pub rounding: Rational,
+    /// The greatest number of its format.
+    pub limit: Option<Rational>,
+    /// Whether it stays within; `None` where that is not said by these bounds.
+    pub holds: Option<bool>,
+}
+
+/// Digits to which gains are known.
+const DIGITS: usize = 9;
+
+impl Shipped {
+    /// The ranges of the controller's inner signals. `None` for a loop that is not stable.
+    ///
+    /// Cost: that of [`Problem::peak_to_peak`] for each inner signal and output, from each input with a bound and each rounding.
+    ///
+    /// # Errors
+    /// As [`Problem::peak_to_peak`].
+    pub fn ranges(&self, budget: &Budget) -> Result<Option<Ranges>, Error> {
+        let names = Names::of(self);
+        let problem = question_of(&self.rounded, self.ranges_text(&names))?.problem()?;
+        let unit = self.asked.signal.map(|signal| signal.unit());
+        let error = self.asked.signal.map_or(Rational::ZERO, |signal| {
+            let (least, greatest) = signal.rounding.error_in_halves();
+            Rational::new(least.abs().max(greatest.abs()).into(), 2.into())
+        });
+        let error = unit.map_or(Rational::ZERO, |unit| unit * error);
+        let sum = |sources: &[(String, Rational)], output: &str| -> Result<Option<[Rational; 2]>, Error> {
+            let mut total = [Rational::ZERO, Rational::ZERO];
+            for (input, bound) in sources {
+                let found = problem.peak_to_peak(input, output, DIGITS, budget)?;
+                let Some(gain) = &found.value().gain else { return Ok(None) };
+                total = [&total[0] + &(&gain.lower * bound), &total[1] + &(&gain.upper * bound)];
+            }
+            Ok(Some(total))
+        };
+        let errors: Vec<(String, Rational)> =
+            names.errors.iter().flatten().map(|name| (name.clone(), error.clone())).collect();
+        let mut nodes = Vec::new();
+        for (node, output) in self.realised.program.nodes.iter().zip(&names.nodes) {
+            let greatest = sum(&self.asked.inputs, output)?;
+            let Some([_, rounding]) = sum(&errors, output)? else { return Ok(None) };
+            let greatest = greatest.filter(|_| !self.asked.inputs.is_empty());
+            let limit = self.asked.signal.map(|signal| signal.value(&signal.integers().1));
+            let holds = limit.as_ref().zip(greatest.as_ref()).and_then(|(limit, [low, high])| {
+                if high + &rounding <= *limit {
+                    return Some(true);
+                }
+                (low - &rounding > *limit).then_some(false)
+            });
+            nodes.push(NodeRange { name: node.name.clone(), output: output.clone(), greatest, rounding, limit, holds });
+        }
+        let mut moved = Vec::new();
+        for output in self.exact.model().outputs().iter().filter(|_| !errors.is_empty()) {
+            let Some([_, most]) = sum(&errors, &output.name.name)? else { return Ok(None) };
+            moved.push((output.name.name.clone(), most));
+        }
+        Ok(Some(Ranges { nodes, moved, problem }))
+    }
+
+    /// The program in fixed point, where coefficients and signals are.
+    pub fn fixed_program(&self) -> Option<FixedProgram<'_>> {
+        let crate::format::Format::Fixed(format) = self.asked.format else { return None };
+        let stored = self.coefficients.iter().map(|c| c.integer.clone()).collect::<Option<Vec<Integer>>>()?;
+        Some(FixedProgram::new(&self.realised.program, stored, &format, self.asked.signal?, self.asked.overflow))
+    }
+
+    /// The text of a model in which the controller's inner signals are outputs, and its rounding errors inputs.
+    fn ranges_text(&self, names: &Names) -> String {
+        let model = self.rounded.model();
+        let Form::Blocks(diagram) = model.form() else { return model.source().text.clone() };
+        let Some(block) = diagram.blocks.iter().find(|block| block.name == self.asked.block) else {
+            return model.source().text.clone();
+        };
+        let values: Vec<Rational> = self.coefficients.iter().map(|c| c.value.clone()).collect();
+        let system = self.realised.program.system(&values);
+        let errors: Vec<&String> = names.errors.iter().flatten().collect();
+        let inputs: Vec<String> =
+            block.inputs.iter().map(ToString::to_string).chain(errors.iter().map(|e| (*e).clone())).collect();
+        let outputs: Vec<String> = self.asked.outputs.iter().chain(&names.nodes).cloned().collect();
+        let mut keys = vec![("input", list(&inputs)), ("output", list(&outputs))];
+        keys.extend(self.matrices(&system, names));
+        let text = model.with_block(&self.asked.block, &keys).unwrap_or_default();
+        let all = |own: Vec<String>, more: Vec<String>| list(&own.into_iter().chain(more).collect::<Vec<_>>());
+        let loop_inputs = model.inputs().iter().map(|name| name.name.clone()).collect();
+        let loop_outputs = model.outputs().iter().map(|output| output.name.name.clone()).collect();
+        let ports = [
+            ("inputs", all(loop_inputs, errors.into_iter().cloned().collect())),
+            ("outputs", all(loop_outputs, names.nodes.clone())),
+        ];
+        Model::with_keys(&text, "loop", &ports)
+    }
+
+    /// The keys of the block's matrices: outputs are those of the controller, then its nodes; inputs its own, then the errors.
+    fn matrices(&self, system: &LinearSystem, names: &Names) -> Vec<(&'static str, String)> {
+        let program = &self.realised.program;
+        let is_kept = |column: usize| column < program.inputs || names.errors[column - program.inputs].is_some();
+        let narrow = |row: &Vec<Rational>| -> Vec<Rational> {
+            row.iter().enumerate().filter(|(k, _)| is_kept(*k)).map(|(_, x)| x.clone()).collect()
+        };
+        let of_output = |rows: &[Vec<Rational>], width: usize, first: usize| -> Vec<Vec<Rational>> {
+            let row = |operand: &Operand| match operand {
+                Operand::Node(at) => rows[*at].clone(),
+                Operand::State(at) | Operand::Input(at) => {
+                    let own = matches!(operand, Operand::State(_)) == (first == 0);
+                    (0..width).map(|k| if own && k == *at { Rational::ONE } else { Rational::ZERO }).collect()
+                }
+            };
+            program.outputs.iter().map(row).chain(rows.iter().cloned()).collect()
+        };
+        let c = of_output(&system.c, system.a.len(), 0);
+        let d: Vec<Vec<Rational>> =
+            of_output(&system.d, program.inputs + program.nodes.len(), 1).iter().map(narrow).collect();
+        if system.a.is_empty() {
+            return vec![("D", rows(&d))];
+        }
+        let b: Vec<Vec<Rational>> = system.b.iter().map(narrow).collect();
+        vec![("A", rows(&system.a)), ("B", rows(&b)), ("C", rows(&c)), ("D", rows(&d))]
+    }
+}
+
+/// A matrix as a value in TOML.
+fn rows(matrix: &[Vec<Rational>]) -> String {
+    let row = |row: &Vec<Rational>| {
+        let entries: Vec<String> = row.iter().map(|x| Entry::Number(x.clone()).toml()).collect();
+        format!("[{}]", entries.join(", "))
+    };
+    format!("[{}]", matrix.iter().map(row).collect::<Vec<_>>().join(", "))
+}
+
+/// Texts as a value in TOML.
+fn list(texts: &[String]) -> String {
+    let texts: Vec<String> =
+        texts.iter().map(|text| format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))).collect();
+    format!("[{}]", texts.join(", "))
+}
+
+/// Names of the signals that the loop gets.
+struct Names {
+    /// Of each node.
+    nodes: Vec<String>,
+    /// Of the error of each node that is rounded.
+    errors: Vec<Option<String>>,
+}
+
+impl Names {
+    fn of(shipped: &Shipped) -> Names {
+        let text = &shipped.rounded.model().source().text;
+        let unused = |name: String| {
+            let mut name = name;
+            while text.contains(&name) {
+                name.push('x');
+            }
+            name
+        };
+        let rounded: Vec<bool> = match shipped.fixed_program() {
+            Some(program) => program.sums.iter().map(|sum| sum.right > 0).collect(),
+            None => vec![false; shipped.realised.program.nodes.len()],
+        };
+        let nodes = &shipped.realised.program.nodes;
+        Names {
+            nodes: nodes.iter().map(|node| unused(format!("ship_{}", node.name))).collect(),
+            errors: nodes
+                .iter()
+                .zip(rounded)
+                .map(|(node, is)| is.then(|| unused(format!("ship_error_{}", node.name))))
+                .collect(),
+        }
+    }
+}

@@ -1,0 +1,247 @@
+//! The answer for people.
+
+use crate::answer::{Part, Point, ShipAnswer};
+use crate::fewest::Fewest;
+use crate::format::Format;
+use crate::ranges::Ranges;
+use crate::run::Overflow;
+use crate::shipped::Stored;
+use jurist_algebra::number::{Integer, Rational, enclosed_decimal, to_decimal};
+use jurist_algebra::real::Real;
+use jurist_engine::answer::ToleranceAnswer;
+use jurist_engine::error::Error;
+use jurist_engine::response::{DelayMargin, Margins, StableMargins};
+use jurist_engine::show::bounded::{at_least, at_most};
+use jurist_engine::show::intervals::heading;
+use jurist_engine::show::layout::{Columns, named_values, short};
+use jurist_engine::show::real::enclosed;
+use jurist_engine::show::verdict::verdict_line;
+use jurist_engine::stability::boxes::BoxDecision;
+use std::fmt::Write;
+
+/// Digits of bounds and factors.
+const FEW: usize = 6;
+
+/// What a text takes.
+const TAKES: &str = "a text takes all text";
+
+impl ShipAnswer {
+    /// The answer for people.
+    pub fn text(&self, digits: usize) -> String {
+        let asked = &self.shipped.asked;
+        let mut out = format!("{}\n", heading(&self.shipped.exact));
+        writeln!(out, "controller '{}', {}: {}", asked.block, asked.realisation.words(), asked.format.words())
+            .expect(TAKES);
+        if let Some(signal) = &asked.signal {
+            let beyond = match asked.overflow {
+                Overflow::Saturate => "saturating",
+                Overflow::Wrap => "wrapping around",
+            };
+            writeln!(out, "signals: {}, {beyond}", Format::Fixed(*signal).words()).expect(TAKES);
+        }
+        out.push_str(&coefficients(&self.shipped.coefficients, digits));
+        for (name, point) in [("as written", &self.exact), ("as stored", &self.rounded)] {
+            let verdict = &point.verdict;
+            writeln!(out, "{name:<11}{}", verdict_line(verdict.problem(), verdict.value())).expect(TAKES);
+        }
+        for change in self.shipped.changes() {
+            writeln!(out, "{:<11}{change}", "").expect(TAKES);
+        }
+        out.push_str(&self.margins(digits.min(10)));
+        for found in &self.rounded.requirements {
+            writeln!(out, "as stored, {}", found.text(digits)).expect(TAKES);
+        }
+        out.push_str(&self.every());
+        if let Some(fewest) = &self.fewest {
+            out.push_str(&part("fewest bits", fewest, fewest_text));
+        }
+        if let Some(ranges) = &self.ranges {
+            out.push_str(&part("ranges", ranges, |ranges| self.ranges_text(ranges)));
+        }
+        out
+    }
+
+    /// Margins of both loops side by side.
+    fn margins(&self, digits: usize) -> String {
+        let of =
+            |point: &Point| point.margins.as_ref().ok().and_then(|m| m.value().stable.clone().zip(Some(m.clone())));
+        let (before, after) = (of(&self.exact), of(&self.rounded));
+        let Some((_, some)) = before.as_ref().or(after.as_ref()) else { return String::new() };
+        let place = some.value().open_loop.cut().name().to_owned();
+        let mut columns = Columns::new("    ");
+        columns.row(["".into(), "as written".into(), "as stored".into()]);
+        type Shown = fn(&StableMargins, usize) -> String;
+        let rows: [(&str, Shown); 6] = [
+            ("gain up", |m, n| m.gain.upper.as_ref().map_or("any".into(), |end| decimal(&end.value, n))),
+            ("gain down", |m, n| m.gain.lower.as_ref().map_or("any".into(), |end| decimal(&end.value, n))),
+            ("phase, degrees", |m, n| enclosed(n, |bits| m.phase.degrees(bits)).unwrap_or("any".into())),
+            ("delay, samples", |m, _| match m.delay {
+                DelayMargin::Samples(n) => n.to_string(),
+                DelayMargin::SamplesAtLeast(n) => format!("at least {n}"),
+                _ => "any".into(),
+            }),
+            ("modulus", |m, n| decimal(&m.modulus, n)),
+            ("peak sensitivity", |m, n| decimal(&m.peak_sensitivity, n)),
+        ];
+        for (name, shown) in rows {
+            let cell = |found: &Option<(StableMargins, jurist_engine::answer::Answer<Margins>)>| {
+                found.as_ref().map_or("none".into(), |(m, _)| shown(m, digits))
+            };
+            columns.row([name.into(), cell(&before), cell(&after)]);
+        }
+        format!("margins at '{place}'\n{columns}")
+    }
+
+    fn every(&self) -> String {
+        match &self.every_rounding {
+            None => "every rounding: nothing is rounded\n".into(),
+            Some(every) => part("every rounding", every, |answer| self.every_text(answer.value())),
+        }
+    }
+
+    fn every_text(&self, answer: &ToleranceAnswer) -> String {
+        let what = match self.shipped.asked.format {
+            Format::Fixed(fixed) if fixed.rounding.error_in_halves() != (-1, 1) => "errors of that rounding",
+            _ => "half a unit in the last place",
+        };
+        let wanted = if answer.required.is_empty() { "stable" } else { "stable, all requirements met," };
+        let mut out = match &answer.decision {
+            BoxDecision::Stable(proof) => {
+                let cells = proof.cells();
+                format!(
+                    "{wanted} for all coefficients within {what} (proof: {cells} {})",
+                    if cells == 1 { "cell" } else { "cells" }
+                )
+            }
+            BoxDecision::NotStable { witness } => {
+                let point = witness.as_ref().map(|witness| {
+                    let names = self.shipped.coefficients.iter().map(|c| c.name.clone());
+                    let values: Vec<(String, Rational)> = names.zip(witness.point.iter().cloned()).collect();
+                    format!(": not at {}", named_values(&values))
+                });
+                format!("not {wanted} for all coefficients within {what}{}", point.unwrap_or_default())
+            }
+            BoxDecision::Undecided { why, .. } => format!("undecided for coefficients within {what}: {why}"),
+        };
+        if let Some(factor) = &answer.factor {
+            let upper = factor.upper.as_ref().map(|upper| format!(", not {}", at_most(upper, FEW)));
+            write!(
+                out,
+                "\n    these errors may be {} times as large{}",
+                at_least(&factor.lower, FEW),
+                upper.unwrap_or_default()
+            )
+            .expect(TAKES);
+        }
+        out
+    }
+
+    fn ranges_text(&self, ranges: &Ranges) -> String {
+        let asked = &self.shipped.asked;
+        let mut out = String::new();
+        if !asked.inputs.is_empty() {
+            let bounds: Vec<String> =
+                asked.inputs.iter().map(|(name, bound)| format!("|{name}| <= {}", to_decimal(bound, FEW))).collect();
+            write!(out, "from rest under {}", bounds.join(", ")).expect(TAKES);
+            let others = self
+                .shipped
+                .exact
+                .model()
+                .inputs()
+                .iter()
+                .filter(|i| asked.inputs.iter().all(|(name, _)| *name != i.name));
+            let others: Vec<&str> = others.map(|name| name.name.as_str()).collect();
+            if !others.is_empty() {
+                write!(out, ", with {} = 0", others.join(" = ")).expect(TAKES);
+            }
+            let mut columns = Columns::new("    ");
+            for node in &ranges.nodes {
+                let Some([_, high]) = &node.greatest else { continue };
+                let verdict = match (node.holds, &node.limit) {
+                    (_, None) => String::new(),
+                    (Some(true), Some(limit)) => format!("fits: its format goes to {}", short(limit)),
+                    (Some(false), Some(limit)) => {
+                        format!("does not fit: some inputs bring it above {}", short(limit))
+                    }
+                    (None, Some(limit)) => format!("not decided: its format goes to {}", short(limit)),
+                };
+                let rounding = if node.rounding.is_zero() {
+                    String::new()
+                } else {
+                    format!("and {} by rounding", at_most(&node.rounding, FEW))
+                };
+                columns.row([format!("|{}| <=", node.name), at_most(high, FEW), rounding, verdict]);
+            }
+            write!(out, "\n{}", columns.to_string().trim_end()).expect(TAKES);
+        } else {
+            out.push_str("no input has a bound: add inputs = { NAME = BOUND } to [ship]");
+        }
+        for (name, most) in &ranges.moved {
+            write!(
+                out,
+                "\n    the rounding of signals moves {name} by at most {}, limit cycles included",
+                at_most(most, FEW)
+            )
+            .expect(TAKES);
+        }
+        out
+    }
+}
+
+fn decimal(value: &Real, digits: usize) -> String {
+    jurist_engine::show::real::rounded(value, digits).decimal
+}
+
+/// A part of the answer, or why there is none.
+fn part<T>(name: &str, part: &Part<T>, text: impl FnOnce(&T) -> String) -> String {
+    match part {
+        Ok(found) => format!("{name}: {}\n", text(found)),
+        Err(Error::Stopped(stopped)) => format!("{name}: not decided ({})\n", stopped.stop),
+        Err(error) => format!("{name}: none; {error}\n"),
+    }
+}
+
+fn fewest_text(fewest: &Fewest) -> String {
+    let list = |bits: &[i64]| bits.iter().map(i64::to_string).collect::<Vec<_>>().join(", ");
+    let mut out = match (fewest.every_rounding, fewest.refuted) {
+        (Some(bits), Some(refuted)) => {
+            format!("{bits} behind the point for every rounding within half a unit, {refuted} are not enough")
+        }
+        (Some(bits), None) => format!("{bits} behind the point for every rounding within half a unit"),
+        (None, _) => "no number of bits was proved for every rounding".to_owned(),
+    };
+    let from = [(fewest.every_rounding, "nearest", &fewest.nearest), (fewest.floor_from, "down", &fewest.floor)];
+    for (from, mode, also) in from {
+        let Some(from) = from else { continue };
+        // Neighbours of the proved ones belong to them.
+        let mut from = from;
+        while also.contains(&(from - 1)) {
+            from -= 1;
+        }
+        let rest: Vec<i64> = also.iter().copied().filter(|bits| *bits < from).collect();
+        let rest = if rest.is_empty() {
+            String::new()
+        } else {
+            format!(", and with {}, but not with all between", list(&rest))
+        };
+        write!(out, "\n    rounded {mode}: it holds from {from} bits on{rest}").expect(TAKES);
+    }
+    out
+}
+
+/// The table of coefficients.
+fn coefficients(all: &[Stored], digits: usize) -> String {
+    if all.is_empty() {
+        return "    no coefficient is stored: all are 0, 1 or -1\n".into();
+    }
+    let mut columns = Columns::new("    ");
+    let has_integers = all.iter().any(|c| c.integer.is_some());
+    let last = if has_integers { "integer" } else { "" };
+    columns.row(["".into(), "exact".into(), "stored".into(), last.to_owned()]);
+    for c in all {
+        let exact = enclosed_decimal(c.exact.lower(), c.exact.upper(), digits).unwrap_or_default();
+        let integer = c.integer.as_ref().map(Integer::to_string).unwrap_or_default();
+        columns.row([c.name.clone(), exact, to_decimal(&c.value, digits), integer]);
+    }
+    columns.to_string()
+}
