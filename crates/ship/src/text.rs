@@ -13,7 +13,7 @@ use jurist_engine::error::Error;
 use jurist_engine::response::{DelayMargin, Margins, StableMargins};
 use jurist_engine::show::bounded::{at_least, at_most};
 use jurist_engine::show::intervals::heading;
-use jurist_engine::show::layout::{Columns, named_values, short};
+use jurist_engine::show::layout::{Columns, named_values};
 use jurist_engine::show::real::enclosed;
 use jurist_engine::show::verdict::verdict_line;
 use jurist_engine::stability::boxes::BoxDecision;
@@ -159,11 +159,11 @@ impl ShipAnswer {
                 let Some([_, high]) = &node.greatest else { continue };
                 let verdict = match (node.holds, &node.limit) {
                     (_, None) => String::new(),
-                    (Some(true), Some(limit)) => format!("fits: its format goes to {}", short(limit)),
+                    (Some(true), Some(limit)) => format!("fits: its format goes to {}", at_least(limit, FEW)),
                     (Some(false), Some(limit)) => {
-                        format!("does not fit: some inputs bring it above {}", short(limit))
+                        format!("does not fit: some inputs bring it above {}", at_least(limit, FEW))
                     }
-                    (None, Some(limit)) => format!("not decided: its format goes to {}", short(limit)),
+                    (None, Some(limit)) => format!("not decided: its format goes to {}", at_least(limit, FEW)),
                 };
                 let rounding = if node.rounding.is_zero() {
                     String::new()
@@ -175,6 +175,9 @@ impl ShipAnswer {
             write!(out, "\n{}", columns.to_string().trim_end()).expect(TAKES);
         } else {
             out.push_str("no input has a bound: add inputs = { NAME = BOUND } to [ship]");
+        }
+        if matches!(asked.format, Format::Binary(_)) {
+            out.push_str("\n    what the rounding of signals in floating point adds is not counted");
         }
         for (name, most) in &ranges.moved {
             write!(
