@@ -120,9 +120,15 @@ mod certificates {
 /// What models are expected to be, and numbers that they take from other files.
 mod expectations {
     mod claims;
-    mod folder;
     mod headers;
     mod locks;
+}
+
+/// Controllers as they are stored and run.
+mod ship {
+    mod bounds;
+    mod cases;
+    mod roundings;
 }
 
 /// Responses and root loci in floating point, against exact answers.

@@ -1,6 +1,6 @@
 //! `jurist test`: each kind of claim, held and not held, on a loop whose limits are known by hand.
 
-use super::folder::{Folder, lines_of};
+use crate::helpers::folder::{Folder, lines_of};
 use crate::helpers::schema::fits;
 use serde_json::Value;
 

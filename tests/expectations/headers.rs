@@ -1,6 +1,6 @@
 //! `from = "params.h#NAME"`: numbers of headers, YAML and JSON.
 
-use super::folder::Folder;
+use crate::helpers::folder::Folder;
 use serde_json::Value;
 
 const MODEL: &str = "time = 'discrete'\n[constants]\nk = { from = 'params.h#KP', unit = 'V' }\n[parameters]\nK = 1\n[loop]\n\

@@ -1,6 +1,6 @@
 //! `jurist lock`: limits that moved, and because of which number.
 
-use super::folder::{Folder, lines_of};
+use crate::helpers::folder::{Folder, lines_of};
 
 fn model(c: &str, d: &str, transfer: &str) -> String {
     format!(

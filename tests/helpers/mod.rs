@@ -4,6 +4,7 @@ pub mod budget;
 pub mod certificates;
 pub mod corpus;
 pub mod drive;
+pub mod folder;
 pub mod loops;
 pub mod model;
 pub mod number;

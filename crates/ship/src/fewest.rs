@@ -19,7 +19,7 @@ pub struct Fewest {
     pub every_rounding: Option<i64>,
     /// The greatest number below at which some rounding within half a unit does not hold, where a point was found.
     pub refuted: Option<i64>,
-    /// The numbers below at which rounding to nearest holds.
+    /// The numbers below at which rounding to nearest holds and some coefficient can be other than 0.
     pub nearest: Vec<i64>,
     /// The numbers at which rounding down holds, below the first from which all do.
     pub floor: Vec<i64>,

@@ -1,6 +1,6 @@
 //! A folder of files that a test writes and that goes with it.
 
-use crate::helpers::program::{Run, command};
+use super::program::{Run, command};
 use std::path::PathBuf;
 use std::process::Stdio;
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -1,0 +1,126 @@
+//! Bounds of signals against the processor's own arithmetic, run exactly in the loop.
+
+use crate::helpers::model::read;
+use crate::helpers::random::Random;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::{Integer, Rational};
+use jurist_engine::response::Requirements;
+use jurist_ship::answer::ShipAnswer;
+use jurist_ship::asked::{Asked, Overrides};
+use jurist_ship::program::LinearSystem;
+
+/// The plant passes the controller's output on after one sample: so every signal is a number of the format.
+const LOOP: &str = "time = 'discrete'\n[loop]\ninputs = ['r']\noutputs = ['y']\n\
+    [[block]]\nname = 'controller'\ninput = 'r - y'\noutput = 'u'\nnum = [0.3, -0.22, 0.1]\nden = [1, -1.5, 0.61]\n\
+    [[block]]\nname = 'plant'\ninput = 'u'\noutput = 'y'\ndelay = 1\n\
+    [ship]\nblock = 'controller'\nformat = { bits = 24, fraction = 10 }\ninputs = { r = 2 }\n";
+
+const BOUND: i64 = 2;
+
+fn shipped(realisation: &str, round: &str) -> ShipAnswer {
+    let signal = format!("signal = {{ bits = 24, fraction = 6, round = '{round}' }}\n");
+    let model = read(&format!("{LOOP}{signal}"));
+    let overrides = Overrides { realisation: Some(realisation.into()), ..Overrides::default() };
+    let asked = Asked::of(&model, &overrides).unwrap();
+    let problem = model.ask().problem().unwrap();
+    ShipAnswer::of(&problem, asked, &Requirements::default(), false, &Budget::unlimited()).unwrap()
+}
+
+/// The loop without the rounding of signals, a sample at a time.
+struct Unrounded {
+    system: LinearSystem,
+    x: Vec<Rational>,
+    y: Rational,
+    output: usize,
+}
+
+impl Unrounded {
+    fn of(answer: &ShipAnswer) -> Unrounded {
+        let program = &answer.shipped.realised.program;
+        let values: Vec<Rational> = answer.shipped.coefficients.iter().map(|c| c.value.clone()).collect();
+        let system = program.system(&values);
+        let x = vec![Rational::ZERO; system.a.len()];
+        Unrounded { system, x, y: Rational::ZERO, output: program.output_node(0).unwrap() }
+    }
+
+    /// The nodes, and the output of the loop before the step.
+    fn step(&mut self, r: &Rational) -> (Vec<Rational>, Rational) {
+        let u = r - &self.y;
+        let row = |row: &[Rational], direct: &Rational, x: &[Rational]| {
+            row.iter().zip(x).fold(direct * &u, |sum, (a, x)| sum + a * x)
+        };
+        let nodes: Vec<Rational> =
+            self.system.c.iter().zip(&self.system.d).map(|(c, d)| row(c, &d[0], &self.x)).collect();
+        self.x = self.system.a.iter().zip(&self.system.b).map(|(a, b)| row(a, &b[0], &self.x)).collect();
+        let before = std::mem::replace(&mut self.y, nodes[self.output].clone());
+        (nodes, before)
+    }
+}
+
+#[test]
+fn no_run_of_the_processor_leaves_its_bounds() {
+    let random = &mut Random::new(53);
+    for (realisation, round) in [
+        ("df1", "nearest"),
+        ("df2", "floor"),
+        ("df2t", "nearest"),
+        ("delta", "floor"),
+        ("sos", "zero"),
+        ("state", "even"),
+    ] {
+        let answer = shipped(realisation, round);
+        let ranges = answer.ranges.as_ref().unwrap().as_ref().unwrap();
+        let fixed = answer.shipped.fixed_program().unwrap();
+        let unit = fixed.signal.unit();
+        let mut unrounded = Unrounded::of(&answer);
+        let (mut states, mut y) = (fixed.at_rest(), Integer::ZERO);
+        let most = BOUND * 64;
+        for _ in 0..250 {
+            // Often at the ends, where responses add up.
+            let r = [most, -most, random.below(2 * most as usize + 1) as i64 - most][random.below(3)];
+            let difference = Integer::from(r) - &y;
+            let before = states.clone();
+            let outputs = fixed.step(&mut states, &[difference.clone()]);
+            let (nodes, exact_y) = unrounded.step(&(&unit * &Rational::from(r)));
+            let moved = (Rational::from(y.clone()) * &unit - exact_y).abs();
+            assert!(moved <= ranges.moved[0].1, "{realisation} {round}: {moved} {}", ranges.moved[0].1);
+            for (node, value) in ranges.nodes.iter().zip(&nodes) {
+                let [_, high] = node.greatest.as_ref().unwrap();
+                assert!(value.abs() <= *high, "{realisation} {}", node.name);
+            }
+            let output = &ranges.nodes[unrounded.output];
+            let [_, high] = output.greatest.as_ref().unwrap();
+            let stored = Rational::from(outputs[0].clone()) * &unit;
+            assert!(stored.abs() <= high + &output.rounding, "{realisation}");
+            assert_eq!(before.len(), states.len());
+            y = outputs[0].clone();
+        }
+    }
+}
+
+#[test]
+fn the_worst_input_comes_up_to_the_bound() {
+    for realisation in ["df1", "df2", "df2t", "delta", "sos", "state"] {
+        let answer = shipped(realisation, "nearest");
+        let ranges = answer.ranges.as_ref().unwrap().as_ref().unwrap();
+        let budget = Budget::unlimited();
+        for (at, node) in ranges.nodes.iter().enumerate() {
+            let found = ranges.problem.peak_to_peak("r", &node.output, 6, &budget).unwrap();
+            let samples = 200;
+            let signs = found.value().signs(samples, &budget).unwrap();
+            let mut unrounded = Unrounded::of(&answer);
+            let mut last = Rational::ZERO;
+            for sign in signs.iter().rev() {
+                last = unrounded.step(&Rational::from(i64::from(*sign) * BOUND)).0[at].clone();
+            }
+            let [low, high] = node.greatest.as_ref().unwrap();
+            let share = last.checked_div(high).unwrap();
+            assert!(
+                last <= *high && share > Rational::new(99.into(), 100.into()),
+                "{realisation} {}: {share}",
+                node.name
+            );
+            assert!(low <= high);
+        }
+    }
+}

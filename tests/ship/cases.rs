@@ -1,0 +1,181 @@
+//! `jurist ship` on controllers whose answers are known by hand.
+
+use crate::helpers::folder::Folder;
+use crate::helpers::schema::fits;
+use serde_json::Value;
+
+/// A PI controller and a lag; `D(1) = 0.1 (b0 + b1)`.
+const PI: &str = "time = 'discrete'\n[loop]\ninputs = ['r', 'd']\noutputs = ['y']\n\
+    [[block]]\nname = 'controller'\ninput = 'r - y'\noutput = 'u'\ntransfer = '(0.5*z - 0.4999)/(z - 1)'\n\
+    [[block]]\nname = 'plant'\ninput = 'u + d'\noutput = 'y'\ntransfer = '0.1/(z - 0.9)'\n";
+
+fn ship(model: &str, options: &[&str]) -> (i32, Value) {
+    let folder = Folder::new(&[("loop.toml", model)]);
+    let run = folder.jurist(&[&["ship", "loop.toml", "--json"], options].concat());
+    let document: Value = serde_json::from_str(&run.stdout).unwrap_or_else(|_| panic!("{options:?}: {}", run.stderr));
+    fits(&document).unwrap_or_else(|why| panic!("{why}"));
+    (run.status, document)
+}
+
+fn refused(model: &str, options: &[&str]) -> String {
+    let folder = Folder::new(&[("loop.toml", model)]);
+    let run = folder.jurist(&[&["ship", "loop.toml"], options].concat());
+    assert_eq!(run.status, 2, "{options:?}: {}", run.stdout);
+    run.stderr
+}
+
+#[test]
+fn integral_action_is_lost_at_twelve_bits_and_not_at_thirteen() {
+    let of = |bits: u32, mode: &str, stored: [&str; 2], verdict: &str| {
+        let format = format!("Q2.{bits}");
+        let (status, document) = ship(PI, &["--block", "controller", "--format", &format, "--round", mode]);
+        let integers = ["b0", "b1"].map(|name| document["coefficients"][name]["integer"].as_str().unwrap().to_owned());
+        assert_eq!(integers, stored, "{bits} {mode}");
+        assert_eq!(document["rounded"]["verdict"], verdict, "{bits} {mode}");
+        assert_eq!(status, i32::from(verdict != "stable"));
+        let changes = document["changes"].as_array().unwrap();
+        assert_eq!(
+            changes.iter().any(|c| c.as_str().unwrap().contains("integral action is lost")),
+            verdict != "stable"
+        );
+    };
+    of(12, "nearest", ["2048", "-2048"], "marginal");
+    of(13, "nearest", ["4096", "-4095"], "stable");
+    of(13, "floor", ["4096", "-4096"], "marginal");
+    of(14, "floor", ["8192", "-8191"], "stable");
+    of(13, "ceil", ["4096", "-4095"], "stable");
+    of(2, "zero", ["2", "-1"], "stable");
+}
+
+#[test]
+fn the_fewest_bits_are_where_half_a_unit_is_less_than_half_of_the_sum() {
+    // b0 + b1 = 1e-4 stays positive where both half units are below 5e-5: 2^-15 < 5e-5 < 2^-14.
+    let (_, document) = ship(PI, &["--block", "controller", "--format", "Q2.13", "--fewest"]);
+    let fewest = &document["fewest"];
+    assert_eq!((&fewest["every_rounding"], &fewest["refuted"]), (&14.into(), &13.into()));
+    // Below 14: 13 bits give -4095; at 0 bits -0.4999 becomes 0.
+    assert_eq!(fewest["nearest"], serde_json::json!([0, 13]));
+    assert_eq!(document["every_rounding"]["holds"], false);
+    let (_, wider) = ship(PI, &["--block", "controller", "--format", "Q2.14"]);
+    assert_eq!(wider["every_rounding"]["holds"], true);
+}
+
+#[test]
+fn the_rounding_of_the_output_moves_it_by_half_a_unit_times_the_l1_norm() {
+    let section = "[ship]\nblock = 'controller'\nformat = { bits = 16, fraction = 13 }\nsignal = { bits = 24, fraction = 8 }\ninputs = { r = 2 }\n";
+    let (status, document) = ship(&format!("{PI}{section}"), &[]);
+    assert_eq!(status, 0);
+    // z (z - 0.9)/D has the l1 norm 8192, and half a unit is 2^-9.
+    assert_eq!(document["ranges"][0]["rounding"], "16");
+    assert_eq!(document["ranges"][0]["holds"], true);
+    // A format that goes to 2 is too small for what |r| <= 2 does; one of 8 bits leaves the question open.
+    let (status, document) = ship(&format!("{PI}{section}"), &["--signal", "Q1.20"]);
+    assert_eq!((status, &document["ranges"][0]["holds"]), (1, &Value::Bool(false)));
+    let (status, document) = ship(&format!("{PI}{section}"), &["--signal", "Q3.8"]);
+    assert_eq!((status, &document["ranges"][0]["holds"]), (3, &Value::Null));
+}
+
+#[test]
+fn requirements_are_those_of_the_stored_loop() {
+    let required = format!("{PI}[require]\ngain_margin = '38.004'\nat = 'u'\n");
+    let options = ["--block", "controller", "--format", "Q2.13"];
+    let (status, document) = ship(&required, &options);
+    assert_eq!((status, &document["requirements"][0]["met"]), (0, &Value::Bool(true)));
+    let (status, document) = ship(&required, &["--block", "controller", "--format", "Q2.14", "--round", "floor"]);
+    assert_eq!((status, &document["requirements"][0]["met"]), (1, &Value::Bool(false)));
+    // A radius is a region: the pole near 1 is outside.
+    let (status, document) = ship(PI, &[&options[..], &["--radius", "0.999"]].concat());
+    assert_eq!((status, &document["rounded"]["verdict"]), (1, &"unstable".into()));
+}
+
+#[test]
+fn both_checkers_read_the_models_that_are_written() {
+    let folder = Folder::new(&[("loop.toml", PI)]);
+    let arguments = [
+        "ship",
+        "loop.toml",
+        "--block",
+        "controller",
+        "--format",
+        "Q2.14",
+        "--rounded",
+        "r.toml",
+        "--every",
+        "e.toml",
+        "--certificate",
+        "r.json",
+    ];
+    let run = folder.jurist(&arguments);
+    assert_eq!((run.status, run.stderr.as_str()), (0, "wrote r.toml, e.toml and r.json\n"));
+    let verified = folder.jurist(&["verify", "r.toml", "r.json"]);
+    assert_eq!(verified.status, 0, "{}", verified.stderr);
+    let run = folder.jurist(&["tolerance", "e.toml", "--certificate", "e.json"]);
+    assert_eq!(run.status, 0, "{}{}", run.stdout, run.stderr);
+    assert_eq!(folder.jurist(&["verify", "e.toml", "e.json"]).status, 0);
+    for (model, certificate) in [("r.toml", "r.json"), ("e.toml", "e.json")] {
+        let [model, certificate] = [model, certificate].map(|name| folder.read(name));
+        crate::helpers::certificates::checkers::accept(&model, &certificate);
+    }
+}
+
+#[test]
+fn what_cannot_be_is_refused_with_what_to_do() {
+    let asked = |options: &[&str], code: &str, help: &str| {
+        let said = refused(PI, options);
+        assert!(said.contains(code) && said.contains(help), "{options:?}: {said}");
+    };
+    asked(&["--format", "Q2.13"], "E-ship-block", "the blocks are controller, plant");
+    asked(&["--block", "controler", "--format", "Q2.13"], "E-ship-block", "did you mean 'controller'?");
+    asked(&["--block", "controller"], "E-ship-format", "add --format Q2.13 or float32");
+    asked(&["--block", "controller", "--format", "Q2"], "E-ship-format", "Q2.13 is a sign");
+    asked(&["--block", "controller", "--format", "Q99.99"], "E-ship-format", "Q2.13 is a sign");
+    let said = refused(&PI.replace("0.5*z", "5*z"), &["--block", "controller", "--format", "Q2.13"]);
+    assert!(said.contains("E-ship-range") && said.contains("17 bits with 13 behind the point"), "{said}");
+    asked(&["--block", "controller", "--format", "Q2.13", "--realisation", "df3"], "E-ship-format", "did you mean 'df");
+    asked(&["--block", "controller", "--format", "Q2.13", "--round", "up"], "E-ship-format", "one of nearest");
+    asked(&["--block", "controller", "--format", "float32", "--round", "floor"], "E-ship-format", "leave out --round");
+    asked(&["--block", "controller", "--format", "Q2.13", "--input", "q=1"], "E-unknown-name", "");
+    asked(&["--block", "controller", "--format", "Q2.13", "--input", "r=-1"], "E-value", "");
+    let continuous = PI.replace("discrete", "continuous").replace('z', "s");
+    let said = refused(&continuous, &["--block", "controller", "--format", "Q2.13"]);
+    assert!(said.contains("E-ship-continuous") && said.contains("discretize"), "{said}");
+    for (section, code) in [
+        ("block = 'nobody'", "E-ship-block"),
+        ("format = { bits = 16, integer = 2, fraction = 13 }", "E-ship-format"),
+        ("format = { bits = 16 }", "E-ship-format"),
+        ("format = { bits = 65, fraction = 1 }", "E-ship-format"),
+        ("format = { bits = 2.5, fraction = 1 }", "E-ship-format"),
+        ("format = 16", "E-type"),
+        ("format = { bits = 16, fraction = 13, round = 'down' }", "E-ship-format"),
+        ("format = { bits = 16, fraction = 13, scale = 'much' }", "E-ship-format"),
+        ("delta = 0.3", "E-ship-format"),
+        ("inputs = { q = 1 }", "E-unknown-name"),
+        ("inputs = { r = -1 }", "E-value"),
+        ("saturate = 'yes'", "E-type"),
+        ("formats = 'float32'", "E-unknown-key"),
+    ] {
+        let has_format = section.starts_with("format ");
+        let format = if has_format { "" } else { "format = 'Q2.13'\n" };
+        let block = if section.starts_with("block") { "" } else { "block = 'controller'\n" };
+        let said = refused(&format!("{PI}[ship]\n{block}{format}{section}\n"), &[]);
+        assert!(said.contains(code), "{section}: {said}");
+    }
+}
+
+#[test]
+fn other_notations_of_blocks_and_sections_are_rewritten() {
+    let inline = "time = 'discrete'\nloop.inputs = ['r']\nloop.outputs = ['y']\nparameters = { K = { nominal = 1, min = 0 } }\n\
+        block = [{ name = 'controller', input = 'r - y', output = 'u', num = ['K/2', '-0.4999*K'], den = [1, -1] }, \
+        { name = 'plant', input = 'u', output = 'y', transfer = '0.1/(z - 0.9)' }]\n\
+        ship = { block = 'controller', format = 'Q2.14', signal = 'Q8.14', inputs = { r = 1 }, saturate = true }\n";
+    let (status, document) = ship(inline, &[]);
+    assert_eq!((status, &document["every_rounding"]["holds"]), (0, &Value::Bool(true)));
+    let nested = "time = 'discrete'\nparameters.K.nominal = 1\n[loop]\ninputs = ['r'] # here\noutputs = ['y']\n\
+        [[block]]\nname = 'controller'\ninput = 'r - y'\noutput = 'u'\ntransfer = '0.5 + 100/s'\n\
+        [block.discretize]\nmethod = 'tustin'\nT = '1/1000000'\n\
+        [[block]]\nname = 'plant'\ninput = 'K*u'\noutput = 'y'\ntransfer = '0.1/(z - 0.9)'\n";
+    let (status, document) =
+        ship(nested, &["--block", "controller", "--format", "Q2.20", "--signal", "Q8.14", "--input", "r=1"]);
+    assert_eq!((status, &document["every_rounding"]["holds"]), (0, &Value::Bool(true)));
+    assert_eq!(document["coefficients"]["b0"]["exact"][0], "10001/20000");
+}
