@@ -5,7 +5,7 @@ use crate::helpers::random::Random;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_engine::response::Requirements;
-use jurist_ship::answer::ShipAnswer;
+use jurist_ship::answer::{Beside, ShipAnswer};
 use jurist_ship::asked::{Asked, Overrides};
 use jurist_ship::program::LinearSystem;
 
@@ -23,7 +23,7 @@ fn shipped(realisation: &str, round: &str) -> ShipAnswer {
     let overrides = Overrides { realisation: Some(realisation.into()), ..Overrides::default() };
     let asked = Asked::of(&model, &overrides).unwrap();
     let problem = model.ask().problem().unwrap();
-    ShipAnswer::of(&problem, asked, &Requirements::default(), false, &Budget::unlimited()).unwrap()
+    ShipAnswer::of(&problem, asked, &Requirements::default(), &Beside::default(), &Budget::unlimited()).unwrap()
 }
 
 /// The loop without the rounding of signals, a sample at a time.

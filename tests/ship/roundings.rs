@@ -9,7 +9,7 @@ use jurist_algebra::number::Rational;
 use jurist_engine::answer::Verdict;
 use jurist_engine::response::Requirements;
 use jurist_engine::stability::boxes::BoxDecision;
-use jurist_ship::answer::ShipAnswer;
+use jurist_ship::answer::{Beside, ShipAnswer};
 use jurist_ship::asked::{Asked, Overrides};
 
 /// Whether all roots of a polynomial, highest power first, are inside of the unit circle: degree by degree.
@@ -107,7 +107,8 @@ fn shipped(model: &str, format: &str, realisation: &str) -> Option<ShipAnswer> {
     };
     let asked = Asked::of(&model, &overrides).unwrap();
     let problem = model.ask().problem().unwrap();
-    ShipAnswer::of(&problem, asked, &Requirements::default(), true, &Budget::unlimited()).ok()
+    let beside = Beside { fewest: true, ..Beside::default() };
+    ShipAnswer::of(&problem, asked, &Requirements::default(), &beside, &Budget::unlimited()).ok()
 }
 
 /// The fraction of the stored controller.

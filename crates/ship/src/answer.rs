@@ -3,6 +3,7 @@
 use crate::asked::Asked;
 use crate::fewest::Fewest;
 use crate::format::{Fixed, Format, Rounding};
+use crate::limits::LimitsByBits;
 use crate::ranges::Ranges;
 use crate::shipped::Shipped;
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -43,8 +44,19 @@ pub struct ShipAnswer {
     pub every_rounding: Option<Part<Answer<ToleranceAnswer>>>,
     /// The fewest bits, where they were asked for.
     pub fewest: Option<Part<Fewest>>,
+    /// The limits of a parameter by bits, where they were asked for.
+    pub limits: Option<Part<LimitsByBits>>,
     /// The ranges of signals; `None` where the stored loop is not stable, and where nothing is said of signals.
     pub ranges: Option<Part<Ranges>>,
+}
+
+/// What is asked for beside the stored loop.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Beside {
+    /// The fewest bits.
+    pub fewest: bool,
+    /// The parameter whose limits are asked for with more and more bits.
+    pub limits_of: Option<String>,
 }
 
 /// Whether the controller does what it is to do.
@@ -59,9 +71,9 @@ pub enum Holds {
 }
 
 impl ShipAnswer {
-    /// Everything about a controller. The question's region is that of the problem; `fewest` asks for the fewest bits too.
+    /// Everything about a controller. The question's region is that of the problem.
     ///
-    /// Cost: two verdicts, margins and requirements each; a proof over a box; [`Shipped::ranges`].
+    /// Cost: two verdicts, margins and requirements each; a proof over a box; [`Shipped::ranges`]; what is asked for [beside](Beside).
     ///
     /// # Errors
     /// As [`Shipped::new`] and [`Problem::verdict`].
@@ -72,7 +84,7 @@ impl ShipAnswer {
         problem: &Arc<Problem>,
         asked: Asked,
         requirements: &Requirements,
-        fewest: bool,
+        beside: &Beside,
         budget: &Budget,
     ) -> Result<ShipAnswer, Error> {
         budget.step("the stored controller");
@@ -90,12 +102,13 @@ impl ShipAnswer {
         let list = &requirements.list;
         let every = shipped.every_rounding(list, requirements.at.as_deref(), budget);
         let every_rounding = every.transpose();
-        let fewest = fewest.then(|| shipped.fewest_of(every_rounding.as_ref(), requirements, budget)).flatten();
+        let fewest = beside.fewest.then(|| shipped.fewest_of(every_rounding.as_ref(), requirements, budget)).flatten();
+        let limits = beside.limits_of.as_deref().map(|name| shipped.limits_by_bits(name, budget));
         budget.step("ranges of signals");
         let is_about_signals = shipped.asked.signal.is_some() || !shipped.asked.inputs.is_empty();
         let is_stable = rounded.verdict.value().verdict == Verdict::Stable;
         let ranges = (is_about_signals && is_stable).then(|| shipped.ranges(budget).transpose()).flatten();
-        Ok(ShipAnswer { shipped, exact, rounded, every_rounding, fewest, ranges })
+        Ok(ShipAnswer { shipped, exact, rounded, every_rounding, fewest, limits, ranges })
     }
 
     /// Whether the controller does what it is to do.
@@ -129,6 +142,7 @@ impl ShipAnswer {
             self.rounded.margins.as_ref().err(),
             self.every_rounding.as_ref().and_then(|part| part.as_ref().err()),
             self.fewest.as_ref().and_then(|part| part.as_ref().err()),
+            self.limits.as_ref().and_then(|part| part.as_ref().err()),
             self.ranges.as_ref().and_then(|part| part.as_ref().err()),
         ];
         parts.into_iter().flatten().filter(|error| of(error)).find_map(|error| match error {

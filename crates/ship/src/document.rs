@@ -8,8 +8,10 @@ use crate::run::Overflow;
 use crate::shipped::Stored;
 use jurist_engine::answer::{Answer, ToleranceAnswer};
 use jurist_engine::show::documents::{
-    Answered, Enclosure, Exact, MarginsFound, Named, PointQuestion, RequirementFound, RootsByPlace, Undecided, Verdict,
+    Answered, Enclosure, Exact, Intervals, MarginsFound, Named, PointQuestion, RequirementFound, RootsByPlace, Stable,
+    Undecided, Verdict,
 };
+use jurist_engine::stability::StableSet;
 use jurist_engine::stability::boxes::BoxDecision;
 use serde::{Deserialize, Serialize};
 
@@ -58,6 +60,8 @@ pub struct Ship {
     pub every_rounding: Option<EveryRounding>,
     /// The fewest bits behind the point; `null` where they were not asked for, and in floating point.
     pub fewest: Option<FewestFound>,
+    /// The limits of a parameter by bits; `null` where they were not asked for.
+    pub limits: Option<LimitsFound>,
     /// The inner signals; empty where nothing is said of them.
     pub ranges: Vec<RangeFound>,
     /// By how much the rounding of signals moves each output at most, limit cycles included; rounded up.
@@ -124,6 +128,29 @@ pub struct FewestFound {
     pub floor: Vec<i64>,
     /// From this number on rounding down holds.
     pub floor_from: Option<i64>,
+}
+
+/// The stable sets of a parameter with the controller in more and more bits.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct LimitsFound {
+    /// The parameter.
+    pub parameter: String,
+    /// With the controller as it is written.
+    pub exact: Stable,
+    /// With the stored one, by ascending bits.
+    pub rows: Vec<LimitsOfBits>,
+}
+
+/// The stable set with one number of bits.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct LimitsOfBits {
+    /// Bits behind the point; `null` of floating point.
+    pub fraction: Option<i64>,
+    /// The set.
+    #[serde(flatten)]
+    pub set: Stable,
 }
 
 /// The range of an inner signal.
@@ -196,6 +223,15 @@ impl ShipAnswer {
             requirements: self.rounded.requirements.iter().map(|r| RequirementFound::new(r, digits)).collect(),
             every_rounding: self.every_rounding.as_ref().map(|part| self.every_found(part)),
             fewest: self.fewest.as_ref().and_then(|part| part.as_ref().ok()).map(Into::into),
+            limits: self.limits.as_ref().and_then(|part| part.as_ref().ok()).map(|limits| LimitsFound {
+                parameter: limits.parameter.clone(),
+                exact: set(&limits.exact, digits),
+                rows: limits
+                    .rows
+                    .iter()
+                    .map(|(bits, a)| LimitsOfBits { fraction: *bits, set: set(a, digits) })
+                    .collect(),
+            }),
             ranges: ranges.map(|ranges| ranges.nodes.iter().map(Into::into).collect()).unwrap_or_default(),
             limit_cycle: ranges.iter().flat_map(|r| &r.moved).map(|(name, most)| (name.clone(), most.into())).collect(),
             undecided: self.stopped().map(Into::into),
@@ -224,6 +260,13 @@ impl ShipAnswer {
                 _ => None,
             },
         }
+    }
+}
+
+fn set(answer: &Answer<StableSet>, digits: usize) -> Stable {
+    match Intervals::new(answer.problem(), Ok(answer.value()), digits).answer {
+        Answered::Known(set) => set,
+        Answered::Undecided(_) => Stable { stable: Vec::new(), undecided: Vec::new() },
     }
 }
 

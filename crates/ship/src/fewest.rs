@@ -78,7 +78,7 @@ impl Shipped {
     }
 
     /// The least number of bits at which a coefficient may be other than zero.
-    fn first_that_tells(&self, fixed: &Fixed) -> i64 {
+    pub(crate) fn first_that_tells(&self, fixed: &Fixed) -> i64 {
         let size = |c: &crate::program::Coefficient| c.exact.lower().abs().max(c.exact.upper().abs());
         let greatest = self.realised.program.coefficients.iter().map(size).max().unwrap_or_default();
         i64::from(fixed.scale) - 1 - floor_of_log2(&greatest).unwrap_or(0)

@@ -6,6 +6,7 @@
 //! | [`asked`] | what `[ship]` and options ask for |
 //! | [`shipped`] | the stored coefficients, put into the loop; every rounding |
 //! | [`fewest`] | how many bits behind the point are enough |
+//! | [`limits`] | how a limit moves with the number of bits |
 //! | [`ranges`] | how large signals become, and what their rounding adds |
 //! | [`document`] | the answer as JSON |
 //! | [`format`] | number formats of processors, exact rounding |
@@ -25,6 +26,7 @@ pub mod document;
 mod every;
 pub mod fewest;
 pub mod format;
+pub mod limits;
 pub mod program;
 pub mod ranges;
 pub mod realise;

@@ -3,6 +3,7 @@
 use crate::answer::{Part, Point, ShipAnswer};
 use crate::fewest::Fewest;
 use crate::format::Format;
+use crate::limits::LimitsByBits;
 use crate::ranges::Ranges;
 use crate::run::Overflow;
 use crate::shipped::Stored;
@@ -12,10 +13,11 @@ use jurist_engine::answer::ToleranceAnswer;
 use jurist_engine::error::Error;
 use jurist_engine::response::{DelayMargin, Margins, StableMargins};
 use jurist_engine::show::bounded::{at_least, at_most};
-use jurist_engine::show::intervals::heading;
+use jurist_engine::show::intervals::{heading, nowhere, stable_lines};
 use jurist_engine::show::layout::{Columns, named_values};
 use jurist_engine::show::real::enclosed;
 use jurist_engine::show::verdict::verdict_line;
+use jurist_engine::stability::StableSet;
 use jurist_engine::stability::boxes::BoxDecision;
 use std::fmt::Write;
 
@@ -54,6 +56,9 @@ impl ShipAnswer {
         out.push_str(&self.every());
         if let Some(fewest) = &self.fewest {
             out.push_str(&part("fewest bits", fewest, fewest_text));
+        }
+        if let Some(limits) = &self.limits {
+            out.push_str(&part("limits by bits", limits, |limits| limits_text(limits, digits)));
         }
         if let Some(ranges) = &self.ranges {
             out.push_str(&part("ranges", ranges, |ranges| self.ranges_text(ranges)));
@@ -230,6 +235,20 @@ fn fewest_text(fewest: &Fewest) -> String {
         write!(out, "\n    rounded {mode}: it holds from {from} bits on{rest}").expect(TAKES);
     }
     out
+}
+
+fn limits_text(limits: &LimitsByBits, digits: usize) -> String {
+    let mut columns = Columns::new("    ");
+    let row = |set: &StableSet| match set.intervals() {
+        [] => nowhere(set.undecided()).to_owned(),
+        _ => stable_lines(&limits.parameter, set, digits).join("; "),
+    };
+    columns.row(["exact".into(), row(limits.exact.value())]);
+    for (bits, answer) in &limits.rows {
+        let name = bits.map_or("stored".to_owned(), |bits| bits.to_string());
+        columns.row([name, row(answer.value())]);
+    }
+    format!("stable {} with so many bits behind the point\n{}", limits.parameter, columns.to_string().trim_end())
 }
 
 /// The table of coefficients.

@@ -1,29 +1,34 @@
 //! `jurist ship`: the controller as it is stored and run.
 
 use super::{Context, Runs, decided};
-use crate::cli::arguments::{DecisionOptions, RunOptions};
+use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions, RunOptions};
 use crate::cli::assignments::{assignments, in_line};
 use crate::cli::destinations::Files;
-use crate::cli::input::decision;
-use crate::cli::output::write_answer;
+use crate::cli::input::{known_names, load, question};
+use crate::cli::output::{ending, write_answer};
+use crate::cli::picture::{Kind, Picture, deliver};
 use crate::cli::requirements::RequirementOptions;
 use crate::cli::status::{Error, Outcome, Status};
 use crate::cli::written::certify;
 use clap::Args;
 use jurist_algebra::limits::Exhausted;
+use jurist_draw::figures::ranges_figure;
 use jurist_engine::answer::PointVerdict;
 use jurist_engine::error::{Code, Diagnostic};
 use jurist_engine::problem::Problem;
 use jurist_engine::show::documents;
-use jurist_ship::answer::{Holds, ShipAnswer};
+use jurist_ship::answer::{Beside, Holds, ShipAnswer};
 use jurist_ship::asked::{Asked, Overrides};
 use std::ffi::OsString;
+use std::slice::from_ref;
 
 /// Options of `jurist ship`.
 #[derive(Args, Debug)]
 pub(in crate::cli) struct Options {
     #[command(flatten)]
-    pub decision: DecisionOptions,
+    pub model: ModelOptions,
+    #[command(flatten)]
+    pub region: RegionOptions,
     #[command(flatten)]
     pub require: RequirementOptions,
     /// The block that is the controller [default: that of [ship]]
@@ -47,6 +52,9 @@ pub(in crate::cli) struct Options {
     /// Also says how many bits behind the point are enough
     #[arg(long)]
     pub fewest: bool,
+    /// Also gives the limits of this parameter with more and more bits; with -o FILE.svg, .png or .pdf as a picture
+    #[arg(long, value_name = "NAME")]
+    pub param: Option<String>,
     /// Writes the model with the stored coefficients: a model for every other command
     #[arg(long, value_name = "FILE")]
     pub rounded: Option<OsString>,
@@ -56,6 +64,8 @@ pub(in crate::cli) struct Options {
     /// Writes a certificate that 'jurist verify' re-checks: the verdict on the model of --rounded
     #[arg(long, value_name = "FILE", requires = "rounded")]
     pub certificate: Option<OsString>,
+    #[command(flatten)]
+    pub output: OutputOptions,
 }
 
 impl Runs for Options {
@@ -64,11 +74,11 @@ impl Runs for Options {
     }
 
     fn run_options(&self) -> &RunOptions {
-        &self.decision.output.run
+        &self.output.run
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
-        files.question(&self.decision.model.model, &self.decision.output.output);
+        files.question(&self.model.model, &self.output.output);
         files.outputs.extend(self.rounded.iter().map(|file| ("the rounded model", file.clone())));
         files.outputs.extend(self.every.iter().map(|file| ("the model of every rounding", file.clone())));
         files.outputs.extend(self.certificate.iter().map(|file| ("the certificate", file.clone())));
@@ -78,12 +88,21 @@ impl Runs for Options {
 
 /// Answers on standard output or in a file: 0 stable, requirements and ranges hold, 1 not, 3 open.
 fn run(options: &Options, context: &Context) -> Outcome {
-    let output = &options.decision.output;
-    let (model, question) = decision(&options.decision, context)?;
-    let (asked, question) = options.require.asked(&model, question, &options.decision.region, context)?;
+    let output = &options.output;
+    let picture = picture(options)?;
+    if picture.is_none() {
+        context.check_output(output)?;
+    }
+    let model = load(options.model.model.as_ref(), &options.model.line, context)?;
+    if let Some(name) = &options.param {
+        known_names(context, &model, "--param", from_ref(name))?;
+    }
+    let question = question(context, &model, &options.model, &options.region)?;
+    let (asked, question) = options.require.asked(&model, question, &options.region, context)?;
     let shipping = Asked::of(&model, &overrides(options, context, model.inputs())?)?;
     let problem = question.problem()?;
-    let answer = match decided(ShipAnswer::of(&problem, shipping, &asked, options.fewest, &context.budget))? {
+    let beside = Beside { fewest: options.fewest, limits_of: options.param.clone() };
+    let answer = match decided(ShipAnswer::of(&problem, shipping, &asked, &beside, &context.budget))? {
         Ok(answer) => answer,
         Err(stopped) => return context.undecided(output, &stopped, || None, || no_answer(&problem, &stopped)),
     };
@@ -98,7 +117,10 @@ fn run(options: &Options, context: &Context) -> Outcome {
     if let Some(stopped) = answer.stopped() {
         return context.undecided(output, stopped, || Some(answer.text(digits)), || answer.json(digits));
     }
-    context.answer(output, || answer.text(digits), || answer.json(digits))?;
+    match picture {
+        Some(kind) => draw(&answer, kind, output)?,
+        None => context.answer(output, || answer.text(digits), || answer.json(digits))?,
+    }
     certify(context, &output.run, rounded, &options.certificate, || {
         answer.rounded.verdict.certificate(&context.budget)
     })?;
@@ -107,6 +129,37 @@ fn run(options: &Options, context: &Context) -> Outcome {
         Holds::No => Status::DoesNotHold,
         Holds::Open => Status::Undecided,
     })
+}
+
+/// What picture is asked for, by the ending of the output's name.
+fn picture(options: &Options) -> Result<Option<Kind>, Error> {
+    let file = options.output.output.as_ref();
+    let kind = match file.and_then(|file| ending(file)).as_deref() {
+        Some("svg") => Kind::Svg,
+        Some("png") => Kind::Png,
+        Some("pdf") => Kind::Pdf,
+        _ => return Ok(None),
+    };
+    if options.param.is_none() {
+        let error = Diagnostic::error(Code::Usage, "a picture shows how the limits of a parameter move with the bits");
+        return Err(error.help("add --param NAME").into());
+    }
+    Ok(Some(kind))
+}
+
+/// The limits by bits as a picture.
+fn draw(answer: &ShipAnswer, kind: Kind, output: &OutputOptions) -> Result<(), Error> {
+    let limits = match &answer.limits {
+        Some(Ok(limits)) => limits,
+        Some(Err(error)) => return Err(error.clone().into()),
+        None => return Ok(()),
+    };
+    let rows: Vec<_> = limits.rows.iter().filter_map(|(bits, set)| Some(((*bits)?, set.value()))).collect();
+    let what = format!("Stable {} by the bits of '{}'", limits.parameter, answer.shipped.asked.block);
+    let figure = ranges_figure(&what, "bits behind the point", &limits.exact, &rows);
+    let nothing = String::new;
+    let picture = Picture { figure: &figure, csv: &nothing, json: &nothing, csv_beside: false };
+    deliver(&picture, kind, output.output.as_ref())
 }
 
 /// The document where even the verdicts are not decided.

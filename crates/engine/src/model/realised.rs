@@ -22,7 +22,7 @@ pub(crate) struct RealisedBlocks {
 }
 
 impl Model {
-    /// The blocks with these values, discrete where the loop is; `None` for other forms than block diagrams.
+    /// The blocks with these values, discrete where the loop is, and what is kept as variables; `None` for other forms than block diagrams.
     ///
     /// Cost: that of [`Model::closed_loop_in_numbers`] without the connection.
     ///
@@ -30,10 +30,11 @@ impl Model {
     /// As [`Model::evaluate`].
     pub(crate) fn realised_blocks(
         &self,
+        kept: &[String],
         values: &[(String, Rational)],
         budget: &Budget,
     ) -> Result<Option<RealisedBlocks>, Error> {
-        let answer = self.answer(&[], values, budget)?;
+        let answer = self.answer(kept, values, budget)?;
         let Values::Blocks { blocks, .. } = &answer.values else { return Ok(None) };
         let symbols = RefCell::new(answer.symbols.borrow().clone().keeping_flows());
         let set = |f: &RationalFunction| substituted(f, &answer.images);

@@ -57,7 +57,7 @@ impl Problem {
         assert!(self.free().is_empty(), "every name has a value");
         let Form::Blocks(diagram) = self.model().form() else { return Ok(None) };
         let Some(at) = diagram.blocks.iter().position(|block| block.name == name) else { return Ok(None) };
-        let Some(found) = budget.enter(|| self.model().realised_blocks(self.set(), budget))?? else {
+        let Some(found) = budget.enter(|| self.model().realised_blocks(&[], self.set(), budget))?? else {
             return Ok(None);
         };
         let Some([matrices]) = found.systems.get(at).map(Vec::as_slice) else { return Ok(None) };
@@ -78,6 +78,26 @@ impl Problem {
             denominator,
         };
         Ok(Some(block))
+    }
+}
+
+impl Problem {
+    /// Whether a block depends on a parameter.
+    ///
+    /// Cost: that of [`Problem::block`], with the parameter as a variable.
+    ///
+    /// # Errors
+    /// As [`Problem::block`].
+    pub fn block_depends_on(&self, name: &str, parameter: &str, budget: &Budget) -> Result<bool, Error> {
+        let Form::Blocks(diagram) = self.model().form() else { return Ok(false) };
+        let Some(at) = diagram.blocks.iter().position(|block| block.name == name) else { return Ok(false) };
+        let values: Vec<_> = self.set().iter().filter(|(known, _)| known != parameter).cloned().collect();
+        let found = budget.enter(|| self.model().realised_blocks(&[parameter.to_owned()], &values, budget))??;
+        let Some(found) = found else { return Ok(false) };
+        let moving: Vec<usize> = std::iter::once(0).chain(found.symbols.moving()).collect();
+        let of_samples = found.systems.get(at).into_iter().flatten();
+        let mut entries = of_samples.flatten().flat_map(RationalMatrix::entries);
+        Ok(entries.any(|f| f.variables().iter().any(|v| moving.contains(v))))
     }
 }
 

@@ -57,7 +57,7 @@ impl Problem {
     /// When a name is free.
     pub fn rounded_blocks(&self, budget: &Budget) -> Result<Vec<Vec<RoundedSystem>>, Error> {
         assert!(self.free().is_empty(), "every name has a value");
-        let Some(found) = budget.enter(|| self.model().realised_blocks(self.set(), budget))?? else {
+        let Some(found) = budget.enter(|| self.model().realised_blocks(&[], self.set(), budget))?? else {
             return Ok(Vec::new());
         };
         let of = |[a, b, c, d]: &[RationalMatrix; 4]| rounded([a, b, c, d], &found.symbols);
