@@ -80,7 +80,7 @@ impl C {
         }
         body.extend(indented(&statements(self, "", &code.step)));
         let mut end = Vec::new();
-        if code.states.is_empty() {
+        if !body.iter().any(|line| line.contains("s->")) {
             end.push("(void)s;".to_owned());
         }
         let returned = match code.outputs.as_slice() {

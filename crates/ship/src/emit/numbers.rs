@@ -136,7 +136,7 @@ mod tests {
         assert_eq!(told("1/3"), "1/3");
         let between =
             |low: &str, high: &str| exact(&Enclosure::new(parse_number(low).unwrap(), parse_number(high).unwrap()));
-        assert_eq!(between("0.33333", "0.33334"), "0.333.. (rounded)");
+        assert_eq!(between("0.33333", "0.33334"), "0.3333.. (rounded)");
         assert_eq!(between("-1", "1"), "between -1 and 1");
     }
 
