@@ -67,7 +67,11 @@ impl Rust {
         ];
         inner.extend(indented(&statements(self, "", &code.step)));
         inner.extend([format!("    {value}"), "}".into()]);
-        let begin = vec!["#[allow(dead_code)] // Not every program reads all states or resets them.".to_owned()];
+        let begin = [
+            "#[allow(dead_code)] // Not every program resets its controllers.",
+            "#[rustfmt::skip] // A line for each term.",
+        ];
+        let begin = begin.map(str::to_owned).to_vec();
         [begin, vec![format!("impl {} {{", self.kind)], indented(&inner), vec!["}".into()]].concat()
     }
 }

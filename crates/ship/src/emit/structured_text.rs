@@ -1,8 +1,8 @@
 //! Structured text of IEC 61131-3.
 
 use super::numbers;
-use super::statements::{ARGUMENT, Code, Expression, Kind, Operator, Statement, WIDE};
-use super::syntax::{Syntax, Written, assigned, expression, harmless, indented, statements};
+use super::statements::{ARGUMENT, Code, Kind, Operator, Statement, WIDE};
+use super::syntax::{Syntax, Written, assigned, harmless, indented, statements};
 use jurist_algebra::number::{BinaryFormat, Integer, Rational};
 
 pub(super) struct StructuredText {
@@ -31,7 +31,8 @@ impl StructuredText {
         let constant = |constant: &super::statements::Constant| {
             let value = match constant.kind {
                 Kind::Float(format) => self.real(format, &constant.value),
-                Kind::Integer(_) => expression(self, &Expression::Whole(constant.value.numerator())).text,
+                // A sign belongs to the literal: what a variable begins with need not be an expression.
+                Kind::Integer(_) => self.whole(&constant.value.numerator()),
             };
             let [name, kind, remark] = [&constant.name, self.kind(constant.kind), &self.remark(&constant.remark)];
             format!("{name} : {kind} := {value}; {remark}")

@@ -14,7 +14,8 @@ pub struct Lag {
     pub s_1: f32,
 }
 
-#[allow(dead_code)] // Not every program reads all states or resets them.
+#[allow(dead_code)] // Not every program resets its controllers.
+#[rustfmt::skip] // A line for each term.
 impl Lag {
     /// The controller at rest: all states are zero.
     pub const fn new() -> Self {

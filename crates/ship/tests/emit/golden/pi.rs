@@ -18,7 +18,8 @@ pub struct Pi {
     pub y_1: i16,
 }
 
-#[allow(dead_code)] // Not every program reads all states or resets them.
+#[allow(dead_code)] // Not every program resets its controllers.
+#[rustfmt::skip] // A line for each term.
 impl Pi {
     /// The controller at rest: all states are zero.
     pub const fn new() -> Self {
