@@ -2,7 +2,7 @@
 //!
 //! | room | what it does |
 //! |---|---|
-//! | [`format`] | number formats of processors, exact rounding |
+//! | [`mod@format`] | number formats of processors, exact rounding |
 //! | [`program`] | a realisation as a list of sums: run exactly, read as a linear system, printed as code |
 //! | [`realise`] | from a transfer function to programs: direct forms, second-order sections, delta operator, state space |
 //! | [`run`] | programs run as a processor runs them, in exact arithmetic |

@@ -74,7 +74,7 @@ impl Case {
         if let Some(fixed) = self.fixed() {
             let mut states = fixed.at_rest();
             let row = |sample: &Vec<i64>| {
-                let sample: Vec<Integer> = sample.iter().map(|word| Integer::from(*word)).collect();
+                let sample: Vec<Integer> = sample.iter().map(|word| fitted(*word, &fixed)).collect();
                 let outputs = fixed.step(&mut states, &sample);
                 outputs.into_iter().chain(states.iter().cloned()).map(Rational::from).collect()
             };
@@ -88,6 +88,16 @@ impl Case {
             Some(outputs.into_iter().chain(states.iter().cloned()).collect())
         };
         inputs.iter().map_while(row).collect()
+    }
+}
+
+/// What a controller reads where an input does not fit into the format of signals.
+fn fitted(word: i64, fixed: &FixedProgram<'_>) -> Integer {
+    let (least, greatest) = fixed.signal.integers();
+    let unused = 64 - fixed.signal.bits;
+    match fixed.overflow {
+        Overflow::Saturate => Integer::from(word).clamp(least, greatest),
+        Overflow::Wrap => Integer::from(word << unused >> unused),
     }
 }
 
@@ -113,12 +123,12 @@ pub fn samples() -> usize {
     std::env::var("EMIT_SAMPLES").ok().and_then(|text| text.parse().ok()).unwrap_or(100_000)
 }
 
-/// So many samples: noise of all sizes, ends of the range in turns, the input that moves the first output most, rest.
+/// So many samples: noise of all sizes, ends of the range in turns, the input that moves the first output most, what does not fit, rest.
 pub fn inputs(case: &Case, samples: usize, dice: &mut Dice) -> Vec<Vec<i64>> {
     let worst = worst_signs(case, 24);
     let mut out: Vec<Vec<i64>> = Vec::new();
     while out.len() < samples {
-        let kind = dice.below(6);
+        let kind = dice.below(7);
         let length = 8 + dice.below(40);
         for k in 0..length {
             let mut word = || match kind {
@@ -126,6 +136,7 @@ pub fn inputs(case: &Case, samples: usize, dice: &mut Dice) -> Vec<Vec<i64>> {
                 2 => end(case, dice.below(2) == 0),
                 3 => end(case, k / 3 % 2 == 0),
                 4 => end(case, worst[k % worst.len()]),
+                5 => beyond(case, dice),
                 _ => 0,
             };
             out.push((0..case.program.inputs).map(|_| word()).collect());
@@ -146,6 +157,17 @@ fn end(case: &Case, is_greatest: bool) -> i64 {
             i64::from((if is_greatest { 1e30f32 } else { -1e-45 }).to_bits())
         }
         Numbers::Float { .. } => (if is_greatest { -1e290f64 } else { 5e-324 }).to_bits() as i64,
+    }
+}
+
+/// Any word of the type of signals in C and Rust, which may have more bits than the format.
+fn beyond(case: &Case, dice: &mut Dice) -> i64 {
+    match &case.numbers {
+        Numbers::Fixed { signal, .. } => {
+            let width = [16, 32, 64].into_iter().find(|width| signal.bits <= *width).expect("at most 64 bits");
+            (dice.word() as i64) >> (64 - width)
+        }
+        Numbers::Float { .. } => noise(case, dice),
     }
 }
 

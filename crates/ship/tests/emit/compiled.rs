@@ -245,7 +245,7 @@ fn rust_computes_what_the_exact_run_computes() {
         write!(main, "mod m{at};\n{}", rust_driver(&run.case, &module, at)).unwrap();
         writeln!(calls, "    run{at}(&mut next, &mut out);").unwrap();
     }
-    write!(main, "{RUST_MAIN}{calls}}}\n").unwrap();
+    writeln!(main, "{RUST_MAIN}{calls}}}").unwrap();
     std::fs::write(folder.join("main.rs"), main).unwrap();
     let program = folder.join("main");
     let compiler = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());

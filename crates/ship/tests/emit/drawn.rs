@@ -16,6 +16,9 @@ use proptest::test_runner::TestRunner;
 /// A number below `end` that keeps its meaning when `end` shrinks.
 type Pick = prop::sample::Index;
 
+/// A term before it is known what there is to read.
+type Drawn = (bool, i32, Option<Pick>, Pick);
+
 fn operand(pick: Pick, inputs: usize, states: usize, nodes: usize) -> Option<Operand> {
     let all =
         (0..inputs).map(Operand::Input).chain((0..states).map(Operand::State)).chain((0..nodes).map(Operand::Node));
@@ -29,8 +32,8 @@ fn drawn_program() -> impl Strategy<Value = Program> {
     let sizes = (0usize..3, 0usize..5, 0usize..4);
     (sizes, nodes, vec(any::<Pick>(), 5), vec(any::<Pick>(), 0..4)).prop_map(|(sizes, lists, updates, outputs)| {
         let (inputs, states, coefficients) = sizes;
-        let list = |(at, terms): (usize, Vec<(bool, i32, Option<Pick>, Pick)>)| -> Vec<Term> {
-            let drawn = |(is_negative, shift, coefficient, pick): (bool, i32, Option<Pick>, Pick)| {
+        let list = |(at, terms): (usize, Vec<Drawn>)| -> Vec<Term> {
+            let drawn = |(is_negative, shift, coefficient, pick): Drawn| {
                 let coefficient = coefficient.filter(|_| coefficients > 0).map(|pick| pick.index(coefficients));
                 Some(Term { is_negative, shift, coefficient, operand: operand(pick, inputs, states, at)? })
             };
