@@ -30,13 +30,14 @@ impl Rust {
     }
 
     fn states(&self, code: &Code) -> Vec<String> {
-        let derived = "#[derive(Clone, Debug, Default, PartialEq)]";
-        let mut all = vec![
-            "/// A controller with its states.".to_owned(),
-            derived.into(),
-            format!("pub struct {} {{", self.kind),
-        ];
         let kind = self.kind(code.signal);
+        let begin = ["/// A controller with its states.", "#[derive(Clone, Debug, Default, PartialEq)]"];
+        let mut all = begin.map(str::to_owned).to_vec();
+        if code.states.is_empty() {
+            all.push(format!("pub struct {} {{}}", self.kind));
+            return all;
+        }
+        all.push(format!("pub struct {} {{", self.kind));
         all.extend(code.states.iter().map(|state| format!("    pub {state}: {kind},")));
         all.push("}".into());
         all
@@ -68,7 +69,7 @@ impl Rust {
         inner.extend(indented(&statements(self, "", &code.step)));
         inner.extend([format!("    {value}"), "}".into()]);
         let begin = [
-            "#[allow(dead_code)] // Not every program resets its controllers.",
+            "#[allow(dead_code, clippy::all)] // Not every program calls reset; statements are those of other languages.",
             "#[rustfmt::skip] // A line for each term.",
         ];
         let begin = begin.map(str::to_owned).to_vec();
@@ -187,8 +188,11 @@ impl Syntax for Rust {
         let mut parts = vec![self.constants(code), self.states(code), self.methods(code)];
         for helper in &code.helpers {
             let kind = self.kind(WIDE);
-            let mut all =
-                vec![format!("/// {}", helper.remark), format!("fn {}({ARGUMENT}: {kind}) -> {kind} {{", helper.name)];
+            let mut all = vec![
+                format!("/// {}", helper.remark),
+                "#[allow(clippy::all)]".into(),
+                format!("fn {}({ARGUMENT}: {kind}) -> {kind} {{", helper.name),
+            ];
             all.extend(indented(&statements(self, &helper.name, &helper.body)));
             all.push("}".into());
             parts.push(all);

@@ -204,7 +204,7 @@ fn rust_driver(case: &Case, module: &str, at: usize) -> String {
     let arguments: Vec<String> = (0..case.program.inputs).map(|k| format!("u{k}")).collect();
     let call = format!("c.step({})", arguments.join(", "));
     let call = if case.program.outputs.len() == 1 { format!("[{call}]") } else { call };
-    let fields = between(module, "pub struct ", "\n}").lines().skip(1);
+    let fields = between(module, "pub struct ", "}\n").lines().skip(1);
     let states = fields.filter_map(|line| line.trim().strip_prefix("pub ")?.split_once(':'));
     let states: Vec<String> = states.map(|(state, _)| format!("c.{state}")).collect();
     format!(

@@ -14,7 +14,7 @@ pub struct Lag {
     pub s_1: f32,
 }
 
-#[allow(dead_code)] // Not every program resets its controllers.
+#[allow(dead_code, clippy::all)] // Not every program calls reset; statements are those of other languages.
 #[rustfmt::skip] // A line for each term.
 impl Lag {
     /// The controller at rest: all states are zero.

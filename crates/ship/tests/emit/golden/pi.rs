@@ -18,7 +18,7 @@ pub struct Pi {
     pub y_1: i16,
 }
 
-#[allow(dead_code)] // Not every program resets its controllers.
+#[allow(dead_code, clippy::all)] // Not every program calls reset; statements are those of other languages.
 #[rustfmt::skip] // A line for each term.
 impl Pi {
     /// The controller at rest: all states are zero.
@@ -45,6 +45,7 @@ impl Pi {
 }
 
 /// What does not fit becomes the greatest or the least number.
+#[allow(clippy::all)]
 fn fit(v: i64) -> i64 {
     if v > 32767 {
         32767
@@ -56,6 +57,7 @@ fn fit(v: i64) -> i64 {
 }
 
 /// Divides by 2^13 and rounds to nearest, ties away from zero.
+#[allow(clippy::all)]
 fn round13(v: i64) -> i64 {
     if v < 0 {
         (v - 4096) / 8192
