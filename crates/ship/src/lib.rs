@@ -9,10 +9,11 @@
 //! | [`limits`] | how a limit moves with the number of bits |
 //! | [`ranges`] | how large signals become, and what their rounding adds |
 //! | [`document`] | the answer as JSON |
-//! | [`format`] | number formats of processors, exact rounding |
+//! | [`mod@format`] | number formats of processors, exact rounding |
 //! | [`program`] | a realisation as a list of sums: run exactly, read as a linear system, printed as code |
 //! | [`realise`] | from a transfer function to programs: direct forms, second-order sections, delta operator, state space |
 //! | [`run`] | programs run as a processor runs them, in exact arithmetic |
+//! | [`emit`] | programs as source code: C99, structured text, Rust |
 //!
 //! A rounded controller is put into the model's text in the place of the exact one. So every question, every certificate and both checkers
 //! know it without knowing anything of rounding.
@@ -23,6 +24,7 @@
 pub mod answer;
 pub mod asked;
 pub mod document;
+pub mod emit;
 mod every;
 pub mod fewest;
 pub mod format;

@@ -21,7 +21,7 @@ fn impulse_response(numerator: &[Rational], denominator: &[Rational], samples: u
     for k in 0..samples {
         let mut value = numerator.get(k).cloned().unwrap_or(Rational::ZERO);
         for (i, a) in denominator.iter().enumerate().skip(1).filter(|(i, _)| *i <= k) {
-            value = value - a * &out[k - i];
+            value -= a * &out[k - i];
         }
         out.push(value);
     }

@@ -33,7 +33,7 @@ pub fn ranges_figure(what: &str, counted: &str, exact: &Answer<StableSet>, rows:
     let mut panel = Panel {
         x_label: counted.to_owned(),
         y_label: super::axis_label(&free.name, &unit),
-        x: (rows.first().map_or(0.0, |r| r.0 as f64) - 0.7, rows.last().map_or(1.0, |r| r.0 as f64) + 0.7),
+        x: (rows.first().map_or(0.0, |r| r.0 as f64) - 0.7, rows.last().map_or(1.0, |r| r.0 as f64) + 3.0),
         y,
         y_scale,
         ..Panel::default()
