@@ -1,6 +1,6 @@
 //! Peak-to-peak gains of loops: known values, loops behind holds against a simulation in floating point, and what is refused.
 
-use crate::helpers::model::{example, read};
+use crate::helpers::model::read;
 use crate::helpers::number::number;
 use crate::helpers::program::{jurist, jurist_with_input};
 use jurist_algebra::limits::Budget;
@@ -85,38 +85,38 @@ fn a_loop_that_is_not_stable_has_no_gain() {
     assert!(run.stdout.contains("unstable") && run.stdout.contains("no peak-to-peak gain"), "{}", run.stdout);
 }
 
-/// `k/(s (s + 1))` behind a zero-order hold and dead time of whole samples: its difference equation in floating point.
-#[test]
-fn loops_behind_a_hold_have_the_gain_of_a_simulation() {
-    for (k, t, delay) in [(0.5, 0.25, 0usize), (1.0, 0.5, 1), (0.25, 1.0, 2), (2.0, 0.125, 3)] {
-        let further = format!("discretize = {{ method = 'zoh', T = '{t}', delay = '{}' }}\n", t * delay as f64);
-        let bounds = gain(&unity(&format!("{k}/(s*(s + 1))"), &further), "r", "y");
-        let e = f64::exp(-t);
-        let (b, c) = (k * (t - 1.0 + e), k * (1.0 - e - t * e));
-        let (mut y, mut u) = (vec![0.0; 2], vec![0.0; 2 + delay]);
-        let mut sum = 0.0;
-        for step in 0..20_000 {
-            let n = y.len();
-            let next = (1.0 + e) * y[n - 1] - e * y[n - 2] + b * u[n - 1] + c * u[n - 2];
-            let next = if step == 0 { 0.0 } else { next };
-            y.push(next);
-            u.push(if step == 0 { 1.0 - next } else { -next });
-            sum += next.abs();
-        }
-        let [lower, upper] = [&bounds.lower, &bounds.upper].map(Rational::to_f64_approximate);
-        assert!((lower - sum).abs() < 1e-9 * sum && (upper - sum).abs() < 1e-9 * sum, "{k} {t} {delay}: {lower} {sum}");
+/// `k/(s (s + 1))` behind a zero-order hold and dead time of whole samples, with unity feedback: the output by its difference
+/// equation in floating point.
+fn simulated(k: f64, t: f64, delay: usize, input: &[f64]) -> Vec<f64> {
+    let e = f64::exp(-t);
+    let (b, c) = (k * (t - 1.0 + e), k * (1.0 - e - t * e));
+    let (mut y, mut error) = (vec![0.0; 2], vec![0.0; 2 + delay]);
+    for r in input {
+        let n = y.len();
+        y.push((1.0 + e) * y[n - 1] - e * y[n - 2] + b * error[n - 1] + c * error[n - 2]);
+        error.push(r - y[n]);
     }
+    y.split_off(2)
 }
 
-/// Several pairs of one problem share its algebra; the signs of a pair reach its gain.
+/// The sum of the simulated response is the gain; and the input of the signs drives the simulated output there.
 #[test]
-fn the_worst_input_of_the_drive_reaches_the_gain() {
-    let problem = example("drive-hold.toml").ask().problem().unwrap();
-    let budget = Budget::unlimited();
-    for (input, output) in [("omega_ref", "omega"), ("T_L", "i_a")] {
-        let answer = problem.peak_to_peak(input, output, 8, &budget).unwrap();
-        let signs = answer.value().signs(1000, &budget).unwrap();
-        assert!(signs.iter().all(|s| s.abs() <= 1) && signs.contains(&1) && signs.contains(&-1));
+fn loops_behind_a_hold_have_the_gain_of_a_simulation() {
+    const COUNT: usize = 4000;
+    for (k, t, delay) in [(0.5, 0.25, 0usize), (1.0, 0.5, 1), (0.25, 1.0, 2), (2.0, 0.125, 3)] {
+        let further = format!("discretize = {{ method = 'zoh', T = '{t}', delay = '{}' }}\n", t * delay as f64);
+        let answer = found(&unity(&format!("{k}/(s*(s + 1))"), &further), "r", "y");
+        let bounds = answer.gain.as_ref().unwrap();
+        let mut impulse = vec![0.0; COUNT];
+        impulse[0] = 1.0;
+        let sum: f64 = simulated(k, t, delay, &impulse).iter().map(|h| h.abs()).sum();
+        let signs = answer.signs(COUNT, &Budget::unlimited()).unwrap();
+        let worst: Vec<f64> = signs.iter().rev().map(|&sign| f64::from(sign)).collect();
+        let reached = *simulated(k, t, delay, &worst).last().unwrap();
+        let [lower, upper] = [&bounds.lower, &bounds.upper].map(Rational::to_f64_approximate);
+        for value in [sum, reached, upper] {
+            assert!((lower - value).abs() < 1e-9 * lower, "{k} {t} {delay}: {lower} {value}");
+        }
     }
 }
 
