@@ -297,7 +297,8 @@ class PeakToPeak(Document):
     @property
     def decimal(self) -> str | None:
         """The gain to the digits asked for."""
-        return self._l1("decimal")
+        found: str | None = self._l1("decimal")
+        return found
 
     @property
     def exact(self) -> Fraction | None:

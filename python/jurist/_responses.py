@@ -60,7 +60,7 @@ class ResponseQuestions(Asker):
         >>> loop = jurist.Loop.characteristic([1, 3, 3, "1 + k"], time="continuous", parameters={"k": 2})
         >>> m = loop.margins("k")
         >>> m.gain, m.upper, float(m.modulus.value)
-        (<StableSet k: (-1/2, 4)>, <End 4: complex pair>, 0.7071067811865476)
+        (<StableSet k: (-0.5, 4)>, <End 4: complex pair>, 0.6)
         """
         from ._margins import Margins
 
