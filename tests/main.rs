@@ -46,6 +46,7 @@ mod loops {
     mod held_margins;
     mod held_pictures;
     mod held_requirements;
+    mod impulses;
     mod large;
     mod margins;
     mod paper;

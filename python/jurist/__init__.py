@@ -47,7 +47,18 @@ from ._sets import StableSet
 
 if TYPE_CHECKING:
     from ._control import from_control, margins
-    from ._margins import At, DelayMargin, DiskMargin, GainCrossing, Margins, Norm, Peak, PhaseCrossing, PhaseMargin
+    from ._margins import (
+        At,
+        DelayMargin,
+        DiskMargin,
+        GainCrossing,
+        Margins,
+        Norm,
+        Peak,
+        PeakToPeak,
+        PhaseCrossing,
+        PhaseMargin,
+    )
     from ._report import Report
     from ._response import Bode, FrequencyResponse, Nyquist
     from ._roots import Root
@@ -60,7 +71,7 @@ __version__: str = _jurist.__version__
 
 _LATER = {
     **dict.fromkeys(("At", "DelayMargin", "DiskMargin", "GainCrossing", "Margins", "Norm"), "_margins"),
-    **dict.fromkeys(("Peak", "PhaseCrossing", "PhaseMargin"), "_margins"),
+    **dict.fromkeys(("Peak", "PeakToPeak", "PhaseCrossing", "PhaseMargin"), "_margins"),
     **dict.fromkeys(("Bode", "FrequencyResponse", "Nyquist"), "_response"),
     "Report": "_report",
     "Root": "_roots",
@@ -105,6 +116,7 @@ __all__ = [
     "Nyquist",
     "Parameter",
     "Peak",
+    "PeakToPeak",
     "PhaseCrossing",
     "PhaseMargin",
     "PointVerdict",

@@ -279,3 +279,54 @@ class Norm(Document):
 
     def __repr__(self) -> str:
         return f"<Norm {self.value}>" if self.stable else f"<Norm: the loop is {self._document['verdict']}>"
+
+
+class PeakToPeak(Document):
+    """The peak-to-peak gain of a closed-loop transfer function; `None` where the loop is not stable.
+
+    From rest the output is at most that times the greatest magnitude of the input.
+    """
+
+    __slots__ = ()
+
+    @property
+    def stable(self) -> bool:
+        """Whether the closed loop is stable."""
+        return bool(self._document["stable"])
+
+    @property
+    def decimal(self) -> str | None:
+        """The gain to the digits asked for."""
+        found: str | None = self._l1("decimal")
+        return found
+
+    @property
+    def exact(self) -> Fraction | None:
+        """The gain itself where it is proved to be this rational number."""
+        found = self._l1("exact")
+        return None if found is None else fraction(found)
+
+    @property
+    def lower(self) -> Fraction | None:
+        """The gain is not below this."""
+        found = self._l1("enclosure")
+        return None if found is None else fraction(found[0])
+
+    @property
+    def upper(self) -> Fraction | None:
+        """The gain is not above this."""
+        found = self._l1("enclosure")
+        return None if found is None else fraction(found[1])
+
+    def _l1(self, key: str) -> Any:
+        # The key is left out where the loop is not stable.
+        return self._document.get("l1", {}).get(key)
+
+    def __float__(self) -> float:
+        return math.inf if self.decimal is None else float(self.decimal)
+
+    def __str__(self) -> str:
+        return self.text().rstrip()
+
+    def __repr__(self) -> str:
+        return f"<PeakToPeak {self.decimal}>" if self.stable else f"<PeakToPeak: the loop is {self._document['verdict']}>"

@@ -13,7 +13,7 @@ from ._question import Bounds, Waiting
 
 if TYPE_CHECKING:
     from ._loop import Loop
-    from ._margins import Margins, Norm
+    from ._margins import Margins, Norm, PeakToPeak
     from ._report import Report
     from ._response import Bode, Nyquist
     from ._roots import Root
@@ -60,7 +60,7 @@ class ResponseQuestions(Asker):
         >>> loop = jurist.Loop.characteristic([1, 3, 3, "1 + k"], time="continuous", parameters={"k": 2})
         >>> m = loop.margins("k")
         >>> m.gain, m.upper, float(m.modulus.value)
-        (<StableSet k: (-1/2, 4)>, <End 4: complex pair>, 0.7071067811865476)
+        (<StableSet k: (-0.5, 4)>, <End 4: complex pair>, 0.6)
         """
         from ._margins import Margins
 
@@ -89,6 +89,26 @@ class ResponseQuestions(Asker):
         first, dash, *options = self._words("norm", asked)
         words = [first, dash, input, output, *options]
         return Norm(self._document(words, asked), self._itself, tuple(words))
+
+    def peak_to_peak(
+        self, input: str, output: str, values: Mapping[str, Exact] | None = None, **question: Unpack[Waiting]
+    ) -> PeakToPeak:
+        """The peak-to-peak gain (l1 norm) from an input to an output in discrete time: how far bounded inputs can drive the output.
+
+        Examples
+        --------
+        >>> import jurist
+        >>> b = jurist.LoopBuilder("discrete").block("plant", "r - y", "y", "1/(z^2 - 3/2*z - 3/10)")
+        >>> g = b.build(inputs=["r"], outputs=["y"]).peak_to_peak("r", "y", digits=20)
+        >>> g.decimal, g.exact, g.lower < g.upper
+        ('9.2732747328169420907', None, True)
+        """
+        from ._margins import PeakToPeak
+
+        asked = self._asked(values, **question)
+        first, dash, *options = self._words("norm", asked)
+        words = [first, dash, input, output, "--l1", *options]
+        return PeakToPeak(self._document(words, asked), self._itself, tuple(words))
 
     def roots(self, values: Mapping[str, Exact] | None = None, **question: Unpack[Waiting]) -> list[Root]:
         """The roots of the closed loop (poles), the slowest first; of a pair of conjugate roots the upper one.

@@ -83,7 +83,7 @@ class StabilityQuestions(Asker):
         >>> K = b.parameter("K", 1, min=0)
         >>> b = b.block("controller", "-y", "u", K).block("plant", "u", "y", "1/(s + 1)^3")
         >>> b.build().intervals("K", gain_margin=2, at="u")
-        <StableSet K: (0, 4]>
+        <StableSet K: (0, 4)>
         """
         asked = self._asked(values, parameter=parameter, domain=domain, **question)
         kept = {**asked, "timeout": None, "progress": None}
@@ -254,7 +254,7 @@ class StabilityQuestions(Asker):
         >>> import jurist
         >>> loop = jurist.Loop.characteristic("z^2 - z + K/2", time="discrete", parameters={"K": 1})
         >>> t = loop.tolerance(tol={"K": "50%"})
-        >>> t.holds, t.box["K"], t.factor.lower < 2 < t.factor.upper
+        >>> t.holds, t.box["K"], t.factor.lower < 2 <= t.factor.upper
         (True, (Fraction(1, 2), Fraction(3, 2)), True)
         """
         from ._tolerance import Tolerance

@@ -90,6 +90,7 @@ def test_answers_are_those_of_the_program_byte_for_byte_and_as_expected(name, mo
         ("margins --at K_pwm --set T=1/5000 --skew=1/2", lambda loop: loop.margins("K_pwm", {"T": "2e-4"}, skew="1/2")),
         ("margins --at K_pwm --set K_pwm=555", lambda loop: loop.margins("K_pwm", {"K_pwm": 555})),
         ("norm omega_ref omega", lambda loop: loop.norm("omega_ref", "omega")),
+        ("norm omega_ref omega --l1", lambda loop: loop.peak_to_peak("omega_ref", "omega")),
         ("tolerance --tol K_pwm=10% --tol T=0..1/5000", lambda loop: loop.tolerance(tol={"K_pwm": "10%", "T": (0, "2e-4")})),
         ("tolerance --all=5% --fix T --limit K_pwm", lambda loop: loop.tolerance(all="5%", fix="T", limit="K_pwm")),
         ("bode --at K_pwm", lambda loop: loop.bode("K_pwm")),

@@ -18,7 +18,8 @@ def documented():
         thing = getattr(jurist, name)
         found[name] = thing
         if inspect.isclass(thing):
-            for member, value in vars(thing).items():
+            # Methods of a base class too: a loop has its questions from several.
+            for member, value in inspect.getmembers_static(thing):
                 if not member.startswith("_") and getattr(value, "__doc__", None):
                     found[f"{name}.{member}"] = value
     for module in pkgutil.iter_modules(jurist.__path__):

@@ -191,6 +191,18 @@ proptest! {
         }
     }
 
+    /// `|H(1)| <= ||H||_oo <= ||H||_1 <= (2 n + 1) ||H||_oo`.
+    #[test]
+    fn the_peak_to_peak_gain_is_between_the_peak_gain_and_its_multiple((d, n, time) in stable_loop()) {
+        prop_assume!(n.degree() <= d.degree() && time == Time::Discrete);
+        let (problem, budget) = (closed(&d, &n, time, "").ask().problem().unwrap(), Budget::unlimited());
+        let peak = problem.norm("r", "y", &budget).unwrap().into_value().peak.unwrap().value;
+        let sum = problem.peak_to_peak("r", "y", 15, &budget).unwrap().into_value().gain.unwrap();
+        let (least, most) = peak.refined_to_digits(30).enclosure();
+        let order = d.coeffs().len() as i64 - 1;
+        prop_assert!(least <= sum.upper && sum.lower <= most * Rational::from(2 * order + 1));
+    }
+
     /// Inside of the stable set, and a stricter requirement leaves less.
     #[test]
     fn a_required_set_is_inside_the_stable_set((d, n, time) in stable_loop()) {

@@ -64,6 +64,7 @@ fn a_limit_of_memory_ends_every_question() {
         &["margins", "--at", "e_c"],
         &["bode", "--at", "e_c"],
         &["norm", "omega_ref", "omega"],
+        &["norm", "omega_ref", "omega", "--l1"],
         &["simulate"],
         &["tolerance", "--tol", "R_a=10%"],
         &["sweep", "--over", "T=1e-4,2e-4"],

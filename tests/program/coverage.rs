@@ -55,6 +55,9 @@ fn arguments(command: &str, time: Time, file: &str) -> Vec<String> {
     let mut words = command.split(' ');
     let mut out: Vec<String> = words.by_ref().take(1).map(str::to_owned).collect();
     out.push("-".to_owned());
+    if out[0] == "norm" {
+        out.extend(["r", "y"].map(str::to_owned));
+    }
     let mut third = false;
     for word in words {
         let word = match word {
@@ -73,7 +76,6 @@ fn arguments(command: &str, time: Time, file: &str) -> Vec<String> {
         out.push(word);
     }
     let further: &[&str] = match out[0].as_str() {
-        "norm" => &["r", "y"],
         "bode" | "nyquist" | "simulate" => &["--json"],
         "locus" => &["--range", "0.1..2", "--json"],
         "report" => &["-o", file],

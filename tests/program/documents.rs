@@ -111,6 +111,8 @@ const FORMS: &[&[&str]] = &[
     &["margins", "--timeout", "0"],
     &["norm", "examples/drive-blocks.toml", "omega_ref", "i_a"],
     &["norm", "examples/drive-blocks.toml", "omega_ref", "omega", "--timeout", "0"],
+    &["norm", "examples/dc-servo.toml", "r", "y", "--l1"],
+    &["norm", "examples/dc-servo.toml", "r", "y", "--l1", "--timeout", "0"],
     &["roots"],
     &["roots", "examples/dc-servo.toml", "--explain"],
     &["roots", "--timeout", "0"],

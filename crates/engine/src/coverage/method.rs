@@ -131,7 +131,7 @@ pub(super) static IMPULSES: Method = Method::new(
 );
 pub(super) static ENCLOSED_IMPULSES: Method = Method::new(
     "sum of the absolute impulse response with enclosed coefficients",
-    "The same, with coefficients that are enclosed with more bits until the digits are certain: their errors are among the errors of samples.",
+    "Samples are computed in fixed point from coefficients that are enclosed with more bits until the digits are certain; the bound of all errors has theirs. A power of the companion matrix has a norm below a half, which bounds what follows after a block of samples.",
     "stability::ImpulseResponse",
 );
 pub(super) static PEAKS: Method = Method::new(

@@ -20,6 +20,9 @@ use jurist_algebra::real::Real;
 /// Digits of frequencies and decibels.
 const PLACES: usize = 7;
 
+/// Characters of a fraction that is written out.
+const MOST_OF_A_FRACTION: usize = 40;
+
 impl Answer<Margins> {
     /// A name and a sentence for each margin, for a report; nothing for a loop that is not stable.
     pub fn sentences(&self, digits: usize) -> Vec<(&'static str, String)> {
@@ -284,16 +287,19 @@ impl Answer<PeakToPeak> {
             return format!("{}\n{verdict}\nno peak-to-peak gain: only a stable loop has one\n", heading(problem));
         };
         let (input, output) = (visible(&found.input), visible(&found.output));
-        let exact = gain.exact.as_ref().filter(|x| !x.is_integer());
-        let exact = exact.map(|x| format!(", exactly {x}")).unwrap_or_default();
         let (value, bound) = (gain_decimal(gain, digits), at_least(&gain.upper, digits));
-        let how = match gain.exact {
-            Some(_) => String::new(),
-            None => format!("{} samples of the impulse response, and a bound of all that follow\n", gain.terms),
+        let (exact, how) = match &gain.exact {
+            Some(x) if x.is_integer() => (String::new(), String::new()),
+            Some(x) if x.to_string().len() <= MOST_OF_A_FRACTION => (format!(", exactly {x}"), String::new()),
+            Some(_) => (String::new(), "it is a rational number, which '--json' writes\n".to_owned()),
+            None => (
+                String::new(),
+                format!("{} samples of the impulse response, and a bound of all that follow\n", gain.terms),
+            ),
         };
         format!(
             "{}\npeak-to-peak gain (l1 norm) from {input} to {output}: {value}{exact}\n\
-             from rest |{output}| <= {bound} max |{input}|, and no smaller gain holds for all inputs\n{how}",
+             from rest |{output}| <= {bound} max |{input}|, and inputs come as near to the gain as wished\n{how}",
             heading(problem)
         )
     }
