@@ -89,3 +89,47 @@ fn imaginary_units_are_parameters_and_the_line_says_so() {
     assert!(!jurist(&["verdict", "2*j/(s+1)", "--set", "j=1", "-q"]).stderr.contains("imaginary"));
     assert!(!jurist(&["verdict", "2*k/(s+1)", "--set", "k=1"]).stderr.contains("imaginary"));
 }
+
+/// Stable for K < 7, of which 1 is the nominal value.
+const SQUARE: &str = "time = 'discrete'\n[parameters]\nK = { nominal = 1, min = 0, max = 5, closed = true }\n[loop]\ncharacteristic = 'z^2 + z/10 + K/7'\n";
+
+#[test]
+fn tolerances_of_nothing_and_of_an_unstable_loop_are_told_as_that() {
+    let said = text(&["tolerance", "-", "--tol", "K=0%"], SQUARE);
+    assert!(said.ends_with("\nall tolerances are 0: stable at the nominal point (proof: 1 cell)\n"), "{said}");
+    let outside = SQUARE.replace("nominal = 1", "nominal = 8").replace(", max = 5, closed = true", "");
+    let run = jurist_with_input(&["tolerance", "-", "--tol", "K=10%"], outside.as_bytes());
+    assert!(run.stdout.contains("not at K = 8, the nominal point: unstable"), "{}", run.stdout);
+    let other = outside.replace("K/7'", "K/7 + L'").replace("[loop]", "L = { nominal = 0.1 }\n[loop]");
+    let run = jurist_with_input(&["tolerance", "-", "--tol", "K=10%", "--limit", "L"], other.as_bytes());
+    assert!(run.stderr.contains("'jurist intervals --param L' finds one"), "{}", run.stderr);
+}
+
+#[test]
+fn numbers_of_binary_floating_point_are_written_as_what_they_were() {
+    let model = "time = 'discrete'\n[parameters]\nK = { nominal = 0.100000001490116119384765625 }\n[loop]\ncharacteristic = 'z^2 + z/10 + K/7'\n";
+    assert!(text(&["-"], model).contains("\nat K = 0.1 as float32\n"));
+    let double = model.replace("0.100000001490116119384765625", "'3602879701896397/36028797018963968'");
+    assert!(text(&["-"], &double).contains("\nat K = 0.1 as float64\n"));
+    let neither = model.replace("0.100000001490116119384765625", "0.1000000014901161");
+    assert!(text(&["-"], &neither).contains("\nat K = 1000000014901161/10000000000000000\n"));
+}
+
+#[test]
+fn a_delay_margin_that_ends_at_an_edge_of_the_pulse_says_so() {
+    let template = jurist(&["new", "digital-power"]).stdout;
+    let said = text(&["margins", "-"], &template);
+    let words =
+        "at the input of 'power stage', where a sample falls on an edge of its pulse and the model is undefined\n";
+    assert!(said.contains(words), "{said}");
+}
+
+#[test]
+fn a_certificate_of_tolerances_with_dead_time_is_refused_for_the_dead_time() {
+    let model = "time = 'continuous'\n[parameters]\nK = { nominal = 1, tolerance = '10%' }\nd = { nominal = 0.2, tolerance = '10%' }\n\
+        [loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\ninput = 'r - y'\noutput = 'y'\ntransfer = 'K*exp(-d*s)/(s + 1)'\n";
+    let file = std::env::temp_dir().join(format!("jurist-hour-{}.json", std::process::id()));
+    let run = jurist_with_input(&["tolerance", "-", "--certificate", file.to_str().unwrap()], model.as_bytes());
+    assert!(run.stdout.contains("stable for all values"), "{}", run.stdout);
+    assert!(run.stderr.contains("the dead time is one of the parameters"), "{}", run.stderr);
+}
