@@ -106,6 +106,15 @@ fn tolerances_of_nothing_and_of_an_unstable_loop_are_told_as_that() {
 }
 
 #[test]
+fn rows_of_a_sweep_say_which_ends_belong_to_the_interval() {
+    let model = SQUARE.replace("[loop]", "a = 1\n[loop]").replace("K/7", "a*K/7");
+    let rows = text(&["sweep", "-", "--param", "K", "--over", "a=1,2"], &model);
+    let rows: Vec<serde_json::Value> = rows.lines().map(|row| serde_json::from_str(row).unwrap()).collect();
+    assert_eq!((&rows[0]["lower_closed"], &rows[0]["upper_closed"]), (&true.into(), &true.into()));
+    assert_eq!((&rows[1]["lower_closed"], &rows[1]["upper_closed"]), (&true.into(), &false.into()));
+}
+
+#[test]
 fn numbers_of_binary_floating_point_are_written_as_what_they_were() {
     let model = "time = 'discrete'\n[parameters]\nK = { nominal = 0.100000001490116119384765625 }\n[loop]\ncharacteristic = 'z^2 + z/10 + K/7'\n";
     assert!(text(&["-"], model).contains("\nat K = 0.1 as float32\n"));
@@ -132,4 +141,25 @@ fn a_certificate_of_tolerances_with_dead_time_is_refused_for_the_dead_time() {
     let run = jurist_with_input(&["tolerance", "-", "--certificate", file.to_str().unwrap()], model.as_bytes());
     assert!(run.stdout.contains("stable for all values"), "{}", run.stdout);
     assert!(run.stderr.contains("the dead time is one of the parameters"), "{}", run.stderr);
+}
+
+/// Unstable for T_m < 2.466; near zero nothing is decided.
+const LAG: &str = "time = 'discrete'\nsample_time = 1\n[parameters]\nK = 5\nT_m = { nominal = 5, min = 0 }\n\
+    [loop]\ninputs = ['r']\noutputs = ['y']\n\
+    [[block]]\nname = 'plant'\ninput = 'K*(r - y)'\noutput = 'y'\ntransfer = '1/(T_m*s + 1)'\ndiscretize = 'zoh'\n";
+
+#[test]
+fn an_expected_range_fails_where_a_part_of_it_is_surely_unstable() {
+    let tried = |range: &str| {
+        let folder = std::env::temp_dir().join(format!("jurist-gap-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let file = folder.join("loop.toml");
+        std::fs::write(&file, format!("{LAG}[[expect]]\nparam = 'T_m'\nstable = {range}\n")).unwrap();
+        let run = jurist(&["test", file.to_str().unwrap()]);
+        std::fs::remove_dir_all(&folder).unwrap();
+        run.status
+    };
+    assert_eq!(tried("[3, 10]"), 0);
+    assert_eq!(tried("[0, 10]"), 1);
+    assert_eq!(tried("[2, 10]"), 1);
 }
