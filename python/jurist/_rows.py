@@ -61,6 +61,7 @@ def _end_columns(side: str, end: dict[str, Any] | None) -> dict[str, Any]:
         f"{side}_polynomial": end["polynomial"],
         f"{side}_enclosure": end["enclosure"],
         f"{side}_causes": end["cause"].split("+"),
+        f"{side}_closed": end["closed"],
         f"{side}_hz": end["frequency_hz"],
     }
 

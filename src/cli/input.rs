@@ -42,6 +42,10 @@ pub(super) fn load(model: Option<&OsString>, line: &ReadingOptions, context: &Co
     if named.is_open_loop && !context.quiet {
         note("note: the line is taken for an open loop and closed with unity negative feedback");
     }
+    if named.is_line && !context.quiet {
+        let units = model.parameters().iter().filter(|p| ["i", "j"].contains(&p.name.as_str()));
+        units.for_each(|p| note(&format!("note: '{}' is a parameter, not the imaginary unit", p.name)));
+    }
     context.warn(Some(model.source()), &warnings);
     tell_numbers(&named.name, &named.numbers, line, context)?;
     Ok(model)
@@ -93,6 +97,8 @@ pub(super) struct NamedModel {
     pub read: Result<(Model, Vec<Diagnostic>), Diagnostics>,
     /// True of a line that is the transfer function of an open loop.
     is_open_loop: bool,
+    /// True of a loop in one line.
+    is_line: bool,
     pub numbers: Numbers,
 }
 
@@ -107,7 +113,13 @@ pub(super) fn read_model(
         let read = LoopLine::read(text, line.hold.as_deref(), line.delay.as_deref());
         let is_open_loop = read.as_ref().is_ok_and(LoopLine::is_open_loop);
         let read = read.and_then(|line| line.model());
-        return Ok(NamedModel { name: text.to_owned(), read, is_open_loop, numbers: Numbers::default() });
+        return Ok(NamedModel {
+            name: text.to_owned(),
+            read,
+            is_open_loop,
+            is_line: true,
+            numbers: Numbers::default(),
+        });
     }
     refuse_line_options(line, context)?;
     let (name, bytes) = read_file(model, context)?;
@@ -116,7 +128,7 @@ pub(super) fn read_model(
     let read = source_from_bytes(&name, &bytes)
         .and_then(|source| with_numbers(source, model, &mut numbers))
         .and_then(|source| Model::from_toml(&source));
-    Ok(NamedModel { name, read, is_open_loop: false, numbers })
+    Ok(NamedModel { name, read, is_open_loop: false, is_line: false, numbers })
 }
 
 /// The text with the numbers of files below the model's folder: of the folder that the program runs in, for standard input.
@@ -303,7 +315,7 @@ pub(super) fn only_parameter(model: &Model, options: &ModelOptions) -> Result<St
     let help = match names.is_empty() {
         true => "name a constant that is given as a number: '--param NAME'".to_owned(),
         false => format!(
-            "the question is about one of them: {}; the others have nominal values or are set",
+            "the question is about one of them: {}; the others keep their nominal values, or have those of '--set NAME=VALUE'",
             names.join(", ")
         ),
     };

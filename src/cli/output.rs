@@ -15,7 +15,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 /// A reader that stops reading (`| head -1`) is no error.
 pub(super) fn write_answer(answer: &str, file: Option<&OsString>) -> Result<(), Error> {
     let mut answer = answer.to_owned();
-    if !answer.ends_with('\n') {
+    if !answer.is_empty() && !answer.ends_with('\n') {
         answer.push('\n');
     }
     match file {

@@ -22,7 +22,7 @@ const AT: &str = "at";
 /// The keys of `[require]` that have an option here, each with its option.
 static OPTIONS: LazyLock<Vec<(&str, Arg)>> = LazyLock::new(|| {
     let at = Arg::new(AT).long(AT).value_name("SIGNAL").help(
-        "Where the loop is cut for margins: a signal, or a block (at its input) [default: the error of a single loop]",
+        "Where the loop is cut for margins: a signal, or a block (at its input) [default: what [require] says, else the error of a single loop]",
     );
     let mut options = Vec::new();
     for kind in RequirementKind::all() {

@@ -34,23 +34,28 @@ fn run(options: &Options) -> Outcome {
     }
     let text = options.code.join(" ");
     let wanted = text.trim().trim_start_matches("error").trim_matches(['[', ']']);
-    let same = |known: &str| {
-        known.eq_ignore_ascii_case(wanted)
-            || known.split_once('-').is_some_and(|(_, name)| name.eq_ignore_ascii_case(wanted))
-    };
-    match codes().find(|(known, _)| same(known.as_str())) {
-        Some((known, text)) => {
-            write_answer(&format!("{known}\n\n{text}"), None)?;
-            Ok(Status::Holds)
+    let found = match explanation(wanted) {
+        Some(found) => found,
+        // A limit with several causes has their names with plus signs.
+        None => {
+            let parts: Option<Vec<String>> = wanted.split('+').map(|cause| explanation(cause.trim())).collect();
+            parts.ok_or_else(|| unknown(wanted))?.join("\n\n")
         }
-        None => match words().find(|(known, _)| known.eq_ignore_ascii_case(wanted)) {
-            Some((known, text)) => {
-                write_answer(&format!("{known}\n\n{text}"), None)?;
-                Ok(Status::Holds)
-            }
-            None => Err(unknown(wanted)),
-        },
-    }
+    };
+    write_answer(&found, None)?;
+    Ok(Status::Holds)
+}
+
+/// What a code or a word means, below its name: a code as it stands in brackets first, then a word, then a code without its letter.
+fn explanation(wanted: &str) -> Option<String> {
+    let shown = |known: &str, text: &str| format!("{known}\n\n{}", text.trim_end());
+    let code = |same: &dyn Fn(&str) -> bool| {
+        codes().find(|(known, _)| same(known.as_str())).map(|(known, text)| shown(known.as_str(), &text))
+    };
+    let word = || words().find(|(known, _)| known.eq_ignore_ascii_case(wanted)).map(|(w, text)| shown(w, text));
+    code(&|known| known.eq_ignore_ascii_case(wanted))
+        .or_else(word)
+        .or_else(|| code(&|known| known.split_once('-').is_some_and(|(_, name)| name.eq_ignore_ascii_case(wanted))))
 }
 
 /// The first sentence of a text, on one line; a colon ends it too, where an example follows.

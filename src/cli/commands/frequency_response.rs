@@ -18,8 +18,8 @@ use jurist_engine::show::documents::to_text;
 pub(in crate::cli) struct Options {
     #[command(flatten)]
     pub model: ModelOptions,
-    /// Where the loop is cut: a signal, a block (at its input), or a parameter (the loop's gain) [default: the error of a
-    /// single loop]
+    /// Where the loop is cut: a signal, a block (at its input), or a parameter (the loop's gain) [default: what
+    /// [require] says, else the error of a single loop]
     #[arg(long, value_name = "SIGNAL")]
     pub at: Option<String>,
     #[command(flatten)]

@@ -16,8 +16,8 @@ use jurist_engine::show::documents::Margins;
 pub(in crate::cli) struct Options {
     #[command(flatten)]
     pub model: ModelOptions,
-    /// Where the loop is cut: a signal, a block (at its input), or a parameter (the loop's gain) [default: the error of a
-    /// single loop]
+    /// Where the loop is cut: a signal, a block (at its input), or a parameter (the loop's gain) [default: what
+    /// [require] says, else the error of a single loop]
     #[arg(long, value_name = "SIGNAL")]
     pub at: Option<String>,
     /// The skew of the disk margin; 0 is the balanced disk

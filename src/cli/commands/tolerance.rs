@@ -6,7 +6,7 @@ use crate::cli::assignments::in_line;
 use crate::cli::command_line::Place;
 use crate::cli::destinations::Files;
 use crate::cli::input::{known_name, known_names, load, question};
-use crate::cli::output::{ending, write_beginning};
+use crate::cli::output::{ending, note, write_beginning};
 use crate::cli::picture::{Kind, Picture, WRITES, deliver};
 use crate::cli::requirements::{RequirementOptions, refuse_proofs};
 use crate::cli::status::{Error, Outcome, Status};
@@ -20,6 +20,7 @@ use jurist_engine::coverage::Asked;
 use jurist_engine::error::{Code, Diagnostic};
 use jurist_engine::model::{Model, Tolerance};
 use jurist_engine::show::documents::{self, to_text};
+use jurist_engine::show::layout::visible;
 use jurist_engine::show::tolerance_text;
 use jurist_engine::stability::boxes::BoxDecision;
 use std::cell::RefCell;
@@ -29,7 +30,7 @@ use std::slice::from_ref;
 /// Options of `jurist tolerance`.
 #[derive(Args, Debug)]
 pub(in crate::cli) struct Options {
-    /// A tolerance: NAME=10%, NAME=-20%..+30%, NAME=0.01 or NAME=LO..HI, ends included; several with commas: R=10%,L=5%, or R,L=10% [repeatable]
+    /// A tolerance: NAME=10%, NAME=-20%..+30%, NAME=0.01 or NAME=LO..HI, ends included; several with commas: R=10%,L=5%, or R,L=10%; it takes the place of the model's for that name, the model's others stay (--fix leaves one out) [repeatable]
     #[arg(long, value_name = "NAME=TOLERANCE")]
     pub tol: Vec<String>,
     /// Gives every number of the model this tolerance
@@ -110,6 +111,12 @@ fn run(options: &Options, context: &Context) -> Outcome {
         }
     };
     context.warn(None, answer.problem().warnings());
+    if let (Some(name), None, false) = (&options.limit, &answer.value().limit, context.quiet) {
+        note(&format!(
+            "note: --limit begins at a nominal point that is stable: 'jurist intervals --param {}' finds one",
+            visible(name)
+        ));
+    }
     let question = request
         .requirements
         .iter()

@@ -180,6 +180,31 @@ fn is_within(bound: Option<&Rational>, end: Option<&End>, is_upper: bool) -> boo
     }
 }
 
+/// Whether a part of a range is decided and not stable: neither in a stable interval nor in a bracket.
+fn has_gap(set: &StableSet, low: Option<&Rational>, high: Option<&Rational>) -> bool {
+    let outer = |end: &Option<End>, is_upper: bool| {
+        end.as_ref().map(|end| {
+            let (lower, upper) = end.value.refined_to_digits(DIGITS).enclosure();
+            if is_upper { upper } else { lower }
+        })
+    };
+    let stable = set.intervals().iter().map(|i| (outer(&i.lower, false), outer(&i.upper, true)));
+    let brackets = set.undecided().iter().map(|b| (b.lower.clone(), b.upper.clone()));
+    let mut covered: Vec<(Option<Rational>, Option<Rational>)> = stable.chain(brackets).collect();
+    // No end is the least of all.
+    covered.sort();
+    let mut reached = low.cloned();
+    for (from, to) in covered {
+        let is_gap = matches!((&reached, &from), (Some(reached), Some(from)) if reached < from);
+        if is_gap && high.is_none_or(|high| reached.as_ref().is_some_and(|r| r < high)) {
+            return true;
+        }
+        let Some(to) = to else { return false };
+        reached = Some(reached.map_or(to.clone(), |reached| reached.max(to)));
+    }
+    matches!((reached, high), (Some(reached), Some(high)) if reached < *high)
+}
+
 fn in_range(name: String, param: &str, set: &StableSet, low: Option<&Rational>, high: Option<&Rational>) -> Line {
     let holds =
         |i: &&StableInterval| is_within(low, i.lower.as_ref(), false) && is_within(high, i.upper.as_ref(), true);
@@ -193,7 +218,7 @@ fn in_range(name: String, param: &str, set: &StableSet, low: Option<&Rational>, 
         let below = |a: Option<&Rational>, b: Option<&Rational>| a.is_none() || b.is_none() || a <= b;
         below(low, bracket.upper.as_ref()) && below(bracket.lower.as_ref(), high)
     });
-    if is_open {
+    if is_open && !has_gap(set, low, high) {
         let text = format!("{text}; not everything in this range is decided");
         return Line::new(name, TestStatus::Undecided, text);
     }

@@ -72,7 +72,7 @@ fn columns(names: &BTreeSet<String>) -> Vec<String> {
     out.extend(names.iter().map(|name| format!("p.{name}")));
     out.extend(["parameter", "interval"].map(str::to_owned));
     for side in ["lower", "upper"] {
-        let parts = ["", "_decimal", "_exact", "_polynomial", "_enclosure", "_causes", "_hz"];
+        let parts = ["", "_decimal", "_exact", "_polynomial", "_enclosure", "_causes", "_closed", "_hz"];
         out.extend(parts.map(|part| format!("{side}{part}")));
     }
     let rest = ["verdict", "degree", "inside", "on", "outside", "infinite", "status", "code", "message"];

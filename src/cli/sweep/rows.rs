@@ -95,6 +95,7 @@ fn end_columns(side: &str, end: Option<&End>, document: &Value) -> Row {
         ("_polynomial", document["polynomial"].clone()),
         ("_enclosure", document["enclosure"].clone()),
         ("_causes", json!(causes)),
+        ("_closed", json!(end.closed)),
         ("_hz", document["frequency_hz"].clone()),
     ];
     parts.iter().filter_map(|(part, value)| column(&format!("{side}{part}"), value)).collect()

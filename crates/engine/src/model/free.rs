@@ -51,6 +51,9 @@ fn unknown_parameter(model: &Model, name: &str) -> Diagnostic {
     let names = || model.parameters().iter().map(|p| p.name.as_str()).chain(numbers.clone());
     let mut error =
         Diagnostic::error(Code::UnknownParameter, format!("the model has no parameter '{}'", shorten(name)));
-    error.help = did_you_mean(name, names()).or_else(|| known_names(names()));
+    let sample_time = (name == "sample_time" && model.sample_time_expression().is_some()).then(|| {
+        "give the sample time a name: sample_time = \"T\", and a constant T; then '--param T' asks about it".to_owned()
+    });
+    error.help = sample_time.or_else(|| did_you_mean(name, names())).or_else(|| known_names(names()));
     error
 }

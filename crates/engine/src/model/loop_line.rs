@@ -4,8 +4,10 @@
 
 use super::builder::{BlockBuilder, ModelBuilder, ParameterBuilder, quoted};
 use super::definition::{Model, Time};
+use super::evaluate::work::constant_value;
 use super::text::{Expression, Factor, Function, Node, PI, Text, parse_implied};
 use crate::error::{Code, Diagnostic, Diagnostics, Origin, Source, Span};
+use jurist_algebra::number::Rational;
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
@@ -77,8 +79,8 @@ impl LoopLine {
         };
         let (end, expression, implied, variable, is_transfer) =
             read().map_err(|error| Diagnostics::new(Some(Arc::clone(&source)), vec![error]))?;
-        let hold = hold.map(|text| quantity(text, "<hold>")).transpose()?;
-        let delay = delay.map(|text| quantity(text, "<delay>")).transpose()?;
+        let hold = hold.map(|text| quantity(text, HOLD)).transpose()?;
+        let delay = delay.map(|text| quantity(text, DELAY)).transpose()?;
         let line = LoopLine { source, expression, end, implied, variable, is_transfer, hold, delay };
         line.check_hold().map_err(|error| error.in_source(&line.source))?;
         Ok(line)
@@ -327,6 +329,10 @@ fn exponential_in(e: &Expression, variable: &str) -> Option<Span> {
     }
 }
 
+/// What the texts of the options are called where something is wrong with them.
+const HOLD: &str = "--hold";
+const DELAY: &str = "--delay";
+
 /// A time as it was written, and as it is read.
 fn quantity(text: &str, name: &str) -> Result<(String, Expression), Diagnostics> {
     let in_option = |d: Vec<Diagnostic>| Diagnostics::new(Some(Source::new(name, text)), d);
@@ -335,6 +341,16 @@ fn quantity(text: &str, name: &str) -> Result<(String, Expression), Diagnostics>
         let error = Diagnostic::error(Code::Syntax, format!("a time does not contain '{variable}'"));
         let error = error.at(Span::new(0, text.len()), "not a time");
         return Err(in_option(vec![error.help("give a number such as 0.1, or a name such as T")]));
+    }
+    let (is_hold, whole) = (name == HOLD, Span::new(0, text.len()));
+    if let Ok(value) = constant_value(&expression)
+        && (value < Rational::ZERO || is_hold && value.is_zero())
+    {
+        let (message, label) = match is_hold {
+            true => ("the sample time of a hold is positive", "not positive"),
+            false => ("a dead time is not negative: the loop would look ahead", "negative"),
+        };
+        return Err(in_option(vec![Diagnostic::error(Code::Value, message).at(whole, label)]));
     }
     Ok((text.to_owned(), expression))
 }

@@ -91,8 +91,8 @@ pub(crate) enum MoreDeadTime {
 }
 
 impl Model {
-    /// The cut of a name: a signal that some block drives, a block with one input, or a parameter; without a name, the error of
-    /// the only loop of a block diagram, the plant's only input, or the only parameter.
+    /// The cut of a name: a signal that some block drives, a block with one input, or a parameter; without a name, the `at` of
+    /// the model's `[require]`, else the error of the only loop of a block diagram, the plant's only input, or the only parameter.
     ///
     /// Cost: a search through the diagram.
     ///
@@ -100,6 +100,8 @@ impl Model {
     /// `E-unknown-signal`; `E-cut` where no name is given and it is not clear which loop is meant, or a block has several inputs.
     pub fn cut(&self, at: Option<&str>) -> Result<Cut, Diagnostics> {
         let refused = |error: Diagnostic| Diagnostics::new(Some(self.source().clone()), vec![error]);
+        let required = || self.require().iter().find(|r| r.name == "at").map(|r| r.text.as_str());
+        let at = at.or_else(required);
         if let (Form::Blocks(diagram), Some(name)) = (&self.form, at) {
             if diagram.driven().any(|(signal, _)| signal.name == name) {
                 return Ok(Cut::Signal(name.to_owned()));

@@ -37,7 +37,10 @@ pub(super) fn is_held(problem: &Problem, budget: &Budget) -> Result<bool, Error>
     let why = if symbols.is_written() {
         Some("the model has pi or a function in it (a sample time of pi/2, a gain of sqrt(2))")
     } else if symbols.is_moving() {
-        Some("the parameter is inside of the exponentials of a held block")
+        Some(match symbols.delays().is_empty() {
+            false => "the dead time is one of the parameters",
+            true => "a parameter is inside of the exponentials of a held block",
+        })
     } else if !symbols.delays().is_empty() {
         Some("the loop has dead time beside functions")
     } else {

@@ -27,6 +27,8 @@ pub struct HeldDelay {
     pub samples: Option<Real>,
     /// The pair of roots on the unit circle there.
     pub pair: Option<ComplexPair>,
+    /// True where a sample falls on an edge of the pulse with that dead time: the model is undefined there, and beyond it is another loop.
+    pub is_on_edge: bool,
 }
 
 impl HeldDelay {
@@ -53,9 +55,10 @@ impl HeldDelay {
         if !open_loop.is_same(&at_hold) {
             return Ok(None);
         }
-        let found = |samples, pair| {
-            Ok(Some(HeldDelay { block: hold.block.clone(), period: hold.period.clone(), samples, pair }))
+        let ended = |samples, pair, is_on_edge| {
+            Ok(Some(HeldDelay { block: hold.block.clone(), period: hold.period.clone(), samples, pair, is_on_edge }))
         };
+        let found = |samples, pair| ended(samples, pair, false);
         let mut from = Rational::ZERO;
         for _ in 0..=HeldDelay::LOOKED_AT {
             let Some(to) = hold.next_break(&from) else { return Ok(None) };
@@ -77,8 +80,10 @@ impl HeldDelay {
             if end.value.compare_rational(&to).is_lt() {
                 return found(Some(end.value.clone()), end.pair.clone());
             }
-            if !is_stable_with(problem, &to, budget)? {
-                return found(Some(to.into()), None);
+            match is_stable_with(problem, &to, budget)? {
+                None => return ended(Some(to.into()), None, true),
+                Some(false) => return found(Some(to.into()), None),
+                Some(true) => {}
             }
             from = to;
         }
@@ -109,17 +114,16 @@ fn stable_fractions(problem: &Problem, more: &MoreDeadTime, range: Range, budget
     Ok(symbolic_stable_set(&p, &range, problem.shape(), budget)?)
 }
 
-/// Whether the loop is stable with a dead time that is a number of samples.
-fn is_stable_with(problem: &Problem, samples: &Rational, budget: &Budget) -> Result<bool, Error> {
+/// Whether the loop is stable with a dead time that is a number of samples; `None` where a sample stands on an edge of a pulse.
+fn is_stable_with(problem: &Problem, samples: &Rational, budget: &Budget) -> Result<Option<bool>, Error> {
     let more = MoreDeadTime::Samples(samples.clone());
     let (closed_loop, symbols) = match problem.model().with_dead_time(&more, problem.set(), budget) {
-        // A sample stands on an edge of a pulse.
-        Err(Error::Undefined(_)) => return Ok(false),
+        Err(Error::Undefined(_)) => return Ok(None),
         found => found?,
     };
     let mut d = closed_loop.characteristic_polynomial(budget)?;
     d.poles = Vec::new();
     let p = SymbolicPolynomial::new(&d, 0, &Arc::new(fixed_symbols(&symbols)?));
     let found = p.at(&Rational::ZERO, problem.shape(), budget)?;
-    Ok(matches!(found, AtPoint::Defined { count, infinite: 0 } if count.inside == d.formal_degree))
+    Ok(Some(matches!(found, AtPoint::Defined { count, infinite: 0 } if count.inside == d.formal_degree)))
 }

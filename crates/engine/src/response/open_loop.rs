@@ -6,7 +6,7 @@ use super::family::nothing_comes_back;
 use super::ground::{Constants, Ground, Integers};
 use super::place::{modulus_squared, product};
 use crate::coverage::refusals::ONE_FACTOR;
-use crate::error::Error;
+use crate::error::{Code, Error};
 use crate::model::{ClosedLoop, Cut, Opened};
 use crate::problem::{EnclosedQuotient, Problem, exact_or_enclosed, fixed_symbols};
 use crate::stability::Shape;
@@ -132,7 +132,7 @@ impl OpenLoop {
         let cut = match (model.cut(at), at) {
             (Ok(cut), _) => cut,
             // Of several parameters, one that enters as a gain is meant if it is the only one.
-            (Err(refused), None) => match only_gain(problem, budget)? {
+            (Err(refused), None) if refused.code() == Code::Cut => match only_gain(problem, budget)? {
                 Some(name) => Cut::Gain(name),
                 None => return Err(refused.into()),
             },

@@ -2,7 +2,7 @@
 
 use crate::model::Model;
 use crate::model::text::is_blank_letter;
-use jurist_algebra::number::{Rational, parse_number, to_decimal};
+use jurist_algebra::number::{BinaryFormat, Rational, parse_number, to_decimal};
 use std::borrow::Cow;
 use std::fmt;
 
@@ -65,6 +65,9 @@ pub fn short(value: &Rational) -> String {
     if parse_number(&decimal).as_ref() == Ok(value) {
         return decimal;
     }
+    if let Some(name) = of_floating_point(value) {
+        return name;
+    }
     // A number of binary floating point says more as a decimal.
     let below = value.denominator();
     if below.trailing_zeros().is_some_and(|bits| bits + 1 == below.bit_length()) {
@@ -77,6 +80,19 @@ pub fn short(value: &Rational) -> String {
         Ok(whole) => whole,
         Err(size) => format!("{decimal}... ({size})"),
     }
+}
+
+/// `0.1 as float32`: the decimal that a compiler rounds to this number, where it is short enough to be what was written.
+fn of_floating_point(value: &Rational) -> Option<String> {
+    let formats = [(BinaryFormat::Single, 6, "float32"), (BinaryFormat::Double, 14, "float64")];
+    formats.into_iter().find_map(|(format, digits, name)| {
+        let written = parse_number(&to_decimal(value, digits)).ok()?;
+        let is_nearest = format.nearest(&written).is_some_and(|nearest| nearest == *value);
+        // It is written as short as it may be.
+        let least =
+            (1..digits).find(|&d| parse_number(&to_decimal(value, d)).as_ref() == Ok(&written)).unwrap_or(digits);
+        is_nearest.then(|| format!("{} as {name}", to_decimal(value, least)))
+    })
 }
 
 /// The exact fraction, or how many digits it has where these are too many to read.

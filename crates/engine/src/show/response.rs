@@ -186,7 +186,10 @@ impl Writer<'_> {
         let Some(seconds) = real::enclosed(self.digits, |bits| held.seconds(bits)) else {
             return format!("much dead time at the input of '{block}'");
         };
-        let place = frequency_text(|bits| held.frequency(bits)).map(|p| format!(", at {p}")).unwrap_or_default();
+        let place = match held.is_on_edge {
+            true => ", where a sample falls on an edge of its pulse and the model is undefined".to_owned(),
+            false => frequency_text(|bits| held.frequency(bits)).map(|p| format!(", at {p}")).unwrap_or_default(),
+        };
         format!("less than {seconds} s of dead time at the input of '{block}'{place}")
     }
 

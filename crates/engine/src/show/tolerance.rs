@@ -52,7 +52,7 @@ impl Shown<'_> {
             };
             let _ = writeln!(out, "    {}: {what}", found.requirement.text());
         }
-        if let Some(factor) = &self.answer.factor {
+        if let Some(factor) = self.answer.factor.as_ref().filter(|_| self.has_width()) {
             out.push_str(&self.factor(factor));
         }
         if let Some(volume) = &self.answer.volume {
@@ -92,14 +92,28 @@ impl Shown<'_> {
         }
     }
 
+    /// Whether any tolerance is more than a point.
+    fn has_width(&self) -> bool {
+        self.answer.sides.iter().any(|side| side.widths().iter().any(|w| !w.is_zero()))
+    }
+
+    /// Whether a point is the nominal one.
+    fn is_nominal(&self, point: &[Rational]) -> bool {
+        self.answer.sides.iter().zip(point).all(|(side, value)| side.nominal() == value)
+    }
+
     fn decision(&self) -> String {
-        let asked = self.asked();
+        let asked = match self.has_width() {
+            true => self.asked(),
+            false => "all tolerances are 0".to_owned(),
+        };
         match &self.answer.decision {
             BoxDecision::Stable(proof) => {
                 let cells = proof.cells();
                 let noun = if cells == 1 { "cell" } else { "cells" };
                 let with = if self.answer.required.is_empty() { "" } else { ", and meets all requirements," };
-                format!("{asked}: stable{with} for all values (proof: {cells} {noun})\n")
+                let what = if self.has_width() { "for all values" } else { "at the nominal point" };
+                format!("{asked}: stable{with} {what} (proof: {cells} {noun})\n")
             }
             BoxDecision::NotStable { witness } => {
                 let what =
@@ -116,7 +130,8 @@ impl Shown<'_> {
                         Verdict::Stable => "stable, but not all requirements are met".to_owned(),
                         _ => verdict_line(self.problem, &found),
                     };
-                    let _ = writeln!(out, "    not at {}: {line}", point.join(", "));
+                    let what = if self.is_nominal(&witness.point) { ", the nominal point" } else { "" };
+                    let _ = writeln!(out, "    not at {}{what}: {line}", point.join(", "));
                 }
                 out
             }

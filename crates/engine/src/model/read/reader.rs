@@ -39,6 +39,22 @@ impl Meant {
     }
 }
 
+/// Where a key belongs that stands in another table, and that table's name.
+fn misplaced(key: &str, place: &str) -> Option<(&'static str, &'static str)> {
+    match (place, key) {
+        ("the model", "characteristic" | "matrix" | "inputs" | "outputs" | "states") => {
+            Some(("it belongs below a line '[loop]'", "loop"))
+        }
+        ("the model", "transfer" | "input" | "output" | "discretize") => {
+            Some(("it belongs below a line '[[block]]'", "block"))
+        }
+        ("[loop]" | "[simulation]" | "[require]", "time" | "sample_time" | "title") => {
+            Some(("it belongs at the top of the file, above the first line in brackets", "time"))
+        }
+        _ => None,
+    }
+}
+
 impl Reader {
     pub fn report(&mut self, diagnostic: Diagnostic) {
         self.diagnostics.push(diagnostic);
@@ -70,7 +86,10 @@ impl Reader {
             let is_rate = ["sample_rate", "sampling_rate", "fs", "f_s"].contains(&entry.key.as_str());
             let rate = (is_rate && known.contains(&"sample_time"))
                 .then(|| "give the sample time, 1 over the rate: sample_time = \"1/10000\"".to_owned());
+            let misplaced = misplaced(&entry.key, place);
+            meant.0.extend(misplaced.map(|(_, table)| table.to_owned()));
             error.help = rate
+                .or_else(|| misplaced.map(|(help, _)| help.to_owned()))
                 .or_else(|| did_you_mean(&entry.key, known.iter().copied()))
                 .or_else(|| Some(format!("known here: {}", list(known.iter().copied()))));
             self.report(error);
