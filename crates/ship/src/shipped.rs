@@ -1,9 +1,11 @@
 //! The controller with its stored coefficients, in the place of the exact one.
 
 use crate::asked::Asked;
+use crate::emit::{self, Arithmetic, Target, TooWide, text};
 use crate::format::{Fixed, Format};
 use crate::program::Coefficient;
 use crate::realise::{Entry, Realisation, Realised, delta, direct, sections, state};
+use crate::run::FloatProgram;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_engine::error::{Code, Diagnostic, Error, Source};
@@ -103,6 +105,47 @@ impl Shipped {
             }
         }
         out
+    }
+
+    /// The controller as source code, with remarks in its comment.
+    ///
+    /// Cost: linear in the operations.
+    ///
+    /// # Errors
+    /// `E-ship-format` where nothing is said of signals in fixed point, `E-ship-range` where a sum may need more than 64 bits.
+    pub fn code(&self, target: Target, remarks: &[String]) -> Result<String, Error> {
+        let wide = |wide: TooWide| -> Error {
+            Diagnostic::error(Code::ShipRange, wide.to_string())
+                .help("take fewer bits for signals or coefficients")
+                .into()
+        };
+        let (fixed, float);
+        let arithmetic = match self.asked.format {
+            Format::Fixed(_) => {
+                let Some(program) = self.fixed_program() else {
+                    let error = Diagnostic::error(Code::ShipFormat, "code needs the format of signals");
+                    return Err(error
+                        .help("add --signal Q5.10, or signal = { bits = 16, fraction = 10 } to [ship]")
+                        .into());
+                };
+                fixed = program;
+                Arithmetic::Fixed(&fixed)
+            }
+            Format::Binary(format) => {
+                let values: Vec<Rational> = self.coefficients.iter().map(|c| c.value.clone()).collect();
+                let Some(program) = FloatProgram::new(&self.realised.program, &values, format) else {
+                    return Err(Diagnostic::error(
+                        Code::ShipRange,
+                        "a factor of the controller is too large for its format",
+                    )
+                    .into());
+                };
+                float = program;
+                Arithmetic::Float(&float)
+            }
+        };
+        let realisation = self.asked.realisation;
+        text(&emit::Shipped { name: &self.asked.block, realisation, arithmetic, remarks }, target).map_err(wide)
     }
 
     /// The text of a model with the stored coefficients.

@@ -4,7 +4,7 @@ use crate::answer::{Part, Point, ShipAnswer};
 use crate::fewest::Fewest;
 use crate::format::Format;
 use crate::limits::LimitsByBits;
-use crate::ranges::Ranges;
+use crate::ranges::{NodeRange, Ranges};
 use crate::run::Overflow;
 use crate::shipped::Stored;
 use jurist_algebra::number::{Integer, Rational, enclosed_decimal, to_decimal};
@@ -63,6 +63,29 @@ impl ShipAnswer {
         if let Some(ranges) = &self.ranges {
             out.push_str(&part("ranges", ranges, |ranges| self.ranges_text(ranges)));
         }
+        out
+    }
+
+    /// What is proved of signals, in sentences.
+    pub fn bounds(&self) -> Vec<String> {
+        let Some(Ok(ranges)) = &self.ranges else { return Vec::new() };
+        let asked = &self.shipped.asked;
+        let mut out = Vec::new();
+        if !asked.inputs.is_empty() {
+            let inputs: Vec<String> =
+                asked.inputs.iter().map(|(name, bound)| format!("|{name}| <= {}", to_decimal(bound, FEW))).collect();
+            let node = |node: &NodeRange| {
+                let [_, high] = node.greatest.as_ref()?;
+                let fits = if node.holds == Some(true) { ", which fits" } else { "" };
+                Some(format!("|{}| <= {}{fits}", node.name, at_most(&(high + &node.rounding), FEW)))
+            };
+            let nodes: Vec<String> = ranges.nodes.iter().filter_map(node).collect();
+            out.push(format!("From rest under {}: {}.", inputs.join(", "), nodes.join(", ")));
+        }
+        let moved = |(name, most): &(String, Rational)| {
+            format!("The rounding of signals moves {name} by at most {}, limit cycles included.", at_most(most, FEW))
+        };
+        out.extend(ranges.moved.iter().map(moved));
         out
     }
 

@@ -9,18 +9,24 @@ use crate::cli::output::{ending, write_answer};
 use crate::cli::picture::{Kind, Picture, deliver};
 use crate::cli::requirements::RequirementOptions;
 use crate::cli::status::{Error, Outcome, Status};
-use crate::cli::written::certify;
+use crate::cli::written::{certified, check_certificate};
 use clap::Args;
 use jurist_algebra::limits::Exhausted;
+use jurist_check::sha256;
 use jurist_draw::figures::ranges_figure;
 use jurist_engine::answer::PointVerdict;
 use jurist_engine::error::{Code, Diagnostic};
 use jurist_engine::problem::Problem;
 use jurist_engine::show::documents;
+use jurist_engine::show::verdict::verdict_line;
 use jurist_ship::answer::{Beside, Holds, ShipAnswer};
 use jurist_ship::asked::{Asked, Overrides};
+use jurist_ship::emit::Target;
 use std::ffi::OsString;
 use std::slice::from_ref;
+
+/// Digits of numbers in the comments of code.
+const REMARK_DIGITS: usize = 6;
 
 /// Options of `jurist ship`.
 #[derive(Args, Debug)]
@@ -61,6 +67,15 @@ pub(in crate::cli) struct Options {
     /// Writes the model in which each coefficient has the tolerance of its rounding, for 'jurist tolerance'
     #[arg(long, value_name = "FILE")]
     pub every: Option<OsString>,
+    /// Writes the controller as code in C99: one header
+    #[arg(long, value_name = "FILE")]
+    pub c: Option<OsString>,
+    /// Writes the controller as a function block in structured text (IEC 61131-3)
+    #[arg(long, value_name = "FILE")]
+    pub st: Option<OsString>,
+    /// Writes the controller as a module in Rust (no_std)
+    #[arg(long, value_name = "FILE")]
+    pub rust: Option<OsString>,
     /// Writes a certificate that 'jurist verify' re-checks: the verdict on the model of --rounded
     #[arg(long, value_name = "FILE", requires = "rounded")]
     pub certificate: Option<OsString>,
@@ -81,6 +96,9 @@ impl Runs for Options {
         files.question(&self.model.model, &self.output.output);
         files.outputs.extend(self.rounded.iter().map(|file| ("the rounded model", file.clone())));
         files.outputs.extend(self.every.iter().map(|file| ("the model of every rounding", file.clone())));
+        let code =
+            [("the code in C", &self.c), ("the code in structured text", &self.st), ("the code in Rust", &self.rust)];
+        files.outputs.extend(code.into_iter().filter_map(|(what, file)| Some((what, file.clone()?))));
         files.outputs.extend(self.certificate.iter().map(|file| ("the certificate", file.clone())));
         Ok(())
     }
@@ -121,14 +139,48 @@ fn run(options: &Options, context: &Context) -> Outcome {
         Some(kind) => draw(&answer, kind, output)?,
         None => context.answer(output, || answer.text(digits), || answer.json(digits))?,
     }
-    certify(context, &output.run, rounded, &options.certificate, || {
-        answer.rounded.verdict.certificate(&context.budget)
-    })?;
+    let proof = certified(context, &options.certificate, || answer.rounded.verdict.certificate(&context.budget))?;
+    if let Some((text, file)) = &proof {
+        write_answer(text, Some(file))?;
+        check_certificate(context, &output.run, rounded, text, file);
+    }
+    code(&answer, options, proof.as_ref().map(|(text, _)| text.as_str()))?;
     Ok(match answer.holds() {
         Holds::Yes => Status::Holds,
         Holds::No => Status::DoesNotHold,
         Holds::Open => Status::Undecided,
     })
+}
+
+/// The controller as code in each language that is asked for.
+fn code(answer: &ShipAnswer, options: &Options, certificate: Option<&str>) -> Result<(), Error> {
+    let files = [(Target::C, &options.c), (Target::StructuredText, &options.st), (Target::Rust, &options.rust)];
+    for (target, file) in files {
+        let Some(file) = file else { continue };
+        let remarks = remarks(answer, certificate);
+        write_answer(&answer.shipped.code(target, &remarks)?, Some(file))?;
+    }
+    Ok(())
+}
+
+/// What the code's comment says of the loop.
+fn remarks(answer: &ShipAnswer, certificate: Option<&str>) -> Vec<String> {
+    let shipped = &answer.shipped;
+    let model = shipped.exact.model();
+    let verdict = &answer.rounded.verdict;
+    let mut out = vec![
+        format!("Block '{}' of the model {}.", shipped.asked.block, model.source().name),
+        format!("Coefficients: {}.", shipped.asked.format.words()),
+        format!("The loop with these coefficients is {}.", verdict_line(verdict.problem(), verdict.value())),
+    ];
+    if let Ok(margins) = &answer.rounded.margins {
+        out.extend(margins.sentences(REMARK_DIGITS).into_iter().map(|(name, said)| format!("{name}: {said}.")));
+    }
+    out.extend(answer.rounded.requirements.iter().map(|found| format!("{}.", found.text(REMARK_DIGITS))));
+    out.extend(answer.bounds());
+    out.push(format!("SHA-256 of the model with these coefficients: {}", sha256(shipped.rounded_text())));
+    out.extend(certificate.map(|text| format!("SHA-256 of the certificate of its verdict: {}", sha256(text))));
+    out
 }
 
 /// What picture is asked for, by the ending of the output's name.
