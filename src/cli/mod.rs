@@ -29,6 +29,8 @@ mod status;
 mod suite;
 #[cfg(feature = "cli")]
 mod sweep;
+#[cfg(feature = "cli")]
+mod table;
 #[cfg(all(feature = "cli", not(target_family = "wasm")))]
 mod watch;
 mod written;

@@ -42,6 +42,75 @@ pub struct NodeRange {
     pub holds: Option<bool>,
 }
 
+/// Inputs that bring an inner signal near to its greatest magnitude, from rest.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct WorstInput {
+    /// The inner signal, by its name in the controller.
+    pub node: String,
+    /// Its name as an output of the loop in [`Ranges::problem`].
+    pub output: String,
+    /// Each input at each sample; the signal is large at the last one.
+    pub inputs: Vec<(String, Vec<Rational>)>,
+}
+
+/// The most samples of a worst input.
+const MOST_SAMPLES: usize = 50_000;
+
+impl Ranges {
+    /// The worst input of the signal that uses most of its range, or is greatest where nothing is said of ranges. `None` without bounds of inputs.
+    ///
+    /// Cost: that of [`Problem::peak_to_peak`] for each input.
+    ///
+    /// # Errors
+    /// As [`Problem::peak_to_peak`].
+    pub fn worst_input(&self, bounds: &[(String, Rational)], budget: &Budget) -> Result<Option<WorstInput>, Error> {
+        let share = |node: &NodeRange| {
+            let [_, high] = node.greatest.as_ref()?;
+            let all = high + &node.rounding;
+            Some(node.limit.as_ref().and_then(|limit| all.checked_div(limit)).unwrap_or(all))
+        };
+        let Some(node) = self.nodes.iter().filter(|node| node.greatest.is_some()).max_by_key(|node| share(node)) else {
+            return Ok(None);
+        };
+        let names: Vec<&str> = bounds.iter().map(|(name, _)| name.as_str()).collect();
+        let samples = self.samples_that_matter(&names, &node.output, budget)?;
+        let mut found = Vec::new();
+        for (input, bound) in bounds {
+            let gain = self.problem.peak_to_peak(input, &node.output, DIGITS, budget)?.into_value();
+            found.push((input.clone(), gain.signs(samples, budget)?, bound));
+        }
+        let of = |(input, signs, bound): (String, Vec<i8>, &Rational)| {
+            let value = |sign: &i8| bound * &Rational::from(i64::from(*sign));
+            (input, signs.iter().rev().map(value).collect())
+        };
+        let inputs = found.into_iter().map(of).collect();
+        Ok(Some(WorstInput { node: node.name.clone(), output: node.output.clone(), inputs }))
+    }
+
+    /// How many samples of the impulse responses have all but a thousandth of the sum of their absolute values, in floating point.
+    fn samples_that_matter(&self, inputs: &[&str], output: &str, budget: &Budget) -> Result<usize, Error> {
+        let Some(system) = self.problem.rounded_closed_loop(budget)? else { return Ok(1) };
+        let model = self.problem.model();
+        let row = model.outputs().iter().position(|o| o.name.name == output).unwrap_or(0);
+        let columns = model.inputs().iter().enumerate().filter(|(_, name)| inputs.contains(&name.name.as_str()));
+        let mut most = 1;
+        for (column, _) in columns {
+            let mut sums = vec![system.d[row][column].abs()];
+            let mut x: Vec<f64> = system.b.iter().map(|b| b[column]).collect();
+            let dot = |a: &[f64], x: &[f64]| a.iter().zip(x).map(|(a, x)| a * x).sum::<f64>();
+            while sums.len() < MOST_SAMPLES {
+                budget.check()?;
+                sums.push(sums[sums.len() - 1] + dot(&system.c[row], &x).abs());
+                x = system.a.iter().map(|a| dot(a, &x)).collect();
+            }
+            let enough = 0.999 * sums[sums.len() - 1];
+            most = most.max(sums.partition_point(|sum| *sum < enough) + 1);
+        }
+        Ok(most)
+    }
+}
+
 /// Digits to which gains are known.
 const DIGITS: usize = 9;
 

@@ -11,17 +11,20 @@ use crate::cli::requirements::RequirementOptions;
 use crate::cli::status::{Error, Outcome, Status};
 use crate::cli::written::{certified, check_certificate};
 use clap::Args;
-use jurist_algebra::limits::Exhausted;
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::Rational;
 use jurist_check::sha256;
 use jurist_draw::figures::ranges_figure;
 use jurist_engine::answer::PointVerdict;
 use jurist_engine::error::{Code, Diagnostic};
 use jurist_engine::problem::Problem;
 use jurist_engine::show::documents;
+use jurist_engine::show::layout::short;
 use jurist_engine::show::verdict::verdict_line;
 use jurist_ship::answer::{Beside, Holds, ShipAnswer};
 use jurist_ship::asked::{Asked, Overrides};
 use jurist_ship::emit::Target;
+use jurist_ship::ranges::WorstInput;
 use std::ffi::OsString;
 use std::slice::from_ref;
 
@@ -67,6 +70,12 @@ pub(in crate::cli) struct Options {
     /// Writes the model in which each coefficient has the tolerance of its rounding, for 'jurist tolerance'
     #[arg(long, value_name = "FILE")]
     pub every: Option<OsString>,
+    /// Writes the model in which the controller's inner signals are outputs, and the errors of their rounding inputs
+    #[arg(long, value_name = "FILE")]
+    pub signals: Option<OsString>,
+    /// Writes the inputs that bring the most critical inner signal near to its greatest value, for 'jurist simulate --inputs' with the model of --signals
+    #[arg(long, value_name = "FILE.csv")]
+    pub worst: Option<OsString>,
     /// Writes the controller as code in C99: one header
     #[arg(long, value_name = "FILE")]
     pub c: Option<OsString>,
@@ -131,6 +140,7 @@ fn run(options: &Options, context: &Context) -> Outcome {
             write_answer(text, Some(file))?;
         }
     }
+    signals(&answer, options, context)?;
     let digits = output.digits() as usize;
     if let Some(stopped) = answer.stopped() {
         return context.undecided(output, stopped, || Some(answer.text(digits)), || answer.json(digits));
@@ -150,6 +160,54 @@ fn run(options: &Options, context: &Context) -> Outcome {
         Holds::No => Status::DoesNotHold,
         Holds::Open => Status::Undecided,
     })
+}
+
+/// The model of the inner signals, and the worst inputs, where they are asked for.
+fn signals(answer: &ShipAnswer, options: &Options, context: &Context) -> Result<(), Error> {
+    if options.signals.is_none() && options.worst.is_none() {
+        return Ok(());
+    }
+    let ranges = match &answer.ranges {
+        Some(Ok(ranges)) => ranges,
+        Some(Err(error)) => return Err(error.clone()),
+        None => {
+            let error = Diagnostic::error(
+                Code::ShipFormat,
+                "nothing is known of the signals: they have no format and no input has a bound, or the loop is not stable",
+            );
+            return Err(error.help("add --signal Q5.10 or --input NAME=BOUND").into());
+        }
+    };
+    if let Some(file) = &options.signals {
+        write_answer(&ranges.problem.model().source().text, Some(file))?;
+    }
+    let Some(file) = &options.worst else { return Ok(()) };
+    let bounds = &answer.shipped.asked.inputs;
+    let Some(worst) = ranges.worst_input(bounds, &context.budget)? else {
+        let error = Diagnostic::error(Code::ShipFormat, "no input of the loop has a bound");
+        return Err(error.help("add --input NAME=BOUND").into());
+    };
+    write_answer(&table(&worst, &answer.shipped.exact, &context.budget), Some(file))
+}
+
+/// The worst inputs as a table, a row for each sample.
+fn table(worst: &WorstInput, problem: &Problem, budget: &Budget) -> String {
+    let model = problem.model();
+    let step = model.sample_time_expression().and_then(|time| model.value(time, problem.set(), budget).ok());
+    let step = step.unwrap_or(Rational::ONE);
+    let names: Vec<&str> = worst.inputs.iter().map(|(name, _)| name.as_str()).collect();
+    let mut out = format!(
+        "# these inputs bring {} near to its greatest value at the last sample; as an output it is called {}\nt,{}\n",
+        worst.node,
+        worst.output,
+        names.join(",")
+    );
+    let samples = worst.inputs.first().map_or(0, |(_, values)| values.len());
+    for k in 0..samples {
+        let values: Vec<String> = worst.inputs.iter().map(|(_, values)| short(&values[k])).collect();
+        out.push_str(&format!("{},{}\n", short(&(&step * &Rational::from(k as i64))), values.join(",")));
+    }
+    out
 }
 
 /// The controller as code in each language that is asked for.

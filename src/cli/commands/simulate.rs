@@ -8,18 +8,27 @@ use crate::cli::input::{load, question};
 use crate::cli::output::note;
 use crate::cli::picture::{Picture, deliver, wanted};
 use crate::cli::status::{Error, Outcome, Status};
+use crate::cli::suite::collect::text;
+use crate::cli::table::Table;
 use clap::{Args, ValueEnum};
 use jurist_algebra::number::parse_number;
 use jurist_draw::document::{CircuitAnswer, SimulationAnswer, simulation_json};
 use jurist_draw::figures::response_figure;
 use jurist_draw::simulate::{Course, Excitation, Pulse, Record, SwitchedModel, excitation, signal_unit};
-use jurist_engine::error::{Code, Diagnostic, Source};
+use jurist_engine::error::{Code, Diagnostic, Diagnostics, Source};
 use jurist_engine::model::Model;
 use jurist_engine::problem::Problem;
 use jurist_engine::show::documents::to_text;
+use std::collections::HashMap;
+use std::ffi::OsString;
+use std::path::Path;
+use std::sync::Arc;
 
 /// The built-in drive as blocks, which is what a switched simulation reads.
 const DRIVE_BLOCKS: &str = include_str!("../../../examples/drive-blocks.toml");
+
+/// The column of times in a table of inputs.
+const TIME: &str = "t";
 
 /// Where in its period a pulse lies.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -42,6 +51,10 @@ pub(in crate::cli) struct Options {
     /// Gives an input a value, from a time on if one is named [repeatable; with none: a unit step of the first]
     #[arg(long, value_name = "NAME=VALUE[@SECONDS]")]
     pub input: Vec<String>,
+    /// Inputs over time from a table in CSV: a column t in seconds (in samples without a sample time), and one for each input; a row holds until
+    /// the next
+    #[arg(long, value_name = "FILE")]
+    pub inputs: Option<OsString>,
     /// Gives a state its value at the beginning [repeatable]
     #[arg(long, value_name = "NAME=VALUE")]
     pub initial: Vec<String>,
@@ -74,6 +87,7 @@ impl Runs for Options {
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
+        files.inputs.extend(self.inputs.iter().map(|path| ("the table of inputs", path.as_os_str())));
         files.picture(&self.model.model, &self.picture)
     }
 }
@@ -105,6 +119,36 @@ fn run(options: &Options, context: &Context) -> Outcome {
     Ok(Status::Holds)
 }
 
+/// Inputs over time: name, time from which on, value.
+fn table_of_inputs(file: &OsString, model: &Model) -> Result<Vec<(String, f64, f64)>, Error> {
+    let table = Table::read(&text(Path::new(file))?)?;
+    let known = |name: &str| name == TIME || model.inputs().iter().any(|input| input.name == name);
+    let wrong = |message: String, span| {
+        let error = Diagnostic::error(Code::UnknownName, message).at(span, "this column");
+        let names: Vec<&str> = model.inputs().iter().map(|name| name.name.as_str()).collect();
+        let error = error.help(format!("columns are t and the inputs of the loop: {}", names.join(", ")));
+        Diagnostics::new(Some(Arc::clone(&table.source)), vec![error])
+    };
+    if let Some((name, span)) = table.names.iter().find(|(name, _)| !known(name)) {
+        return Err(wrong(format!("the loop has no input '{name}'"), *span).into());
+    }
+    if table.names.iter().all(|(name, _)| name != TIME) {
+        return Err(wrong("the table says nothing of time".into(), table.names[0].1).into());
+    }
+    let (mut out, mut last) = (Vec::new(), HashMap::new());
+    for row in &table.points {
+        let time = row.iter().find(|(name, _)| name == TIME).map_or(0.0, |(_, t)| t.to_f64_approximate());
+        for (name, value) in row.iter().filter(|(name, _)| name != TIME) {
+            let value = value.to_f64_approximate();
+            // Only what changes is a step.
+            if last.insert(name.clone(), value) != Some(value) {
+                out.push((name.clone(), time, value));
+            }
+        }
+    }
+    Ok(out)
+}
+
 /// Inputs, initial values and the duration, from the model and the command line.
 fn course(options: &Options, problem: &Problem, context: &Context) -> Result<Course, Error> {
     let model = problem.model();
@@ -112,6 +156,9 @@ fn course(options: &Options, problem: &Problem, context: &Context) -> Result<Cou
     let mut course = Course::of(problem, duration.map(|d| d.to_f64_approximate()), &context.budget)?;
     for text in &options.input {
         course.inputs.push(input_step(text, context)?);
+    }
+    if let Some(file) = &options.inputs {
+        course.inputs.extend(table_of_inputs(file, problem.model())?);
     }
     for text in &options.initial {
         let (name, value, _) = parsed("--initial", text, context)?;

@@ -5,9 +5,9 @@ use crate::cli::arguments::RunOptions;
 use crate::cli::destinations::{Files, check_read};
 use crate::cli::output::{finish_answer, note, write_answer};
 use crate::cli::status::{Error, Outcome, Status};
-use crate::cli::suite::cases::Cases;
 use crate::cli::suite::collect::{Collector, text};
 use crate::cli::suite::{junit, try_all};
+use crate::cli::table::Table;
 use clap::Args;
 use jurist_engine::show::documents::{Test, to_text};
 use std::ffi::OsString;
@@ -64,7 +64,7 @@ impl Runs for Options {
 /// A line for each expectation; the status is 2 if a file is bad, else 1 if one does not hold, else 3 if one is undecided.
 fn run(options: &Options, context: &Context) -> Outcome {
     let cases = match &options.cases {
-        Some(file) => Some(Arc::new(Cases::read(&text(Path::new(file))?)?)),
+        Some(file) => Some(Arc::new(Table::read(&text(Path::new(file))?)?)),
         None => None,
     };
     let mut collector = Collector::new(cases);

@@ -1,8 +1,8 @@
 //! Which files have expectations, and the models that these are about.
 
-use super::cases::Cases;
 use super::{InText, lock};
 use crate::cli::status::Error;
+use crate::cli::table::{Point, Table};
 use crate::references::{COPY, Resolved};
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Source, Span};
 use jurist_engine::model::{Claim, ClaimKind, Expectation, Model, source_from_bytes};
@@ -40,8 +40,8 @@ pub(in crate::cli) struct Entry {
     pub name: Option<String>,
     pub claims: Vec<(ClaimKind, Option<InText>)>,
     pub model: Arc<Model>,
-    pub set: super::judge::Point,
-    pub cases: Option<Arc<Cases>>,
+    pub set: Point,
+    pub cases: Option<Arc<Table>>,
     /// Where files that it names are.
     pub folder: PathBuf,
 }
@@ -50,7 +50,7 @@ pub(in crate::cli) struct Entry {
 pub(in crate::cli) struct Collector {
     models: HashMap<PathBuf, Result<Arc<Model>, Error>>,
     /// Operating points of all entries that name none.
-    cases: Option<Arc<Cases>>,
+    cases: Option<Arc<Table>>,
     /// Sentences about numbers that came from other files.
     pub notes: Vec<String>,
     /// All files that were read.
@@ -58,7 +58,7 @@ pub(in crate::cli) struct Collector {
 }
 
 impl Collector {
-    pub fn new(cases: Option<Arc<Cases>>) -> Collector {
+    pub fn new(cases: Option<Arc<Table>>) -> Collector {
         Collector { models: HashMap::new(), cases, notes: Vec::new(), read: Vec::new() }
     }
 
@@ -164,7 +164,7 @@ impl Collector {
         let cases = match &expectation.cases {
             Some((file, span)) => {
                 let table = text(&folder.join(file)).map_err(|error| placed(error, expectation, *span))?;
-                Some(Arc::new(Cases::read(&table)?))
+                Some(Arc::new(Table::read(&table)?))
             }
             None => self.cases.clone(),
         };

@@ -2,6 +2,7 @@
 
 use super::{Line, percent};
 use crate::cli::status::Error;
+use crate::cli::table::Point;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Rational, parse_number};
 use jurist_algebra::real::Real;
@@ -22,9 +23,6 @@ const DIGITS: usize = 6;
 
 /// Digits of the distance to an end.
 const DISTANCE_DIGITS: usize = 15;
-
-/// Values by name.
-pub(in crate::cli) type Point = Vec<(String, Rational)>;
 
 /// The lines of a claim: one, but of requirements one each.
 pub(super) fn judge(claim: &ClaimKind, model: &Model, point: &Point, folder: &Path, budget: &Budget) -> Vec<Line> {

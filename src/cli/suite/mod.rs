@@ -1,6 +1,5 @@
 //! Expectations that are tried: which files have them, what became of each, and how that is told.
 
-pub(super) mod cases;
 pub(super) mod collect;
 pub(super) mod judge;
 pub(super) mod junit;

@@ -1,9 +1,10 @@
 //! All expectations, tried on all cores.
 
 use super::collect::{Entry, Locked, Suite};
-use super::judge::{Point, failure, judge, words};
+use super::judge::{failure, judge, words};
 use super::{InText, Line, lock};
 use crate::cli::status::Error;
+use crate::cli::table::Point;
 use jurist_algebra::limits::{Budget, parallel_map};
 use jurist_algebra::number::Rational;
 use jurist_engine::model::ClaimKind;

@@ -1,8 +1,7 @@
-//! Tables of operating points: CSV, names in the head, values below.
+//! Tables of numbers: CSV, names in the head, values below.
 
-use super::judge::Point;
-use crate::cli::status::Error;
-use jurist_algebra::number::parse_number;
+use super::status::Error;
+use jurist_algebra::number::{Rational, parse_number};
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Source, Span};
 use jurist_engine::model::{Model, nearest_name};
 use std::sync::Arc;
@@ -10,18 +9,21 @@ use std::sync::Arc;
 /// More rows are refused.
 const MOST_ROWS: usize = 1_000_000;
 
-/// A table of values of parameters and constants.
+/// Values by name.
+pub(in crate::cli) type Point = Vec<(String, Rational)>;
+
+/// A table of numbers.
 #[derive(Clone, Debug)]
-pub(in crate::cli) struct Cases {
-    names: Vec<(String, Span)>,
+pub(in crate::cli) struct Table {
+    pub names: Vec<(String, Span)>,
     pub points: Vec<Point>,
-    source: Arc<Source>,
+    pub source: Arc<Source>,
 }
 
-impl Cases {
+impl Table {
     /// Reads a table: cells are parted by commas or semicolons, may be in double quotes, and are numbers as in a model. Empty lines and lines that
     /// begin with `#` are left out.
-    pub fn read(source: &Arc<Source>) -> Result<Cases, Error> {
+    pub fn read(source: &Arc<Source>) -> Result<Table, Error> {
         let text = source.text.strip_prefix('\u{feff}').unwrap_or(&source.text);
         let skipped = source.text.len() - text.len();
         let mut start = skipped;
@@ -60,11 +62,11 @@ impl Cases {
             errors.push(Diagnostic::error(Code::TooLarge, format!("the table has more than {MOST_ROWS} rows")));
         }
         if points.is_empty() && errors.is_empty() {
-            let error = Diagnostic::error(Code::Missing, "the table has no operating point");
-            errors.push(error.help("a head with names, and below it a row of numbers for each point"));
+            let error = Diagnostic::error(Code::Missing, "the table has no row of numbers");
+            errors.push(error.help("a head with names, and below it rows of numbers"));
         }
         match errors.is_empty() {
-            true => Ok(Cases { names, points, source: Arc::clone(source) }),
+            true => Ok(Table { names, points, source: Arc::clone(source) }),
             false => Err(Diagnostics::new(Some(Arc::clone(source)), errors).into()),
         }
     }
@@ -143,7 +145,7 @@ mod tests {
             "L,R\n1e-3,1/2\n2e-3,3\n",
             "\u{feff}\"L\"; R\r\n# none\r\n1e-3; 1/2\r\n\r\n2e-3;\"3\"\r\n",
         ] {
-            let cases = Cases::read(&Source::new("cases.csv", text)).unwrap();
+            let cases = Table::read(&Source::new("cases.csv", text)).unwrap();
             let shown: Vec<String> = cases
                 .points
                 .iter()
@@ -162,7 +164,7 @@ mod tests {
             ("L,R\n", Code::Missing, ""),
             ("", Code::Missing, ""),
         ] {
-            let Err(Error::Refused(refused)) = Cases::read(&Source::new("cases.csv", text)) else { panic!("{text}") };
+            let Err(Error::Refused(refused)) = Table::read(&Source::new("cases.csv", text)) else { panic!("{text}") };
             let first = &refused.diagnostics()[0];
             assert_eq!(first.code, code, "{text}");
             let at = first.primary.as_ref().map_or("", |l| &text[l.span.start..l.span.end]);
