@@ -605,7 +605,7 @@ class Model:
 
     def __init__(self, text):
         need(len(text) <= MAX_MODEL, "the model is too long")
-        keys = "title time sample_time constants parameters loop block simulation expect"  # what is expected changes nothing of the loop
+        keys = "title time sample_time constants parameters loop block simulation require expect"  # what is required or expected changes nothing of the loop
         self.root = table(parsed(text.removeprefix("\ufeff")), keys)
         need(not any(match["number"] for match in NOT_DECIMAL.finditer(text)), "a number is not decimal")
         text_of(self.root.get("title", ""))

@@ -3,9 +3,9 @@
 use super::number::shorten;
 use super::toml::Toml;
 
-// What is expected of the loop changes nothing of it, and is not read.
-const ROOT: [&str; 9] =
-    ["title", "time", "sample_time", "constants", "parameters", "loop", "block", "simulation", "expect"];
+// What is required or expected of the loop changes nothing of it, and is not read: what is proved is stability.
+const ROOT: [&str; 10] =
+    ["title", "time", "sample_time", "constants", "parameters", "loop", "block", "simulation", "require", "expect"];
 const PARAMETER: [&str; 8] = ["nominal", "min", "max", "closed", "domain", "unit", "description", "tolerance"];
 const CONSTANT: [&str; 4] = ["value", "unit", "description", "tolerance"];
 const LOOP: [&str; 10] = ["characteristic", "matrix", "A", "B", "C", "K", "states", "inputs", "E", "outputs"];
