@@ -605,7 +605,7 @@ class Model:
 
     def __init__(self, text):
         need(len(text) <= MAX_MODEL, "the model is too long")
-        keys = "title time sample_time constants parameters loop block simulation expect ship"  # the last two change nothing of the loop
+        keys = "title time sample_time constants parameters loop block simulation require expect ship"  # the last three change nothing of the loop
         self.root = table(parsed(text.removeprefix("\ufeff")), keys)
         need(not any(match["number"] for match in NOT_DECIMAL.finditer(text)), "a number is not decimal")
         text_of(self.root.get("title", ""))

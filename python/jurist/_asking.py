@@ -36,9 +36,15 @@ class Asker:
         progress: Listener | bool = False,
         digits: int = 12,
         at: str | None = None,
+        set: Mapping[str, Exact] | None = None,
         **require: Exact | None,
     ) -> dict[str, Any]:
         """The question as texts."""
+        given = dict(values or {})
+        for name, value in (set or {}).items():
+            if name in given:
+                raise TypeError(f"{name!r} has two values: in 'values' and in 'set'")
+            given[name] = value
         if domain is None:
             domains: Mapping[str, Bounds] = {}
         elif isinstance(domain, Mapping):
@@ -54,7 +60,7 @@ class Asker:
             raise TypeError(f"unexpected keyword argument {unknown[0]!r}")
         required = [(name, requirement_text(require[name])) for name in REQUIREMENTS if require.get(name) is not None]
         return {
-            "values": [(str(name), text_of(value)) for name, value in (values or {}).items()],
+            "values": [(str(name), text_of(value)) for name, value in given.items()],
             "domains": [(str(name), bound(low), bound(high)) for name, (low, high) in domains.items()],
             "radius": bound(radius),
             "decay": bound(decay),

@@ -42,6 +42,8 @@ def siso_coefficients(system: Any) -> tuple[list[Any], list[Any]]:
 
 def _time(system: Any, time: str | None) -> tuple[str, Any]:
     """The kind of time, and the sample time if it is a number."""
+    if not all(hasattr(system, part) for part in ("num", "den")) and not all(hasattr(system, part) for part in "ABCD"):
+        raise TypeError(f"{type(system).__name__} has no coefficients: give a transfer function or a system in state space")
     dt = getattr(system, "dt", 0)
     if dt is None:
         # SciPy's continuous systems have no sample time; python-control's None says that nobody knows.
@@ -74,7 +76,7 @@ def from_control(
     Parameters
     ----------
     sys : TransferFunction or StateSpace
-        With ``gain``, the open loop ``L``: negative feedback is closed around ``gain * L``, one input and one output. Without,
+        With ``gain``, the open loop ``L``, not one that is closed already: negative feedback is closed around ``gain * L``, one input and one output. Without,
         the system itself: its own poles are asked about. State-space matrices are taken as they are.
     gain : str, optional
         The name of the gain; a parameter with the nominal value 1 and values above 0.

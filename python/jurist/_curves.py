@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ._answers import Document, PointVerdict
 from ._exact import Exact, fraction
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 
 class Map(Document):
@@ -53,7 +56,7 @@ class Map(Document):
         assert self._loop is not None
         return self._loop.verdict({**self.point, self.x: x, self.y: y}, **self._loop._region_by(self._words))
 
-    def plot(self, ax: Any = None, *, x: Any = None, y: Any = None, columns: int = 160, **kw: Any) -> Any:
+    def plot(self, ax: Axes | None = None, *, x: Any = None, y: Any = None, columns: int = 160, **kw: Any) -> Axes:
         """Draws the stable region; every column of the picture is decided exactly.
 
         Parameters
@@ -172,7 +175,7 @@ class Locus(Document):
         """Where roots cross the boundary: the parameter, the points, and what a picture says there."""
         return tuple(self._document["crossings"])
 
-    def plot(self, ax: Any = None, *, grid: bool = True, **kw: Any) -> Any:
+    def plot(self, ax: Axes | None = None, *, grid: bool = True, **kw: Any) -> Axes:
         """Draws the branches, the boundary and the crossings on it; returns the Axes."""
         from ._plot import plot_locus
 
@@ -228,8 +231,8 @@ class Simulation(Document):
         values = numpy.array([self[name] for name in self.names])
         return control.TimeResponseData(self.time, values, output_labels=self.names, title=self.title, issiso=False)
 
-    def plot(self, ax: Any = None, *, signals: list[str] | None = None, **kw: Any) -> Any:
-        """Draws signals over time; returns the Axes."""
+    def plot(self, ax: Axes | None = None, *, signals: list[str] | None = None, **kw: Any) -> Axes:
+        """Draws signals over time, the loop's outputs where none are named; returns the Axes."""
         from ._plot import plot_simulation
 
         return plot_simulation(self, ax, signals, kw)

@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 from . import _jurist
 from ._errors import JuristWarning
-from ._exact import Floats, fraction
+from ._exact import Exact, Floats, fraction, text_of
 from ._question import Parameter, number_text, plain, warn
 from ._responses import ResponseQuestions
 from ._stability import StabilityQuestions
@@ -18,7 +18,7 @@ from ._stability import StabilityQuestions
 class Loop(StabilityQuestions, ResponseQuestions):
     """A control loop, and the questions about it. It is never changed.
 
-    Loops are read (`from_file`, `from_toml`), built (`LoopBuilder`, `characteristic`), or taken from other libraries
+    Loops are read (`from_line`, `from_file`, `from_toml`), built (`LoopBuilder`, `characteristic`), or taken from other libraries
     (`from_control`, `from_sympy`). All questions take ``values`` of parameters and constants, and the keywords of `intervals`.
 
     Examples
@@ -34,7 +34,7 @@ class Loop(StabilityQuestions, ResponseQuestions):
     __slots__ = ()
 
     def __init__(self) -> None:
-        raise TypeError("use Loop.from_file, Loop.from_toml, Loop.characteristic, LoopBuilder, from_control or from_sympy")
+        raise TypeError("use Loop.from_line, Loop.from_file, Loop.from_toml, Loop.characteristic, LoopBuilder, from_control or from_sympy")
 
     @classmethod
     def _read(cls, name: str, content: bytes, said: str | None = None, folder: str | None = None) -> Loop:
@@ -64,6 +64,41 @@ class Loop(StabilityQuestions, ResponseQuestions):
         <StableSet K: (0, 2)>
         """
         return cls._read(name, text.encode())
+
+    @classmethod
+    def from_line(cls, line: str, *, hold: Exact | None = None, delay: Exact | None = None) -> Loop:
+        """A loop in one line.
+
+        Parameters
+        ----------
+        line : str
+            The transfer function of an open loop, which is closed with unity negative feedback, or a characteristic polynomial. Every
+            name is a parameter without a value; products need no operator.
+        hold : exact number or expression, optional
+            The sample time of a zero-order hold in front of the plant.
+        delay : exact number or expression, optional
+            Dead time of the plant, in units of time.
+
+        Raises
+        ------
+        ModelError
+            Where the line is no loop, or can be read in two ways.
+
+        Examples
+        --------
+        >>> import jurist
+        >>> jurist.Loop.from_line("K*10/(s*(s+1)*(s+2))").intervals("K")
+        <StableSet K: (0, 0.6)>
+        >>> jurist.Loop.from_line("K/(s(s+1))", hold=1).intervals("K")
+        <StableSet K: (0, 2.39221119118)>
+        >>> jurist.Loop.from_line("z^2 + z + 1/2").verdict()
+        <PointVerdict stable: 2 inside>
+        """
+        times = {name: None if time is None else time if isinstance(time, str) else text_of(time) for name, time in (("hold", hold), ("delay", delay))}
+        core, remarks = _jurist.Model.from_line(line, **times)
+        warn(remarks)
+        words = "".join(f", {name}={time!r}" for name, time in times.items() if time is not None)
+        return cls._of(core, f"Loop.from_line({line!r}{words})")
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> Loop:

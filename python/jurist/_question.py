@@ -20,8 +20,9 @@ Listener = Callable[[str, "float | None"], None]
 
 
 class Waiting(TypedDict, total=False):
-    """How long a question may take, who is told how far it is, and how many digits decimals have."""
+    """Values, how long a question may take, who is told how far it is, and how many digits decimals have."""
 
+    set: Mapping[str, Exact] | None
     timeout: float | None
     progress: Listener | bool
     digits: int

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 from ._answers import Document
 from ._margins import Margins
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 
 class FrequencyResponse(Document):
@@ -67,13 +71,13 @@ class Bode(FrequencyResponse):
 
     __slots__ = ()
 
-    def plot(self, ax: Any = None, *, exact: bool = True, **kw: Any) -> Any:
-        """Draws modulus and phase, one above the other.
+    def plot(self, ax: Axes | Sequence[Axes] | None = None, *, exact: bool = True, **kw: Any) -> tuple[Axes, Axes]:
+        """Draws magnitude and phase, one above the other; the title names the margins.
 
         Parameters
         ----------
-        ax : pair of matplotlib Axes, optional
-            Where; two new ones in the current figure if not given.
+        ax : pair of matplotlib Axes, or one, optional
+            Where: two, or the place of one, which is divided; two new ones in the current figure if not given.
         exact : bool
             Marks the exact crossings.
         **kw
@@ -93,7 +97,7 @@ class Nyquist(FrequencyResponse):
 
     __slots__ = ()
 
-    def plot(self, ax: Any = None, *, exact: bool = True, **kw: Any) -> Any:
+    def plot(self, ax: Axes | None = None, *, exact: bool = True, **kw: Any) -> Axes:
         """Draws the curve and its mirror image, the unit circle and -1; marks the exact crossings; returns the Axes."""
         from ._plot_response import plot_nyquist
 

@@ -41,14 +41,14 @@ class ResponseQuestions(Asker):
         Parameters
         ----------
         at : str, optional
-            Where the loop is cut: a signal, a block (at its input), or a parameter (the loop's gain). By default the error of a
-            single loop.
+            Where the loop is cut: a signal, a block (at its input), or a parameter (the loop's gain). By default where the
+            model's ``[require]`` says, else the error of a single loop.
         values : mapping, optional
             Of parameters and constants.
         skew : exact number
             Of the disk margin; 0 is the balanced disk.
         **question
-            ``timeout``, ``progress`` and ``digits``; see `intervals`.
+            ``set``, ``timeout``, ``progress`` and ``digits``; see `intervals`.
 
         Returns
         -------
@@ -127,7 +127,12 @@ class ResponseQuestions(Asker):
         return roots_of(self._document(self._words("roots", asked), asked))
 
     def bode(
-        self, at: str | None = None, values: Mapping[str, Exact] | None = None, *, timeout: float | None = None
+        self,
+        at: str | None = None,
+        values: Mapping[str, Exact] | None = None,
+        *,
+        set: Mapping[str, Exact] | None = None,
+        timeout: float | None = None,
     ) -> Bode:
         """Magnitude and phase of the loop cut at a signal over frequency, with the exact crossings on them.
 
@@ -136,26 +141,30 @@ class ResponseQuestions(Asker):
         at : str, optional
             Where the loop is cut; see `margins`.
         values : mapping, optional
+        set : mapping, optional
+            Values, under the name that the program's option has.
         timeout : float, optional
         """
         from ._response import Bode
 
-        text, words = self._curve("bode", at, values, timeout)
+        text, words = self._curve("bode", at, self._asked(values, set=set, timeout=timeout))
         return Bode(text, self._itself, words)
 
     def nyquist(
-        self, at: str | None = None, values: Mapping[str, Exact] | None = None, *, timeout: float | None = None
+        self,
+        at: str | None = None,
+        values: Mapping[str, Exact] | None = None,
+        *,
+        set: Mapping[str, Exact] | None = None,
+        timeout: float | None = None,
     ) -> Nyquist:
         """The curve of the loop cut at a signal around -1, with the exact crossings on it; parameters as for `bode`."""
         from ._response import Nyquist
 
-        text, words = self._curve("nyquist", at, values, timeout)
+        text, words = self._curve("nyquist", at, self._asked(values, set=set, timeout=timeout))
         return Nyquist(text, self._itself, words)
 
-    def _curve(
-        self, command: str, at: str | None, values: Mapping[str, Exact] | None, timeout: float | None
-    ) -> tuple[str, tuple[str, ...]]:
-        asked = self._asked(values, timeout=timeout)
+    def _curve(self, command: str, at: str | None, asked: dict[str, Any]) -> tuple[str, tuple[str, ...]]:
         words = self._words(command, asked) + ([] if at is None else [f"--at={at}"])
         return self._command([*words, "--json"], asked)[0], tuple(words)
 
@@ -166,6 +175,7 @@ class ResponseQuestions(Asker):
         *,
         range: tuple[Exact, Exact] | None = None,
         log: bool = False,
+        set: Mapping[str, Exact] | None = None,
         timeout: float | None = None,
     ) -> Locus:
         """The root locus of any parameter, with the exact crossings of the boundary.
@@ -178,9 +188,11 @@ class ResponseQuestions(Asker):
             Around the stable set and the nominal value, if not given.
         log : bool
             Lets the parameter run evenly in its logarithm.
+        set : mapping, optional
+            Values, under the name that the program's option has.
         timeout : float, optional
         """
-        asked = self._asked(values, timeout=timeout)
+        asked = self._asked(values, set=set, timeout=timeout)
         words = [*self._words("locus", asked), "--param", parameter]
         if range is not None:
             words.append(f"--range={text_of(range[0])}..{text_of(range[1])}")
@@ -195,6 +207,7 @@ class ResponseQuestions(Asker):
         initial: Mapping[str, Exact] | None = None,
         duration: Exact | None = None,
         switched: bool = False,
+        set: Mapping[str, Exact] | None = None,
         timeout: float | None = None,
     ) -> Simulation:
         """A time response, in floating point.
@@ -210,9 +223,11 @@ class ResponseQuestions(Asker):
             In seconds, or in samples without a sample time.
         switched : bool
             Simulates the circuit with its switches, for blocks with ``pwm``.
+        set : mapping, optional
+            Values, under the name that the program's option has.
         timeout : float, optional
         """
-        asked = self._asked(values, timeout=timeout)
+        asked = self._asked(values, set=set, timeout=timeout)
         words = self._words("simulate", asked)
         for name, value in (inputs or {}).items():
             at = f"@{text_of(value[1])}" if isinstance(value, tuple) else ""
@@ -228,6 +243,8 @@ class ResponseQuestions(Asker):
         values: Mapping[str, Exact] | None = None,
         *,
         domain: Mapping[str, Bounds] | None = None,
+        at: str | None = None,
+        set: Mapping[str, Exact] | None = None,
         timeout: float | None = None,
     ) -> Report:
         """One page about this loop: verdict, limits and causes, margins, what moves them, the worst corner, figures.
@@ -237,6 +254,10 @@ class ResponseQuestions(Asker):
         values : mapping, optional
         domain : mapping from names to pairs, optional
             Replaces the domains of parameters by open ones.
+        at : str, optional
+            Where the loop is cut for margins and the Bode diagram; see `margins`.
+        set : mapping, optional
+            Values, under the name that the program's option has.
         timeout : float, optional
 
         Examples
@@ -248,8 +269,9 @@ class ResponseQuestions(Asker):
         """
         from ._report import Report
 
-        asked = self._asked(values, domain=domain, timeout=timeout)
-        page = self._command([*self._words("report", asked), "-o", "-"], asked)[0]
+        asked = self._asked(values, domain=domain, set=set, timeout=timeout)
+        words = [*self._words("report", asked), *([] if at is None else [f"--at={at}"]), "-o", "-"]
+        page = self._command(words, asked)[0]
         return Report(page, self._itself.title or self._itself.name)
 
     def to_control(self, input: str, output: str, values: Mapping[str, Exact] | None = None) -> Any:

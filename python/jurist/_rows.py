@@ -114,13 +114,20 @@ def arrow_schema(parameters: Iterable[str]) -> Any:
     def side(name: str) -> list[tuple[str, Any]]:
         texts = [(f"{name}_{part}", pa.string()) for part in ("decimal", "exact")]
         lists = [(f"{name}_{part}", pa.list_(pa.string())) for part in ("polynomial", "enclosure", "causes")]
-        return [(name, pa.float64()), *texts, *lists, (f"{name}_hz", pa.float64())]
+        return [(name, pa.float64()), *texts, *lists, (f"{name}_closed", pa.bool_()), (f"{name}_hz", pa.float64())]
 
     counts = [(name, pa.int32()) for name in ("degree", "inside", "on", "outside", "infinite")]
     columns = [("key", pa.string()), ("model", pa.string()), *((f"p.{n}", pa.string()) for n in sorted(parameters))]
     columns += [("parameter", pa.string()), ("interval", pa.int32()), *side("lower"), *side("upper")]
     columns += [("verdict", pa.string()), *counts, *((n, pa.string()) for n in ("status", "code", "message"))]
     return pa.schema(columns, metadata={"schema": SCHEMA, "engine": _jurist.__version__})
+
+
+def _cell(value: Any) -> Any:
+    """A value as the program writes it in a table."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    return "+".join(value) if isinstance(value, list) else value
 
 
 def _order(row: Mapping[str, Any]) -> tuple[Any, ...]:
@@ -199,7 +206,7 @@ class SweepResult:
                 writer = csv.DictWriter(file, names, restval="")
                 writer.writeheader()
                 for row in self.rows:
-                    writer.writerow({k: "+".join(v) if isinstance(v, list) else v for k, v in row.items()})
+                    writer.writerow({name: _cell(value) for name, value in row.items()})
         elif target.suffix == ".arrow":
             with pa.OSFile(str(beside), "wb") as sink, pa.ipc.new_file(sink, arrow_schema(self.names)) as writer:
                 writer.write_table(self.table())

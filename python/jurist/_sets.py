@@ -15,6 +15,8 @@ from ._narrow import Narrower, OfAnswer
 from ._real import Real
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
     from . import _jurist
     from ._loop import Loop
 
@@ -369,7 +371,7 @@ class StableSet(Sequence[Interval]):
         schema = pyarrow.schema([(name, kinds.get(name, pyarrow.float64())) for name in names])
         return pyarrow.Table.from_pylist(self.rows(), schema=schema).__arrow_c_stream__(requested_schema)
 
-    def plot(self, ax: Any = None, *, scale: Literal["auto", "linear", "log"] = "auto", **kw: Any) -> Any:
+    def plot(self, ax: Axes | None = None, *, scale: Literal["auto", "linear", "log"] = "auto", **kw: Any) -> Axes:
         """Draws the set on a number line.
 
         Parameters

@@ -49,6 +49,8 @@ class StabilityQuestions(Asker):
         **question
             What every question takes:
 
+            ``set`` : mapping
+                Values, under the name that the program's option has.
             ``radius``, ``decay`` : exact number
                 Asks for all ``|z| < radius`` (discrete time), or all ``Re s < -decay`` (continuous time).
             ``phase_margin``, ``gain_margin``, and every other requirement : number or str

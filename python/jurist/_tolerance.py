@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ._answers import Document
 from ._exact import fraction
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 
 class Factor(NamedTuple):
@@ -93,7 +96,7 @@ class Tolerance(Document):
         found = self._document.get("volume")
         return None if found is None else {name: fraction(found[name]) for name in ("stable", "unstable", "undecided")}
 
-    def plot(self, ax: Any = None, **kw: Any) -> Any:
+    def plot(self, ax: Axes | None = None, **kw: Any) -> Axes:
         """Draws how much of the margin each tolerance uses, as bars; returns the Axes."""
         from ._plot import plot_shares
 

@@ -40,6 +40,24 @@ impl Model {
         Ok((Model(Arc::new(model)), remarks))
     }
 
+    /// The model that a loop in one line means.
+    #[staticmethod]
+    #[pyo3(signature = (line, hold = None, delay = None))]
+    fn from_line(
+        py: Python<'_>,
+        line: String,
+        hold: Option<String>,
+        delay: Option<String>,
+    ) -> PyResult<(Model, Warnings)> {
+        let read = move |_: &Budget| {
+            Ok(jurist::LoopLine::read(&line, hold.as_deref(), delay.as_deref()).and_then(|line| line.model())?)
+        };
+        let (model, remarks) =
+            waited(py, &Patience::unlimited(), read)?.map_err(|e| raised(py, e, About::Model, None))?;
+        let remarks = warnings(&remarks, Some(model.source()));
+        Ok((Model(Arc::new(model)), remarks))
+    }
+
     /// The built-in drive.
     #[staticmethod]
     fn drive() -> Model {

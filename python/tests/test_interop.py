@@ -198,3 +198,8 @@ def test_a_builder_takes_formulas_and_closed_domains():
     assert Fraction(1, 2) in stable
     assert 1 in stable
     assert (~stable).intervals == ()
+
+
+def test_a_response_without_coefficients_is_refused_in_words():
+    with pytest.raises(TypeError, match="FrequencyResponseData has no coefficients"):
+        jurist.from_control(ct.frd([1, 2], [1, 2]), gain="k")

@@ -49,8 +49,12 @@ def test_boxes_are_drawn_as_they_were_proved(ax):
     m = loop.map("a", "b", method="boxes", window={"a": (-3, 3), "b": (-2, 2)}, undecided="0.05")
     assert not m.is_exact
     m.plot(ax)
-    area = sum(p.get_width() * p.get_height() for p in ax.patches)
-    assert 4 - 24 * 0.05 <= area <= 4
+    def area(label):
+        words = [text.get_text() for text in ax.get_legend().get_texts()]
+        looks = ax.get_legend().get_patches()[words.index(label)].get_facecolor()
+        return sum(p.get_width() * p.get_height() for p in ax.patches if p.get_facecolor() == looks)
+
+    assert 4 - 24 * 0.05 <= area("stable") <= 4 <= area("stable") + area("undecided")
 
 
 def test_a_locus_has_its_crossings_on_the_boundary(ax, drive):
@@ -68,3 +72,63 @@ def test_a_response_is_drawn_signal_by_signal(ax, drive):
     r.plot(ax, signals=["omega"])
     assert len(ax.lines) == 1
     assert ax.get_xlabel() == "time (s)"
+    ax.clear()
+    r.plot(ax)
+    assert [line.get_label().split(" ")[0] for line in ax.lines] == [name for name in r.names if name in drive.outputs]
+
+
+def test_states_are_drawn_where_they_are_named_only(ax):
+    """The states of a plant may be much larger than its output."""
+    builder = jurist.LoopBuilder("continuous").block("plant", "r - y", "y", "1/(s^2 + s)")
+    r = builder.build(inputs=["r"], outputs=["y"]).simulate(duration="5")
+    assert len(r.names) > 1
+    r.plot(ax)
+    assert [line.get_label() for line in ax.lines] == ["y"]
+    r.plot(ax, signals=r.names)
+    assert len(ax.lines) == 1 + len(r.names)
+
+
+def test_a_map_shows_the_limits_around_the_nominal_point(ax, drive):
+    m = drive.map("T", "K_pwm")
+    m.plot(ax, columns=20)
+    (left, right), (bottom, top) = ax.get_xlim(), ax.get_ylim()
+    lower, upper = (float(end) for end in drive.intervals("K_pwm")[0])
+    assert bottom < lower < 110 < upper < top
+    assert left < 1e-4 < float(drive.intervals("T")[0].upper) < right
+    assert ax.get_yscale() == "log"
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["stable", "nominal"]
+    assert ax.get_title() == drive.title
+
+
+def test_a_title_that_is_there_stays(ax, drive):
+    ax.set_title("mine")
+    drive.intervals("T").plot(ax)
+    assert ax.get_title() == "mine"
+
+
+@pytest.fixture
+def third():
+    """A gain margin of 8 at sqrt(3) rad/s; stable."""
+    return jurist.Loop.from_line("K/(s+1)^3")
+
+
+def test_bode_takes_two_axes_one_or_none_and_names_the_margins(ax, third):
+    response = third.bode(set={"K": 2})
+    upper, lower = response.plot(ax)
+    assert upper is not ax and lower is not ax and upper.figure is ax.figure
+    assert "gain margin 12.04 dB at 0.2757 Hz" in upper.get_title()
+    assert any(text.get_text() == "gain margin 4" for text in upper.texts)
+    assert any(text.get_text().startswith("phase margin") for text in lower.texts)
+    figure, pair = plt.subplots(2, 1)
+    assert response.plot(pair) == tuple(pair)
+    plt.close(figure)
+    figure = plt.figure()
+    assert len(response.plot()) == 2
+    plt.close(figure)
+    assert "not stable" in third.bode(set={"K": 9}).plot(ax)[0].get_title()
+
+
+def test_nyquist_names_the_margins(ax, third):
+    third.nyquist(set={"K": 6}).plot(ax)
+    assert "phase margin" in ax.get_title()
+    assert any(text.get_text().startswith("gain margin") for text in ax.texts)

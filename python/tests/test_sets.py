@@ -1,6 +1,7 @@
 """Set operations, against membership as the oracle."""
 
 import math
+import pickle
 from fractions import Fraction
 
 import jurist
@@ -138,3 +139,17 @@ def test_ends_of_a_derived_set_are_as_those_of_a_document():
     assert document["lower"]["polynomial"] == ["-2", "0", "1"]
     assert document["lower"]["closed"] is True
     assert document["lower"]["cause"] == "s=0"
+
+
+def test_a_line_is_a_loop_and_values_go_by_the_word_of_the_program(drive):
+    assert str(jurist.Loop.from_line("K/(s(s+1))", hold="T").intervals("K", set={"T": 1})) == "(0, 2.39221119118)"
+    assert str(jurist.Loop.from_line("K/(s+1)", delay=1).intervals("K")) == "(-1, 2.26182633411)"
+    assert repr(jurist.Loop.from_line("K/(s+1)", hold="1/2")) == "Loop.from_line('K/(s+1)', hold='1/2')"
+    assert pickle.loads(pickle.dumps(jurist.Loop.from_line("z^2 + z + K"))) == jurist.Loop.from_line("z^2 + z + K")
+    with pytest.raises(jurist.ModelError, match="two ways"):
+        jurist.Loop.from_line("K/s(s+1)")
+    assert drive.intervals("T", set={"K_pwm": 200}) == drive.intervals("T", {"K_pwm": 200})
+    assert drive.bode(set={"K_pwm": 200}).to_dict() == drive.bode(values={"K_pwm": 200}).to_dict()
+    with pytest.raises(TypeError, match="two values"):
+        drive.verdict({"T": "1e-4"}, set={"T": "2e-4"})
+    assert not {"Any", "os", "annotations"} & set(dir(jurist))

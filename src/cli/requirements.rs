@@ -2,7 +2,7 @@
 
 use super::arguments::RegionOptions;
 use super::commands::Context;
-use clap::{Arg, ArgMatches, Args, Command, FromArgMatches};
+use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 use jurist_engine::error::{Code, Diagnostic, Error};
 use jurist_engine::model::Model;
 use jurist_engine::problem::Question;
@@ -14,6 +14,18 @@ use std::sync::LazyLock;
 pub(super) struct RequirementOptions {
     /// Keys of `[require]` with what is given for them.
     given: Vec<(&'static str, String)>,
+    /// Whether the model's `[require]` is left out.
+    alone: bool,
+}
+
+/// The option that leaves out what the model requires.
+const ALONE: &str = "no-require";
+
+fn alone() -> Arg {
+    Arg::new(ALONE)
+        .long(ALONE)
+        .action(ArgAction::SetTrue)
+        .help("Leaves out the model's [require]: stability alone is asked for")
 }
 
 /// The key that says where the loop is cut.
@@ -37,7 +49,7 @@ static OPTIONS: LazyLock<Vec<(&str, Arg)>> = LazyLock::new(|| {
 
 impl Args for RequirementOptions {
     fn augment_args(command: Command) -> Command {
-        command.args(OPTIONS.iter().map(|(_, option)| option))
+        command.args(OPTIONS.iter().map(|(_, option)| option)).arg(alone())
     }
 
     fn augment_args_for_update(command: Command) -> Command {
@@ -48,7 +60,7 @@ impl Args for RequirementOptions {
 impl FromArgMatches for RequirementOptions {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
         let given = OPTIONS.iter().filter_map(|(key, _)| Some((*key, matches.get_one::<String>(key)?.clone())));
-        Ok(RequirementOptions { given: given.collect() })
+        Ok(RequirementOptions { given: given.collect(), alone: matches.get_flag(ALONE) })
     }
 
     fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
@@ -79,11 +91,14 @@ impl RequirementOptions {
             self.given.iter().map(|(name, text)| (*name, text.as_str())).chain(own).collect();
         // A region alone is the question's own.
         let asks = further.iter().any(|(name, _)| !["decay", "radius"].contains(name));
-        if !asks && model.require().is_empty() {
+        if !asks && (self.alone || model.require().is_empty()) {
             return Ok((Requirements::default(), question));
         }
         let values = question.clone().problem()?.set().to_vec();
-        let mut asked = model.requirements(&further, &values, &context.budget)?;
+        let mut asked = match self.alone {
+            true => model.further_requirements(&further, &values, &context.budget)?,
+            false => model.requirements(&further, &values, &context.budget)?,
+        };
         // A region that the command line gives is the question's own.
         asked.regional.retain(|(name, _)| match name.as_str() {
             "decay" => region.decay.is_none(),
@@ -130,12 +145,12 @@ impl RequirementOptions {
 }
 
 /// That nothing proves requirements yet.
-pub(super) fn refuse_proofs(model: &Model, asked: &Requirements, any_proof: bool) -> Result<(), Error> {
-    if !any_proof || (asked.list.is_empty() && model.require().is_empty()) {
+pub(super) fn refuse_proofs(asked: &Requirements, any_proof: bool) -> Result<(), Error> {
+    if !any_proof || (asked.list.is_empty() && asked.regional.is_empty()) {
         return Ok(());
     }
     let error = Diagnostic::error(Code::Require, "an answer with requirements has no certificate and no proof yet");
-    Err(error.help("leave out the requirements, or the certificate").into())
+    Err(error.help("'--no-require' leaves out those of the model: then the certificate is of stability alone").into())
 }
 
 /// Warns that a command does not look at the model's requirements.

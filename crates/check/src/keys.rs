@@ -3,9 +3,20 @@
 use super::number::shorten;
 use super::toml::Toml;
 
-// What is expected of the loop, and how its controller is stored, change nothing of it and are not read.
-const ROOT: [&str; 10] =
-    ["title", "time", "sample_time", "constants", "parameters", "loop", "block", "simulation", "expect", "ship"];
+// What is required or expected of the loop, and how its controller is stored, change nothing of it and are not read: what is proved is stability.
+const ROOT: [&str; 11] = [
+    "title",
+    "time",
+    "sample_time",
+    "constants",
+    "parameters",
+    "loop",
+    "block",
+    "simulation",
+    "require",
+    "expect",
+    "ship",
+];
 const PARAMETER: [&str; 8] = ["nominal", "min", "max", "closed", "domain", "unit", "description", "tolerance"];
 const CONSTANT: [&str; 4] = ["value", "unit", "description", "tolerance"];
 const LOOP: [&str; 10] = ["characteristic", "matrix", "A", "B", "C", "K", "states", "inputs", "E", "outputs"];

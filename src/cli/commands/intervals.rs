@@ -74,7 +74,7 @@ fn run(options: &Options, context: &Context) -> Outcome {
     let digits = output.digits() as usize;
     let (asked, question) = options.require.asked(&model, question.free(&name), &options.decision.region, context)?;
     let any_proof = options.certificate.is_some() || options.smt2.is_some() || options.coq.is_some();
-    refuse_proofs(&model, &asked, any_proof)?;
+    refuse_proofs(&asked, any_proof)?;
     let problem = question.problem()?;
     let requirements = asked.list;
     let question = requirements.iter().fold(Asked::Intervals, |asked, r| asked.with_requirement(r, problem.time()));

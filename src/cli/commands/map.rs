@@ -129,7 +129,7 @@ fn run(options: &Options, context: &Context) -> Outcome {
         return map_body::run(z, options, &requests, picture, (&model, question), context);
     }
     let (asked, question) = options.require.asked_each(&model, question, &options.region, context)?;
-    refuse_proofs(&model, &asked, options.certificate.is_some())?;
+    refuse_proofs(&asked, options.certificate.is_some())?;
     let boxes = options.method.request(&requests, context)?;
     let mut method = options.method.method_for(&asked)?;
     let problem = question.plane_problem()?;

@@ -91,7 +91,7 @@ fn run(options: &Options, context: &Context) -> Outcome {
     let model = load(options.decision.model.model.as_ref(), &options.decision.model.line, context)?;
     let question = question(context, &model, &options.decision.model, &options.decision.region)?;
     let (asked, question) = options.require.asked(&model, question, &options.decision.region, context)?;
-    refuse_proofs(&model, &asked, options.certificate.is_some())?;
+    refuse_proofs(&asked, options.certificate.is_some())?;
     let request = request(options, &model, context)?.require(asked.list, asked.at);
     let digits = output.digits() as usize;
     let begun = Begun::new(options, picture, context);

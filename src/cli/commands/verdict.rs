@@ -52,7 +52,7 @@ fn run(options: &Options, context: &Context) -> Outcome {
     let output = &options.decision.output;
     let (model, question) = decision(&options.decision, context)?;
     let (asked, question) = options.require.asked(&model, question, &options.decision.region, context)?;
-    refuse_proofs(&model, &asked, options.certificate.is_some() || options.coq.is_some())?;
+    refuse_proofs(&asked, options.certificate.is_some() || options.coq.is_some())?;
     let problem = question.problem()?;
     let question = asked.list.iter().fold(Asked::Verdict, |asked, r| asked.with_requirement(r, problem.time()));
     context.explain(&options.decision.explain, output, &problem, question)?;

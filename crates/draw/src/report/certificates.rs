@@ -47,6 +47,11 @@ impl Commands<'_> {
     }
 }
 
+/// What leaves out the model's requirements.
+fn alone(is_required: bool) -> &'static [&'static str] {
+    if is_required { &["--no-require"] } else { &[] }
+}
+
 pub(super) fn section(
     commands: &Commands<'_>,
     verdict: &Part<Answer<PointVerdict>>,
@@ -58,6 +63,10 @@ pub(super) fn section(
         "A certificate is a file from which independent code proves an answer again: it reads the model itself and shares \
          nothing with the code that found the answer.",
     );
+    let is_required = !commands.question.model().require().is_empty();
+    if is_required {
+        html.push_str(&paragraph("These are of stability; nothing certifies what <code>[require]</code> asks for."));
+    }
     let check = request.check;
     let mut lines = Vec::new();
     let mut head = vec!["certificate", "size"];
@@ -84,7 +93,7 @@ pub(super) fn section(
         let text = parts
             .part("certificate of the verdict", Work::Units(WORK), |budget| Ok((answer.certificate(budget)?, None)));
         let file = "verdict.json".to_owned();
-        let line = commands.line("verdict", &["--certificate", &file]);
+        let line = commands.line("verdict", &[alone(is_required), &["--certificate", &file]].concat());
         add("the verdict".to_owned(), file, line, text);
     }
     let share = Work::Units(WORK / limits.len().max(1) as u64);
@@ -95,7 +104,8 @@ pub(super) fn section(
             None => Ok((answer.certificate(budget)?, None)),
         });
         let file = format!("{}.json", one.name);
-        let line = commands.line("intervals", &["--param", &one.name, "--certificate", &file]);
+        let options = ["--param", &one.name, "--certificate", &file];
+        let line = commands.line("intervals", &[alone(is_required), &options].concat());
         add(format!("all limits of {}", one.name), file, line, text);
     }
     if !table.rows.is_empty() {

@@ -79,8 +79,9 @@ pub(super) fn verdict_sentence(verdict: &Part<Answer<PointVerdict>>) -> String {
     }
 }
 
-pub(super) fn section(verdict: &Part<Answer<PointVerdict>>, limits: &[Limits]) -> String {
+pub(super) fn section(verdict: &Part<Answer<PointVerdict>>, required: &str, limits: &[Limits]) -> String {
     let mut html = paragraph(&format!("At the nominal point the loop is <b>{}</b>.", math(&verdict_sentence(verdict))));
+    html.push_str(required);
     if limits.is_empty() {
         html.push_str(&paragraph("No parameter is open, so there is no limit to ask for."));
     }

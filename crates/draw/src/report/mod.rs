@@ -7,11 +7,13 @@
 mod certificates;
 mod limit;
 mod limits;
+mod map;
 mod margins;
 mod model;
 mod part;
 mod pictures;
 mod proved;
+mod required;
 mod sensitivity;
 mod tolerance;
 
@@ -95,12 +97,13 @@ pub fn loop_report(question: &Question, request: &ReportRequest<'_>, budget: &Bu
     let required = model.require().iter().find(|r| r.name == "at").map(|r| r.text.as_str());
     let at = request.at.or(required);
     let (limits, margins) = join(|| limits::find(question, &parts), || margins::find(&problem, at, &parts));
+    let required = required::find(question, &problem, at, &parts);
     let commands = Commands { file: request.file, question };
     // Parts that need nothing of each other, side by side.
     type Made<'p> = Box<dyn Fn() -> String + Sync + Send + 'p>;
     let sections: Vec<(&'static str, &'static str, Made<'_>)> = vec![
         ("model", "The model", Box::new(|| model::section(question))),
-        ("limits", "Verdict and limits", Box::new(|| limits::section(&verdict, &limits))),
+        ("limits", "Verdict and limits", Box::new(|| limits::section(&verdict, &required::html(&required), &limits))),
         ("margins", "Margins of the loop", Box::new(|| margins::section(&margins, &parts))),
         (
             "sensitivity",
@@ -111,7 +114,7 @@ pub fn loop_report(question: &Question, request: &ReportRequest<'_>, budget: &Bu
         ("locus", "Root locus", Box::new(|| pictures::locus(&limits, &parts))),
         ("bode", "Bode diagram", Box::new(|| margins::bode_section(&margins, &parts))),
         ("response", "Response", Box::new(|| pictures::response(&problem, &verdict, &parts))),
-        ("map", "Map of two parameters", Box::new(|| pictures::map(question, &limits, &parts))),
+        ("map", "Map of two parameters", Box::new(|| map::section(question, &limits, &parts))),
         (
             "certificates",
             "Certificates",
@@ -122,6 +125,7 @@ pub fn loop_report(question: &Question, request: &ReportRequest<'_>, budget: &Bu
     let sections: Vec<Section> = parallel_map(sections, |(id, heading, make)| Section { id, heading, html: make() });
     let title = format!("Stability report: {}", called(model.title()));
     let mut lead = format!("At the nominal point <b>{}</b>.", math(&limits::verdict_sentence(&verdict)));
+    lead.extend(required::sentence(&required).map(|s| format!(" {}", math(&s))));
     lead.extend(limits::nearest_sentence(&limits).map(|s| format!(" {}", math(&s))));
     lead.push_str(&proved::rules(model));
     let html = report_page(&title, &paragraph(&lead), &sections);

@@ -1,17 +1,15 @@
-//! Root locus, step response, and the map of the two parameters whose limits are nearest.
+//! Root locus and step response.
 
 use super::limits::{Limits, by_margin};
-use super::part::{Missing, Part, Parts, Work};
+use super::part::{Part, Parts, Work};
 use crate::document::SimulationAnswer;
-use crate::figures::map::{MapContents, WindowRequest, choose_windows, trace_map};
 use crate::figures::{Figure, locus_of, locus_range, response_figure};
 use crate::page::{figure, math, paragraph};
 use crate::simulate::Course;
 use jurist_algebra::limits::Budget;
 use jurist_engine::answer::{Answer, PointVerdict};
 use jurist_engine::error::{Code, Diagnostic, Error};
-use jurist_engine::problem::{Problem, Question};
-use jurist_engine::show::region::goal_or_stable;
+use jurist_engine::problem::Problem;
 use jurist_engine::stability::StableSet;
 use std::sync::Arc;
 
@@ -20,9 +18,6 @@ const WORK: Work = Work::Units(50_000_000);
 
 /// Longer responses make no better picture.
 const MOST_SAMPLES: f64 = 1e6;
-
-/// Width and height of a map.
-const MAP: (f64, f64) = (860.0, 600.0);
 
 pub(super) fn locus(limits: &[Limits], parts: &Parts<'_>) -> String {
     // A gain is what a locus is about; a time comes after.
@@ -95,37 +90,4 @@ fn draw_response(
     let run = course.run_within(problem, MOST_SAMPLES, budget)?;
     let answer = SimulationAnswer { trace: run.trace, sample_time: run.sample_time, circuit: None };
     Ok((response_figure(problem, &answer, &run.finals, verdict.value().verdict), said))
-}
-
-pub(super) fn map(question: &Question, limits: &[Limits], parts: &Parts<'_>) -> String {
-    let order = by_margin(limits);
-    let [first, second] = match order.as_slice() {
-        [first, second, ..] => [first, second].map(|a| a.problem().parameter().name.clone()),
-        [_] => {
-            return paragraph("One parameter is open: a map needs two. <code>jurist map</code> takes constants too.");
-        }
-        [] => return paragraph("No stable set of a parameter is known, so it is not clear which two would matter."),
-    };
-    let names = format!("{first} and {second}");
-    let chosen = paragraph(&math(&format!("Of {names} the limits are nearest to the nominal point.")));
-    let drawn: Part<Figure> = parts.part("map", WORK, |budget| {
-        let question = question.clone().free(&first).free(&second);
-        let answer = question.map(10, budget)?;
-        let windows = choose_windows(&answer, &[], &[WindowRequest::default(), WindowRequest::default()]);
-        let trace = trace_map(&answer, windows, budget)?;
-        Ok(MapContents::new(&answer, &trace, Vec::new(), budget)?.draw(MAP.0, MAP.1, true).figure)
-    });
-    let known = limits.iter().find_map(|l| l.set.as_ref().ok());
-    let goal = known.map_or_else(|| "stable".to_owned(), |a| goal_or_stable(a.problem()));
-    let caption = format!(
-        "Where the loop is {goal} in the plane of {names}: drawn in floating point around cells decided exactly"
-    );
-    match drawn {
-        Err(missing @ Missing::TooLong) => {
-            let help = format!("<code>jurist map -x {first} -y {second}</code> with windows decides it by boxes.");
-            chosen + &missing.html() + &paragraph(&help)
-        }
-        Err(missing) => chosen + &missing.html(),
-        Ok(drawn) => chosen + &figure("map", &drawn, &caption),
-    }
 }

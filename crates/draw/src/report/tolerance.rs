@@ -1,7 +1,7 @@
 //! The worst corner of the tolerances that stand in the model.
 
 use super::limits::PLACES;
-use super::part::{Parts, Work};
+use super::part::{Missing, Parts, Work};
 use crate::page::{Table, escaped, math, paragraph};
 use jurist_algebra::number::{parse_number, to_decimal};
 use jurist_engine::answer::{Answer, ToleranceAnswer, ToleranceRequest};
@@ -19,19 +19,31 @@ pub(super) fn section(question: &Question, parts: &Parts<'_>) -> String {
              gives one; <code>jurist tolerance --all 10%</code> asks without changing the model.",
         );
     }
-    let found = parts.part("the box of tolerances", WORK, |budget| question.clone().tolerance(&request, budget));
-    match found {
+    let ask = |request: &ToleranceRequest| {
+        parts.part("the box of tolerances", WORK, |budget| question.clone().tolerance(request, budget))
+    };
+    match ask(&request) {
+        Err(missing @ Missing::TooLong) => {
+            // The box alone may be decided where its greatest factor is long.
+            let decision =
+                ask(&request.clone().box_alone()).map(|answer| decision(&answer.text(PLACES))).unwrap_or_default();
+            let help = "<code>jurist tolerance</code> finds how far they can grow, and the worst corner.";
+            decision + &missing.html() + &paragraph(help)
+        }
         Err(missing) => missing.html(),
         Ok(answer) => of_answer(&answer),
     }
 }
 
+/// The decision, which stands below the title of the text.
+fn decision(text: &str) -> String {
+    paragraph(&format!("<b>{}</b>.", math(text.lines().nth(1).unwrap_or_default())))
+}
+
 fn of_answer(answer: &Answer<ToleranceAnswer>) -> String {
     let text = answer.text(PLACES);
     let lines: Vec<&str> = text.lines().collect();
-    // Below the title: the decision, and the witness where there is one.
-    let decision = lines.get(1).copied().unwrap_or_default();
-    let mut html = paragraph(&format!("<b>{}</b>.", math(decision)));
+    let mut html = decision(&text);
     let Tolerance { answer: Answered::Known(found), .. } = answer.json(PLACES) else { return html };
     let growth = found.factor.as_ref().map(|factor| {
         let upper = factor.upper.as_ref().map(|u| format!(", not at {}", at_least(u))).unwrap_or_default();

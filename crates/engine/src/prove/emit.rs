@@ -2,10 +2,10 @@
 
 use super::cofactors::{Identity, of_half_size_pair};
 use super::line::{Line, Separator};
+use super::refuse_transcendental;
 use super::statement::{self, about, boundary, number, object};
 use super::text::to_text;
 use super::{dead_time, gain, held};
-use super::{refuse_requirements, refuse_transcendental};
 use crate::answer::{Answer, PointVerdict};
 use crate::error::Error;
 use crate::stability::{ParametricPolynomial, Shape, StableSet};
@@ -39,7 +39,6 @@ impl Answer<StableSet> {
     /// algebraic numbers.
     pub fn certificate(&self, budget: &Budget) -> Result<String, Error> {
         budget.enter(|| {
-            refuse_requirements(self.problem())?;
             budget.step("certificate");
             let problem = self.problem();
             if let Some(delayed) = problem.delayed(budget)? {
@@ -84,7 +83,6 @@ impl Answer<PointVerdict> {
         budget.enter(|| {
             budget.step("certificate");
             let (problem, verdict) = (self.problem(), self.value());
-            refuse_requirements(problem)?;
             if let Some(delayed) = problem.delayed(budget)? {
                 return gain::of_verdict(self, delayed);
             }

@@ -31,7 +31,7 @@ fn refuse_transcendental(set: &StableSet, what: &str) -> Result<(), Error> {
     Err(NOT_ALGEBRAIC.diagnostic(&[("what", what)]).into())
 }
 
-/// The checkers refuse a model with requirements until they can prove them.
+/// Boxes and maps of a model with requirements may be of these: the checkers prove stability alone.
 fn refuse_requirements(problem: &Problem) -> Result<(), Error> {
     match problem.model().require().is_empty() {
         true => Ok(()),

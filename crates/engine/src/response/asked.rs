@@ -2,7 +2,7 @@
 
 use super::requirement::{Meaning, Requirement, RequirementKind, Written, not_understood};
 use crate::error::{Diagnostic, Diagnostics, Error, Source, Span};
-use crate::model::{Expression, Model};
+use crate::model::{Expression, Model, RequirementText};
 use crate::problem::Region;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
@@ -65,9 +65,44 @@ impl Model {
         values: &[(String, Rational)],
         budget: &Budget,
     ) -> Result<Requirements, Error> {
+        self.required(self.require(), further, values, budget)
+    }
+
+    /// The same without what the section `[require]` asks for.
+    ///
+    /// Cost: that of [`Model::requirements`].
+    ///
+    /// ```
+    /// use jurist_algebra::limits::Budget;
+    /// use jurist_engine::error::Source;
+    /// use jurist_engine::model::Model;
+    /// let text = "time = 'continuous'\nparameters.K = 2\nloop.characteristic = 's^2 + 4*s + K'\nrequire.damping = 0.5\n";
+    /// let (model, _) = Model::from_toml(&Source::new("model.toml", text))?;
+    /// assert!(model.further_requirements(&[], &[], &Budget::unlimited())?.is_empty());
+    /// # Ok::<(), jurist_engine::error::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Model::requirements`].
+    pub fn further_requirements(
+        &self,
+        further: &[(&str, &str)],
+        values: &[(String, Rational)],
+        budget: &Budget,
+    ) -> Result<Requirements, Error> {
+        self.required(&[], further, values, budget)
+    }
+
+    fn required(
+        &self,
+        section: &[RequirementText],
+        further: &[(&str, &str)],
+        values: &[(String, Rational)],
+        budget: &Budget,
+    ) -> Result<Requirements, Error> {
         let of = |name: &str| -> Option<Asked<'_>> {
             let option = further.iter().find(|(n, _)| *n == name).map(|(_, text)| Asked { text, place: None });
-            let written = || self.require().iter().find(|r| r.name == name);
+            let written = || section.iter().find(|r| r.name == name);
             option.or_else(|| written().map(|r| Asked { text: &r.text, place: Some(r.span) }))
         };
         let mut out = Requirements { at: of("at").map(|a| a.text.to_owned()), ..Requirements::default() };
