@@ -4,7 +4,7 @@ use crate::asked::Asked;
 use crate::fewest::Fewest;
 use crate::format::{Fixed, Format, Rounding};
 use crate::limits::LimitsByBits;
-use crate::ranges::Ranges;
+use crate::ranges::{Ranges, WorstInput};
 use crate::shipped::Shipped;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
@@ -46,6 +46,8 @@ pub struct ShipAnswer {
     pub fewest: Option<Part<Fewest>>,
     /// The limits of a parameter by bits, where they were asked for.
     pub limits: Option<Part<LimitsByBits>>,
+    /// The worst input, where it was asked for.
+    pub worst_input: Option<WorstInput>,
     /// The ranges of signals; `None` where the stored loop is not stable, and where nothing is said of signals.
     pub ranges: Option<Part<Ranges>>,
 }
@@ -57,6 +59,8 @@ pub struct Beside {
     pub fewest: bool,
     /// The parameter whose limits are asked for with more and more bits.
     pub limits_of: Option<String>,
+    /// The worst input.
+    pub worst_input: bool,
 }
 
 /// Whether the controller does what it is to do.
@@ -108,7 +112,11 @@ impl ShipAnswer {
         let is_about_signals = shipped.asked.signal.is_some() || !shipped.asked.inputs.is_empty();
         let is_stable = rounded.verdict.value().verdict == Verdict::Stable;
         let ranges = (is_about_signals && is_stable).then(|| shipped.ranges(budget).transpose()).flatten();
-        Ok(ShipAnswer { shipped, exact, rounded, every_rounding, fewest, limits, ranges })
+        let worst_input = match &ranges {
+            Some(Ok(ranges)) if beside.worst_input => ranges.worst_input(&shipped.asked.inputs, budget)?,
+            _ => None,
+        };
+        Ok(ShipAnswer { worst_input, shipped, exact, rounded, every_rounding, fewest, limits, ranges })
     }
 
     /// Whether the controller does what it is to do.

@@ -6,13 +6,13 @@ use crate::format::Format;
 use crate::ranges;
 use crate::run::Overflow;
 use crate::shipped::Stored;
+use jurist_algebra::number::{BinaryFormat, Integer, Rational};
 use jurist_engine::answer::{Answer, ToleranceAnswer};
 use jurist_engine::show::documents::{
     Answered, Enclosure, Exact, Intervals, MarginsFound, Named, PointQuestion, RequirementFound, RootsByPlace, Stable,
-    Undecided, Verdict,
+    ToleranceFound, Undecided, Verdict,
 };
 use jurist_engine::stability::StableSet;
-use jurist_engine::stability::boxes::BoxDecision;
 use serde::{Deserialize, Serialize};
 
 /// `jurist/ship/1`.
@@ -44,8 +44,9 @@ pub struct Ship {
     pub signal: Option<FormatFound>,
     /// What happens to signals that do not fit: `saturate` or `wrap`.
     pub overflow: String,
-    /// What is stored.
-    pub coefficients: Named<CoefficientFound>,
+    /// What is stored, in lists: `b` and `a` of a direct form by falling powers of z, or of the delta operator; `b_1`, `a_1` .. of sections; `A`, `B`, `C`
+    /// and `D` row by row.
+    pub coefficients: Named<CoefficientsFound>,
     /// The loop as it is written.
     pub exact: RootsByPlace,
     /// The loop as it is stored.
@@ -56,16 +57,19 @@ pub struct Ship {
     pub margins: Option<Box<MarginsFound>>,
     /// The requirements, of the stored loop.
     pub requirements: Vec<RequirementFound>,
-    /// Whether every rounding holds; `null` where nothing is rounded.
-    pub every_rounding: Option<EveryRounding>,
+    /// Whether every rounding holds, as the answer of a tolerance whose names are those of the coefficients with `ship_` before them; `null` where
+    /// nothing is rounded, and where it was not decided.
+    pub every_rounding: Option<Box<ToleranceFound>>,
     /// The fewest bits behind the point; `null` where they were not asked for, and in floating point.
     pub fewest: Option<FewestFound>,
     /// The limits of a parameter by bits; `null` where they were not asked for.
     pub limits: Option<LimitsFound>,
     /// The inner signals; empty where nothing is said of them.
     pub ranges: Vec<RangeFound>,
-    /// By how much the rounding of signals moves each output at most, limit cycles included; rounded up.
-    pub limit_cycle: Named<Exact>,
+    /// By how much the rounding of signals moves each output at most, limit cycles included.
+    pub limit_cycle: Named<LimitCycle>,
+    /// The worst input, where it was asked for, else `null`.
+    pub worst_input: Option<WorstInputFound>,
     /// Why something is not decided; `null` where everything is.
     pub undecided: Option<Undecided>,
 }
@@ -86,32 +90,20 @@ pub struct FormatFound {
     pub round: String,
 }
 
-/// A coefficient.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+/// A list of coefficients; what is 0, 1 or -1 by the structure is among them.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct CoefficientFound {
-    /// Bounds of the exact number, equal where it is rational.
-    pub exact: Enclosure,
-    /// The stored number.
-    pub stored: Exact,
-    /// The integer that stands for it; `null` of floating point.
-    pub integer: Option<Exact>,
-}
-
-/// What is known of every rounding.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct EveryRounding {
-    /// Whether the loop is stable, and all requirements are met, for all of them; `null` where neither was proved.
-    pub holds: Option<bool>,
-    /// Proved: the errors may be so many times as large; `null` where the exact loop does not hold itself.
-    pub factor: Option<Exact>,
-    /// Refuted: so many times as large is too large; `null` where no such factor was found.
-    pub refuted: Option<Exact>,
-    /// Coefficients at which it does not hold, within the errors or just beyond the factor; `null` where none were found.
-    pub witness: Option<Named<Exact>>,
-    /// The number of cells of the proof; `null` without one.
-    pub cells: Option<usize>,
+pub struct CoefficientsFound {
+    /// Their names; `null` where a number is one by the structure and nothing is stored.
+    pub names: Vec<Option<String>>,
+    /// Bounds of the exact numbers, equal where they are rational.
+    pub exact: Vec<Enclosure>,
+    /// The stored numbers.
+    pub stored: Vec<Exact>,
+    /// The integers that stand for them in fixed point; `null` of floating point, and where nothing is stored.
+    pub integers: Vec<Option<Exact>>,
+    /// The stored bits in hexadecimal digits: two's complement, or IEEE 754; `null` where nothing is stored.
+    pub hex: Vec<Option<String>>,
 }
 
 /// The fewest bits behind the point.
@@ -159,14 +151,36 @@ pub struct LimitsOfBits {
 pub struct RangeFound {
     /// The signal.
     pub node: String,
-    /// Its greatest magnitude under all inputs within their bounds, between two numbers; `null` without bounds.
-    pub bound: Option<Enclosure>,
+    /// Its magnitude is at most this, rounding included; `null` without bounds of inputs.
+    pub bound: Option<Exact>,
+    /// Its greatest magnitude under all inputs within their bounds without rounding, between two numbers; `null` without bounds.
+    pub greatest: Option<Enclosure>,
     /// What the rounding of signals adds at most.
     pub rounding: Exact,
     /// The greatest number of its format; `null` without one.
     pub limit: Option<Exact>,
     /// Whether it stays within; `null` where that is not decided.
     pub holds: Option<bool>,
+}
+
+/// What the rounding of signals does to an output.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct LimitCycle {
+    /// At most so much.
+    pub bound: Exact,
+}
+
+/// A worst input.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct WorstInputFound {
+    /// The inner signal that it is about.
+    pub node: String,
+    /// The name of that signal as an output of the model with the inner signals.
+    pub output: String,
+    /// The number of samples.
+    pub samples: usize,
 }
 
 impl From<&Format> for FormatFound {
@@ -181,20 +195,30 @@ impl From<&Format> for FormatFound {
                 round: fixed.rounding.name().into(),
             },
             Format::Binary(format) => {
-                let bits = if *format == jurist_algebra::number::BinaryFormat::Single { 32 } else { 64 };
-                FormatFound { words, bits, fraction: None, scale: None, round: "even".into() }
+                FormatFound { words, bits: binary_bits(*format), fraction: None, scale: None, round: "even".into() }
             }
         }
     }
 }
 
-impl From<&Stored> for CoefficientFound {
-    fn from(stored: &Stored) -> Self {
-        CoefficientFound {
-            exact: [stored.exact.lower().into(), stored.exact.upper().into()],
-            stored: (&stored.value).into(),
-            integer: stored.integer.as_ref().map(Into::into),
+/// The stored bits in hexadecimal digits.
+fn hex(stored: &Stored, format: &Format) -> Option<String> {
+    let (bits, pattern) = match (format, &stored.integer) {
+        (Format::Fixed(fixed), Some(integer)) => {
+            let size = Integer::ONE << u64::from(fixed.bits);
+            (fixed.bits, integer.div_mod_floor(&size).1)
         }
+        (Format::Binary(format), _) => (binary_bits(*format), format.pattern(&stored.value)?),
+        _ => return None,
+    };
+    let limbs = pattern.limbs().first().copied().unwrap_or(0);
+    Some(format!("0x{limbs:0width$x}", width = (bits as usize).div_ceil(4)))
+}
+
+fn binary_bits(format: BinaryFormat) -> u32 {
+    match format {
+        BinaryFormat::Single => 32,
+        BinaryFormat::Double => 64,
     }
 }
 
@@ -215,13 +239,13 @@ impl ShipAnswer {
                 Overflow::Saturate => "saturate".into(),
                 Overflow::Wrap => "wrap".into(),
             },
-            coefficients: self.shipped.coefficients.iter().map(|c| (c.name.clone(), c.into())).collect(),
+            coefficients: self.coefficients(),
             exact: self.exact.verdict.value().into(),
             rounded: self.rounded.verdict.value().into(),
             changes: self.shipped.changes(),
             margins: margins(&self.rounded, digits).map(Box::new),
             requirements: self.rounded.requirements.iter().map(|r| RequirementFound::new(r, digits)).collect(),
-            every_rounding: self.every_rounding.as_ref().map(|part| self.every_found(part)),
+            every_rounding: self.every_rounding.as_ref().and_then(|part| every(part, digits)).map(Box::new),
             fewest: self.fewest.as_ref().and_then(|part| part.as_ref().ok()).map(Into::into),
             limits: self.limits.as_ref().and_then(|part| part.as_ref().ok()).map(|limits| LimitsFound {
                 parameter: limits.parameter.clone(),
@@ -233,33 +257,55 @@ impl ShipAnswer {
                     .collect(),
             }),
             ranges: ranges.map(|ranges| ranges.nodes.iter().map(Into::into).collect()).unwrap_or_default(),
-            limit_cycle: ranges.iter().flat_map(|r| &r.moved).map(|(name, most)| (name.clone(), most.into())).collect(),
+            limit_cycle: ranges
+                .iter()
+                .flat_map(|r| &r.moved)
+                .map(|(name, most)| (name.clone(), LimitCycle { bound: most.into() }))
+                .collect(),
+            worst_input: self.worst_input.as_ref().map(Into::into),
             undecided: self.stopped().map(Into::into),
         }
     }
 
-    fn every_found(&self, part: &Part<Answer<ToleranceAnswer>>) -> EveryRounding {
-        let Ok(answer) = part else {
-            return EveryRounding { holds: None, factor: None, refuted: None, witness: None, cells: None };
+    fn coefficients(&self) -> Named<CoefficientsFound> {
+        let shipped = &self.shipped;
+        let one = |place: &Result<Rational, usize>, found: &mut CoefficientsFound| match place {
+            Ok(value) => {
+                found.names.push(None);
+                found.exact.push([value.into(), value.into()]);
+                found.stored.push(value.into());
+                found.integers.push(None);
+                found.hex.push(None);
+            }
+            Err(at) => {
+                let stored = &shipped.coefficients[*at];
+                found.names.push(Some(stored.name.clone()));
+                found.exact.push([stored.exact.lower().into(), stored.exact.upper().into()]);
+                found.stored.push((&stored.value).into());
+                found.integers.push(stored.integer.as_ref().map(Into::into));
+                found.hex.push(hex(stored, &shipped.asked.format));
+            }
         };
-        let answer = answer.value();
-        let own = match &answer.decision {
-            BoxDecision::NotStable { witness } => witness.as_ref(),
-            _ => answer.factor.as_ref().and_then(|factor| factor.witness.as_ref()),
+        let list = |(name, places): (String, Vec<Result<Rational, usize>>)| {
+            let mut found = CoefficientsFound::default();
+            places.iter().for_each(|place| one(place, &mut found));
+            (name, found)
         };
-        let named = |point: &[jurist_algebra::number::Rational]| {
-            self.shipped.coefficients.iter().zip(point).map(|(c, value)| (c.name.clone(), value.into())).collect()
-        };
-        EveryRounding {
-            holds: self.every_rounding_holds(),
-            factor: answer.factor.as_ref().map(|factor| (&factor.lower).into()),
-            refuted: answer.factor.as_ref().and_then(|factor| factor.upper.as_ref()).map(Into::into),
-            witness: own.map(|witness| named(&witness.point)),
-            cells: match &answer.decision {
-                BoxDecision::Stable(proof) => Some(proof.cells()),
-                _ => None,
-            },
-        }
+        shipped.realised.structure.lists().into_iter().map(list).collect()
+    }
+}
+
+fn every(part: &Part<Answer<ToleranceAnswer>>, digits: usize) -> Option<ToleranceFound> {
+    match part.as_ref().ok()?.json(digits).answer {
+        Answered::Known(found) => Some(found),
+        Answered::Undecided(_) => None,
+    }
+}
+
+impl From<&ranges::WorstInput> for WorstInputFound {
+    fn from(worst: &ranges::WorstInput) -> Self {
+        let samples = worst.inputs.first().map_or(0, |(_, values)| values.len());
+        WorstInputFound { node: worst.node.clone(), output: worst.output.clone(), samples }
     }
 }
 
@@ -293,7 +339,8 @@ impl From<&ranges::NodeRange> for RangeFound {
     fn from(node: &ranges::NodeRange) -> Self {
         RangeFound {
             node: node.name.clone(),
-            bound: node.greatest.as_ref().map(|[low, high]| [low.into(), high.into()]),
+            bound: node.greatest.as_ref().map(|[_, high]| (&(high + &node.rounding)).into()),
+            greatest: node.greatest.as_ref().map(|[low, high]| [low.into(), high.into()]),
             rounding: (&node.rounding).into(),
             limit: node.limit.as_ref().map(Into::into),
             holds: node.holds,

@@ -198,7 +198,7 @@ fn stored(coefficients: &[Coefficient], asked: &mut Asked) -> Result<Vec<Stored>
             .iter()
             .all(|c| [c.exact.lower(), c.exact.upper()].into_iter().all(|end| fixed.stored(end).is_some()))
     };
-    if let (Format::Fixed(fixed), true) = (&mut asked.format, asked.is_scale_automatic) {
+    if let (Format::Fixed(fixed), true) = (&mut asked.format, asked.is_scale_automatic && !coefficients.is_empty()) {
         let scales = (-64..=64).map(|scale| Fixed { scale, ..*fixed });
         *fixed = scales.into_iter().find(fits).unwrap_or(*fixed);
     }

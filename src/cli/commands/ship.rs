@@ -5,7 +5,7 @@ use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions, RunOptio
 use crate::cli::assignments::{assignments, in_line};
 use crate::cli::destinations::Files;
 use crate::cli::input::{known_names, load, question};
-use crate::cli::output::{ending, write_answer};
+use crate::cli::output::{ending, note, write_answer};
 use crate::cli::picture::{Kind, Picture, deliver};
 use crate::cli::requirements::RequirementOptions;
 use crate::cli::status::{Error, Outcome, Status};
@@ -128,7 +128,8 @@ fn run(options: &Options, context: &Context) -> Outcome {
     let (asked, question) = options.require.asked(&model, question, &options.region, context)?;
     let shipping = Asked::of(&model, &overrides(options, context, model.inputs())?)?;
     let problem = question.problem()?;
-    let beside = Beside { fewest: options.fewest, limits_of: options.param.clone() };
+    let beside =
+        Beside { fewest: options.fewest, limits_of: options.param.clone(), worst_input: options.worst.is_some() };
     let answer = match decided(ShipAnswer::of(&problem, shipping, &asked, &beside, &context.budget))? {
         Ok(answer) => answer,
         Err(stopped) => return context.undecided(output, &stopped, || None, || no_answer(&problem, &stopped)),
@@ -139,6 +140,11 @@ fn run(options: &Options, context: &Context) -> Outcome {
         if let Some(file) = file {
             write_answer(text, Some(file))?;
         }
+    }
+    if !options.model.set.is_empty() && !context.quiet && (options.rounded.is_some() || options.every.is_some()) {
+        note(
+            "note: the models that are written have the file's own values beside the controller: give --set again with them",
+        );
     }
     signals(&answer, options, context)?;
     let digits = output.digits() as usize;
@@ -182,12 +188,11 @@ fn signals(answer: &ShipAnswer, options: &Options, context: &Context) -> Result<
         write_answer(&ranges.problem.model().source().text, Some(file))?;
     }
     let Some(file) = &options.worst else { return Ok(()) };
-    let bounds = &answer.shipped.asked.inputs;
-    let Some(worst) = ranges.worst_input(bounds, &context.budget)? else {
+    let Some(worst) = &answer.worst_input else {
         let error = Diagnostic::error(Code::ShipFormat, "no input of the loop has a bound");
         return Err(error.help("add --input NAME=BOUND").into());
     };
-    write_answer(&table(&worst, &answer.shipped.exact, &context.budget), Some(file))
+    write_answer(&table(worst, &answer.shipped.exact, &context.budget), Some(file))
 }
 
 /// The worst inputs as a table, a row for each sample.

@@ -24,10 +24,7 @@ impl BinaryFormat {
     ///
     /// Cost: one division.
     pub fn nearest(self, value: &Rational) -> Option<Rational> {
-        let (precision, least, greatest) = match self {
-            BinaryFormat::Single => (24, -149, 128),
-            BinaryFormat::Double => (53, -1074, 1024),
-        };
+        let (precision, least, greatest) = self.limits();
         if value.is_zero() {
             return Some(Rational::ZERO);
         }
@@ -40,6 +37,46 @@ impl BinaryFormat {
         let rounded = Rational::from(nearest_even(&size.checked_div(&unit)?)) * unit;
         let signed = if value.is_negative() { -&rounded } else { rounded.clone() };
         (rounded < power(greatest)).then_some(signed)
+    }
+}
+
+impl BinaryFormat {
+    /// Digits of the significand, and the exponents of the least number and of the first one that is too large.
+    fn limits(self) -> (i64, i64, i64) {
+        match self {
+            BinaryFormat::Single => (24, -149, 128),
+            BinaryFormat::Double => (53, -1074, 1024),
+        }
+    }
+
+    /// The bits that stand for a number of the format, as an integer; `None` for other numbers.
+    ///
+    /// Cost: one division.
+    ///
+    /// ```
+    /// use jurist_algebra::number::{BinaryFormat, Rational};
+    /// let half = Rational::new((-1).into(), 2.into());
+    /// assert_eq!(BinaryFormat::Single.pattern(&half), Some(0xbf00_0000_u32.into()));
+    /// ```
+    pub fn pattern(self, value: &Rational) -> Option<Integer> {
+        if self.nearest(value).as_ref() != Some(value) {
+            return None;
+        }
+        let (precision, least, greatest) = self.limits();
+        let size = value.abs();
+        // The least number of units below the normal ones; else the exponent counts from there.
+        let mut exponent = 0;
+        let power = |k: i64| Rational::from(2).pow(k).expect("two is not zero");
+        let mut significand = size.checked_div(&power(least))?.floor();
+        if significand >= Integer::ONE << (precision as u64 - 1) {
+            let shift = significand.bit_length() as i64 - precision;
+            significand = size.checked_div(&power(least + shift))?.floor() - (Integer::ONE << (precision as u64 - 1));
+            exponent = shift + 1;
+        }
+        let bits = Integer::from(exponent) << (precision as u64 - 1);
+        let sign_place = precision as u64 - 1 + Integer::from(2 * greatest - 1).bit_length();
+        let sign = if value.is_negative() { Integer::ONE << sign_place } else { Integer::ZERO };
+        Some(sign + bits + significand)
     }
 }
 
@@ -68,6 +105,16 @@ mod tests {
         let exact = |x: f64| x.is_finite().then(|| Rational::from_f64(x).unwrap());
         assert_eq!(BinaryFormat::Single.nearest(&value), exact(single.into()), "{text}");
         assert_eq!(BinaryFormat::Double.nearest(&value), exact(double), "{text}");
+        if let (Some(single_value), Some(double_value)) = (exact(single.into()), exact(double)) {
+            let zero = |bits: u64, is_zero: bool| Integer::from(if is_zero { 0 } else { bits });
+            let bits = zero(single.to_bits().into(), single == 0.0);
+            assert_eq!(BinaryFormat::Single.pattern(&single_value), Some(bits), "{text}");
+            assert_eq!(
+                BinaryFormat::Double.pattern(&double_value),
+                Some(zero(double.to_bits(), double == 0.0)),
+                "{text}"
+            );
+        }
     }
 
     #[test]

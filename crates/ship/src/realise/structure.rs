@@ -31,6 +31,32 @@ pub(super) enum Form {
     State([Vec<Vec<Slot>>; 4]),
 }
 
+/// A name, and for each place the number that stands there by the structure, or the position of a coefficient.
+pub type Places = (String, Vec<Result<Rational, usize>>);
+
+impl Structure {
+    /// The lists in which coefficients stand: `b` and `a` of a fraction, `b_1`, `a_1` and so on of several; `A`, `B`, `C` and `D` row by row.
+    pub fn lists(&self) -> Vec<Places> {
+        let place = |slot: &Slot| match slot {
+            Slot::Fixed(value) => Ok(value.clone()),
+            Slot::Stored(at) => Err(*at),
+        };
+        let list = |name: String, slots: &[Slot]| (name, slots.iter().map(place).collect());
+        let both = |(b, a): &Fraction, suffix: String| [list(format!("b{suffix}"), b), list(format!("a{suffix}"), a)];
+        match &self.0 {
+            Form::Chain(factors) if factors.len() == 1 => both(&factors[0], String::new()).into(),
+            Form::Chain(factors) => {
+                factors.iter().enumerate().flat_map(|(k, fraction)| both(fraction, format!("_{}", k + 1))).collect()
+            }
+            Form::Delta { fraction, .. } => both(fraction, String::new()).into(),
+            Form::State(matrices) => {
+                let names = ["A", "B", "C", "D"].map(str::to_owned);
+                names.into_iter().zip(matrices).map(|(name, rows)| list(name, &rows.concat())).collect()
+            }
+        }
+    }
+}
+
 /// A controller with its order of operations.
 #[derive(Clone, Debug)]
 pub struct Realised {
