@@ -34,6 +34,7 @@ schemas! {
     norm: "`jurist/norm/1`, of `jurist norm`.", "norm-1";
     root_locus_form: "`jurist/root-locus-form/1`, of `jurist charpoly --root-locus-form`.", "root-locus-form-1";
     roots: "`jurist/roots/1`, of `jurist roots`.", "roots-1";
+    ship: "`jurist/ship/1`, of `jurist ship`.", "ship-1";
     simulate: "`jurist/simulate/1`, of `jurist simulate`.", "simulate-1";
     test: "`jurist/test/1`, of `jurist test --json`.", "test-1";
     tolerance: "`jurist/tolerance/1`, of `jurist tolerance`.", "tolerance-1";

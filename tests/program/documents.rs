@@ -8,6 +8,7 @@ use jurist_drive::document::Main;
 use jurist_engine::error::Source;
 use jurist_engine::model::Model;
 use jurist_engine::show::documents::through_its_type;
+use jurist_ship::document::Ship;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -40,6 +41,7 @@ fn read_and_written(document: &Value) -> Result<Value, String> {
         "jurist/frequency-response/1" => through::<FrequencyResponse>(document),
         "jurist/locus/1" => through::<Locus>(document),
         "jurist/main/1" => through::<Main>(document),
+        "jurist/ship/1" => through::<Ship>(document),
         "jurist/simulate/1" => through::<Simulation>(document),
         other => panic!("the schema {other}"),
     }
@@ -116,6 +118,8 @@ const FORMS: &[&[&str]] = &[
     &["roots"],
     &["roots", "examples/dc-servo.toml", "--explain"],
     &["roots", "--timeout", "0"],
+    &["ship", "examples/drive-blocks.toml", "--block", "speed controller", "--format", "Q4.12", "--signal", "Q8.16"],
+    &["ship", "examples/drive-blocks.toml", "--block", "current controller", "--format", "float32", "--param", "T"],
     &["simulate", "--duration", "0.01"],
     &["simulate", "--switched", "--duration", "0.01"],
     &["verdict", "--set", "K_pwm=551"],

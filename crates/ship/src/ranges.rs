@@ -5,7 +5,7 @@ use crate::realise::Entry;
 use crate::run::FixedProgram;
 use crate::shipped::{Shipped, question_of};
 use jurist_algebra::limits::Budget;
-use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_engine::error::Error;
 use jurist_engine::model::{Form, Model};
 use jurist_engine::problem::Problem;
@@ -111,6 +111,9 @@ impl Ranges {
     }
 }
 
+/// Bits behind the point of bounds, which are rounded outwards.
+const BITS: u64 = 96;
+
 /// Digits to which gains are known.
 const DIGITS: usize = 9;
 
@@ -137,7 +140,10 @@ impl Shipped {
                 let Some(gain) = &found.value().gain else { return Ok(None) };
                 total = [&total[0] + &(&gain.lower * bound), &total[1] + &(&gain.upper * bound)];
             }
-            Ok(Some(total))
+            // Exact sums may be fractions of hundreds of digits.
+            let [low, high] = total;
+            let short = Enclosure::new(low, high).rounded(BITS);
+            Ok(Some([short.lower().clone(), short.upper().clone()]))
         };
         let errors: Vec<(String, Rational)> =
             names.errors.iter().flatten().map(|name| (name.clone(), error.clone())).collect();
