@@ -98,6 +98,38 @@ fn no_run_of_the_processor_leaves_its_bounds() {
     }
 }
 
+/// SHIP_STEPS=1000000 runs longer: then random inputs and the worst one, over and over.
+#[test]
+fn long_runs_stay_within_their_bounds() {
+    let steps: usize = std::env::var("SHIP_STEPS").ok().and_then(|text| text.parse().ok()).unwrap_or(1200);
+    let random = &mut Random::new(59);
+    let budget = Budget::unlimited();
+    for (realisation, round) in [("df1", "floor"), ("df2", "nearest"), ("df2t", "floor"), ("delta", "nearest")] {
+        let answer = shipped(realisation, round);
+        let ranges = answer.ranges.as_ref().unwrap().as_ref().unwrap();
+        let fixed = answer.shipped.fixed_program().unwrap();
+        let output = &ranges.nodes[answer.shipped.realised.program.output_node(0).unwrap()];
+        let bound = output.greatest.as_ref().unwrap()[1].clone() + &output.rounding;
+        let bound = (bound / fixed.signal.unit()).floor();
+        let found = ranges.problem.peak_to_peak("r", &output.output, 6, &budget).unwrap();
+        let worst: Vec<i64> = found.value().signs(150, &budget).unwrap().iter().rev().map(|s| i64::from(*s)).collect();
+        let (mut states, mut y, mut greatest) = (fixed.at_rest(), Integer::ZERO, Integer::ZERO);
+        let most = BOUND * 64;
+        for k in 0..steps {
+            let r = match k / 300 % 2 {
+                0 => worst[k % 150] * most,
+                _ => random.below(2 * most as usize + 1) as i64 - most,
+            };
+            let outputs = fixed.step(&mut states, &[Integer::from(r) - &y]);
+            y = outputs[0].clone();
+            greatest = greatest.max(y.abs());
+            assert!(y.abs() <= bound, "{realisation} {round}: {y} {bound}");
+        }
+        // The worst input is not far from the bound, rounding included.
+        assert!(greatest * Integer::from(10) > bound * Integer::from(9), "{realisation} {round}");
+    }
+}
+
 #[test]
 fn the_worst_input_comes_up_to_the_bound() {
     for realisation in ["df1", "df2", "df2t", "delta", "sos", "state"] {
