@@ -67,6 +67,7 @@ fn no_run_of_the_processor_leaves_its_bounds() {
         ("delta", "floor"),
         ("sos", "zero"),
         ("state", "even"),
+        ("parallel", "floor"),
     ] {
         let answer = shipped(realisation, round);
         let ranges = answer.ranges.as_ref().unwrap().as_ref().unwrap();
@@ -132,7 +133,7 @@ fn long_runs_stay_within_their_bounds() {
 
 #[test]
 fn the_worst_input_comes_up_to_the_bound() {
-    for realisation in ["df1", "df2", "df2t", "delta", "sos", "state"] {
+    for realisation in ["df1", "df2", "df2t", "delta", "sos", "state", "parallel"] {
         let answer = shipped(realisation, "nearest");
         let ranges = answer.ranges.as_ref().unwrap().as_ref().unwrap();
         let budget = Budget::unlimited();

@@ -4,7 +4,7 @@ use crate::asked::Asked;
 use crate::emit::{self, Arithmetic, Target, TooWide, text};
 use crate::format::{Fixed, Format};
 use crate::program::Coefficient;
-use crate::realise::{Entry, Realisation, Realised, delta, direct, sections, state};
+use crate::realise::{Entry, Realisation, Realised, delta, direct, parallel, sections, state};
 use crate::run::FloatProgram;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Enclosure, Integer, Rational};
@@ -185,6 +185,13 @@ fn realised(block: &EnclosedBlock, asked: &Asked, budget: &Budget) -> Result<Rea
                 "poles or zeros of the controller are too near to each other to be told apart",
             );
             error.help("take another realisation, such as df2t")
+        })?,
+        Realisation::Parallel => parallel(b, a, budget)?.ok_or_else(|| {
+            let error = Diagnostic::error(
+                Code::ShipParallel,
+                "the controller has equal poles, or poles that are not told apart: it has no partial fractions",
+            );
+            error.help("take another realisation, such as sos")
         })?,
         Realisation::Delta => delta(b, a, asked.step),
         other => direct(other, b, a),

@@ -3,7 +3,7 @@
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Enclosure, Integer, Rational, parse_number};
 use jurist_ship::format::{Fixed, Rounding};
-use jurist_ship::realise::{Realisation, Realised, delta, direct, sections, state};
+use jurist_ship::realise::{Realisation, Realised, delta, direct, parallel, sections, state};
 use jurist_ship::run::{FixedProgram, Overflow};
 use proptest::prelude::*;
 
@@ -51,6 +51,7 @@ fn all(numerator: &[Rational], denominator: &[Rational]) -> Vec<Realised> {
         [Realisation::Df1, Realisation::Df2, Realisation::Df2t].into_iter().map(|r| direct(r, &b, &a)).collect();
     out.push(delta(&b, &a, 3));
     out.push(sections(&b, &a, &Budget::unlimited()).unwrap().expect("roots of numbers are told apart"));
+    out.extend(parallel(&b, &a, &Budget::unlimited()).unwrap());
     out
 }
 
@@ -91,12 +92,24 @@ fn state_space_has_its_response() {
 }
 
 #[test]
+fn equal_poles_have_no_partial_fractions() {
+    let of =
+        |b: &[&str], a: &[&str]| parallel(&exactly(&numbers(b)), &exactly(&numbers(a)), &Budget::unlimited()).unwrap();
+    assert!(of(&["1", "0", "0"], &["1", "-2", "1"]).is_some(), "two poles in one section need no fractions");
+    assert!(of(&["0", "0", "0", "1"], &["1", "-3", "3", "-1"]).is_none());
+    assert_eq!(of(&["2"], &["1"]).unwrap().program.coefficients.len(), 1);
+}
+
+#[test]
 fn sections_of_irrational_roots_are_near() {
     let (b, a) = (numbers(&["1", "0", "0", "0"]), numbers(&["1", "-1", "1/7", "-1/50"]));
-    let realised = sections(&exactly(&b), &exactly(&a), &Budget::unlimited()).unwrap().unwrap();
+    let budget = Budget::unlimited();
     let tiny = parse_number("1e-60").unwrap();
-    for (found, expected) in response_of(&realised, 20).iter().zip(impulse_response(&b, &a, 20)) {
-        assert!((found - &expected).abs() < tiny, "{found} {expected}");
+    for realised in [sections(&exactly(&b), &exactly(&a), &budget), parallel(&exactly(&b), &exactly(&a), &budget)] {
+        let realised = realised.unwrap().unwrap();
+        for (found, expected) in response_of(&realised, 20).iter().zip(impulse_response(&b, &a, 20)) {
+            assert!((found - &expected).abs() < tiny, "{found} {expected}");
+        }
     }
 }
 

@@ -43,7 +43,7 @@ pub(in crate::cli) struct Options {
     /// The block that is the controller [default: that of [ship]]
     #[arg(long, value_name = "NAME")]
     pub block: Option<String>,
-    /// The order of operations: df1, df2, df2t, sos, delta or state
+    /// The order of operations: df1, df2, df2t, sos, parallel, delta or state
     #[arg(long, value_name = "NAME")]
     pub realisation: Option<String>,
     /// How coefficients are stored: Q2.13 (sign, 2 bits before and 13 behind the point), float32 or float64

@@ -82,6 +82,7 @@ pub enum Code {
     ShipBlock = "E-ship-block",
     ShipContinuous = "E-ship-continuous",
     ShipFormat = "E-ship-format",
+    ShipParallel = "E-ship-parallel",
     ShipRange = "E-ship-range",
     Simulation = "E-simulation",
     Size = "E-size",

@@ -3,6 +3,7 @@
 mod delta;
 mod direct;
 mod entry;
+mod parallel;
 mod sections;
 mod state;
 mod structure;
@@ -10,6 +11,7 @@ mod structure;
 pub use delta::delta;
 pub use direct::direct;
 pub use entry::Entry;
+pub use parallel::parallel;
 pub use sections::sections;
 pub use state::state;
 pub use structure::{Realised, Structure};
@@ -30,6 +32,8 @@ pub enum Realisation {
     Df2t,
     /// A chain of sections of order two, each in direct form 1.
     Sos,
+    /// Sections of order two side by side, each in direct form 1: partial fractions.
+    Parallel,
     /// Direct form 2 transposed in the delta operator `(z - 1)/delta`.
     Delta,
     /// The matrices as they are given.
@@ -38,11 +42,12 @@ pub enum Realisation {
 
 impl Realisation {
     /// All realisations.
-    pub const ALL: [Realisation; 6] = [
+    pub const ALL: [Realisation; 7] = [
         Realisation::Df1,
         Realisation::Df2,
         Realisation::Df2t,
         Realisation::Sos,
+        Realisation::Parallel,
         Realisation::Delta,
         Realisation::State,
     ];
@@ -54,6 +59,7 @@ impl Realisation {
             Realisation::Df2 => "df2",
             Realisation::Df2t => "df2t",
             Realisation::Sos => "sos",
+            Realisation::Parallel => "parallel",
             Realisation::Delta => "delta",
             Realisation::State => "state",
         }
@@ -66,6 +72,7 @@ impl Realisation {
             Realisation::Df2 => "direct form 2",
             Realisation::Df2t => "direct form 2 transposed",
             Realisation::Sos => "second-order sections",
+            Realisation::Parallel => "parallel sections",
             Realisation::Delta => "delta operator",
             Realisation::State => "state space",
         }

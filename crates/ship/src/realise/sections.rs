@@ -75,7 +75,7 @@ pub fn sections(
 
 /// A monic factor of degree one or two: its coefficients but the first, highest power first, and where its root of greatest modulus is, roughly.
 #[derive(Clone, Debug)]
-struct Factor {
+pub(super) struct Factor {
     rest: Vec<Enclosure>,
     near: (Rational, Rational),
 }
@@ -92,12 +92,12 @@ impl Factor {
     }
 }
 
-fn exactly(value: Rational) -> Enclosure {
+pub(super) fn exactly(value: Rational) -> Enclosure {
     Enclosure::from_rational(value)
 }
 
 /// The product, exact where both are.
-fn product(a: &Enclosure, b: &Enclosure) -> Enclosure {
+pub(super) fn product(a: &Enclosure, b: &Enclosure) -> Enclosure {
     let ends = [(a.lower(), b.lower()), (a.lower(), b.upper()), (a.upper(), b.lower()), (a.upper(), b.upper())]
         .map(|(x, y)| x * y);
     let low = ends.iter().min().expect("there are four").clone();
@@ -106,7 +106,7 @@ fn product(a: &Enclosure, b: &Enclosure) -> Enclosure {
 }
 
 /// The leading coefficient that is not zero, and the monic factors. `None` where roots are not told apart.
-fn factors(p: &[Enclosure], budget: &Budget) -> Result<Option<(Enclosure, Vec<Factor>)>, Exhausted> {
+pub(super) fn factors(p: &[Enclosure], budget: &Budget) -> Result<Option<(Enclosure, Vec<Factor>)>, Exhausted> {
     let is_zero = |c: &&Enclosure| c.lower().is_zero() && c.upper().is_zero();
     let leading = p.iter().take_while(is_zero).count();
     let p = &p[leading..];
@@ -167,7 +167,7 @@ fn rational_factor(factor: &Factor, polynomial: &UniPoly) -> Option<Factor> {
 }
 
 /// Poles in groups of order two and one, by falling modulus: pairs of complex ones, real ones as they come.
-fn grouped(mut factors: Vec<Factor>) -> Vec<Vec<Factor>> {
+pub(super) fn grouped(mut factors: Vec<Factor>) -> Vec<Vec<Factor>> {
     factors.sort_by_key(|factor| std::cmp::Reverse(factor.size()));
     let (pairs, real): (Vec<Factor>, Vec<Factor>) = factors.into_iter().partition(|factor| factor.rest.len() == 2);
     let mut groups: Vec<Vec<Factor>> = pairs.into_iter().map(|pair| vec![pair]).collect();
@@ -196,7 +196,7 @@ fn poles_degree(factors: &[Factor]) -> usize {
 }
 
 /// The product of monic factors, with zeros in front up to this degree.
-fn polynomial(factors: &[Factor], degree: usize) -> Vec<Enclosure> {
+pub(super) fn polynomial(factors: &[Factor], degree: usize) -> Vec<Enclosure> {
     let mut out = vec![exactly(Rational::ONE)];
     for factor in factors {
         let monic: Vec<Enclosure> =

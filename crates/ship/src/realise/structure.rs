@@ -25,6 +25,8 @@ pub struct Structure(pub(super) Form);
 pub(super) enum Form {
     /// Factors in z, one for a direct form.
     Chain(Vec<Fraction>),
+    /// Summands in z and a direct path.
+    Sum { fractions: Vec<Fraction>, direct: Slot },
     /// A fraction in `(z - 1)/delta`.
     Delta { fraction: Fraction, delta: Rational },
     /// The matrices A, B, C, D by rows.
@@ -47,6 +49,11 @@ impl Structure {
             Form::Chain(factors) if factors.len() == 1 => both(&factors[0], String::new()).into(),
             Form::Chain(factors) => {
                 factors.iter().enumerate().flat_map(|(k, fraction)| both(fraction, format!("_{}", k + 1))).collect()
+            }
+            Form::Sum { fractions, direct } => {
+                let path = list("d".to_owned(), std::slice::from_ref(direct));
+                let of = |(k, fraction)| both(fraction, format!("_{}", k + 1));
+                std::iter::once(path).chain(fractions.iter().enumerate().flat_map(of)).collect()
             }
             Form::Delta { fraction, .. } => both(fraction, String::new()).into(),
             Form::State(matrices) => {
@@ -91,6 +98,20 @@ impl Realised {
                 let one = || vec![Entry::Number(Rational::ONE)];
                 let numerator = factors.iter().fold(one(), |p, (b, _)| product(&p, &polynomial(b)));
                 let denominator = factors.iter().fold(one(), |p, (_, a)| product(&p, &polynomial(a)));
+                vec![("num", list(numerator)), ("den", list(denominator))]
+            }
+            Form::Sum { fractions, direct } => {
+                let below: Vec<Vec<Entry>> = fractions.iter().map(|(_, a)| polynomial(a)).collect();
+                let without = |skipped: Option<usize>| {
+                    let kept = below.iter().enumerate().filter(|(k, _)| Some(*k) != skipped);
+                    kept.fold(vec![Entry::Number(Rational::ONE)], |p, (_, a)| product(&p, a))
+                };
+                let denominator = without(None);
+                let path = product(&[entry(direct)], &denominator);
+                let numerator = fractions
+                    .iter()
+                    .enumerate()
+                    .fold(path, |total, (k, (b, _))| sum(&total, &product(&polynomial(b), &without(Some(k)))));
                 vec![("num", list(numerator)), ("den", list(denominator))]
             }
             Form::Delta { fraction: (b, a), delta } => {

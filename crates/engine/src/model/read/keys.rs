@@ -115,7 +115,7 @@ pub(super) const MODEL: [Key; 11] = [
 ];
 
 /// The realisations of `[ship]`.
-pub(super) const REALISATIONS: [&str; 6] = ["df1", "df2", "df2t", "sos", "delta", "state"];
+pub(super) const REALISATIONS: [&str; 7] = ["df1", "df2", "df2t", "sos", "parallel", "delta", "state"];
 
 /// The table `[ship]`.
 pub(super) const SHIP: [Key; 7] = [
