@@ -163,6 +163,7 @@ mod program {
     mod outputs;
     mod regions;
     mod report;
+    mod report_required;
     mod second_hour;
     mod simulate;
     mod sweep;

@@ -316,7 +316,7 @@ def build_reference(app):
     write("errors.md", page_of("Errors and warnings", "crates/engine/src/error/codes.md").replace("\n#### ", "\n## "))
     write("words.md", page_of("Words of the answers", "crates/engine/src/show/words.md").replace("\n#### ", "\n## "))
     write("certificates.md", page_of("Certificates", "crates/check/src/grammar.md", "crates/check/src/proved.md"))
-    write("speed.md", page_of("Speed", "src/performance.md"))
+    write("speed.md", page_of("How long answers take", "src/performance.md"))
     write("gallery.md", gallery_page())
     pages = documents_pages()
     for name, text in pages.items():

@@ -186,15 +186,17 @@ def threads() -> int:
 
 
 def explain(code: str) -> str:
-    """What an error code means.
+    """What an error code means, or a word of the answers.
 
     Examples
     --------
     >>> import jurist
     >>> jurist.explain("E-cycle").splitlines()[0][:33]
     'Constants are defined by each oth'
+    >>> jurist.explain("phase margin")[:19]
+    'The angle by which '
     """
-    known = dict(_jurist.codes())
+    known = {**dict(_jurist.words()), **dict(_jurist.codes())}
     if code not in known:
         raise KeyError(code)
     return known[code]

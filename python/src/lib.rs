@@ -25,7 +25,7 @@ mod _jurist {
     #[pymodule_export]
     use super::pool::{renew_threads, set_threads, threads};
     #[pymodule_export]
-    use super::program::{check, codes, defect, program};
+    use super::program::{check, codes, defect, program, words};
     #[pymodule_export]
     use super::real::Algebraic;
 

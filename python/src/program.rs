@@ -37,6 +37,12 @@ pub(crate) fn codes() -> Vec<(String, String)> {
     jurist_engine::error::codes().map(|(code, text)| (code.to_string(), text)).collect()
 }
 
+/// Every word of the answers and of the field with its explanation.
+#[pyfunction]
+pub(crate) fn words() -> Vec<(&'static str, &'static str)> {
+    jurist_engine::show::words().collect()
+}
+
 /// Breaks off as a defect would: shows that no panic leaves the package.
 #[pyfunction]
 pub(crate) fn defect(py: Python<'_>) -> PyResult<()> {

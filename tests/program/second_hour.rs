@@ -163,3 +163,12 @@ fn an_expected_range_fails_where_a_part_of_it_is_surely_unstable() {
     assert_eq!(tried("[0, 10]"), 1);
     assert_eq!(tried("[2, 10]"), 1);
 }
+
+#[test]
+fn a_map_of_margins_with_dead_time_is_refused_for_the_margins() {
+    let model = "time = 'continuous'\n[parameters]\nK = { nominal = 1 }\nd = { nominal = 0.2 }\n\
+        [loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\ninput = 'r - y'\noutput = 'y'\ntransfer = 'K*exp(-d*s)/(s + 1)'\n";
+    let arguments = ["map", "-", "-x", "K=0..2", "-y", "d=0..1", "--phase-margin", "45 deg"];
+    let run = jurist_with_input(&arguments, model.as_bytes());
+    assert!(run.status == 2 && run.stderr.contains("requirements on margins are decided at points"), "{}", run.stderr);
+}

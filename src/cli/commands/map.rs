@@ -211,9 +211,18 @@ fn required(
     asked: &Requirements,
     context: &Context,
 ) -> Result<MapOrBoxes, EngineError> {
-    if !asked.list.is_empty() && !Asked::MapWithMargins.over(problem.coefficient_ring(&context.budget)?).is_answered() {
+    if !asked.list.is_empty() {
         // That is said before the map is made.
-        problem.algebra(&context.budget)?;
+        let ring = problem.coefficient_ring(&context.budget)?;
+        for requirement in &asked.list {
+            let coverage = Asked::Map.with_requirement(requirement, problem.time()).over(ring);
+            if let Some(refusal) = coverage.refusal().filter(|refusal| !refusal.help.contains('{')) {
+                return Err(refusal.diagnostic(&[]).into());
+            }
+        }
+        if !Asked::MapWithMargins.over(ring).is_answered() {
+            problem.algebra(&context.budget)?;
+        }
     }
     match problem.map_by(method, boxes, digits, &context.budget)? {
         MapOrBoxes::Exact(answer) if !asked.list.is_empty() => {

@@ -181,16 +181,13 @@ fn is_within(bound: Option<&Rational>, end: Option<&End>, is_upper: bool) -> boo
 /// Whether a part of a range is decided and not stable: neither in a stable interval nor in a bracket.
 fn has_gap(set: &StableSet, low: Option<&Rational>, high: Option<&Rational>) -> bool {
     let outer = |end: &Option<End>, is_upper: bool| {
-        end.as_ref().map(|end| {
-            let (lower, upper) = end.value.refined_to_digits(DIGITS).enclosure();
-            if is_upper { upper } else { lower }
-        })
+        let (lower, upper) = end.as_ref()?.value.refined_to_digits(DIGITS).enclosure();
+        Some(if is_upper { upper } else { lower })
     };
     let stable = set.intervals().iter().map(|i| (outer(&i.lower, false), outer(&i.upper, true)));
     let brackets = set.undecided().iter().map(|b| (b.lower.clone(), b.upper.clone()));
     let mut covered: Vec<(Option<Rational>, Option<Rational>)> = stable.chain(brackets).collect();
-    // No end is the least of all.
-    covered.sort();
+    covered.sort(); // no end is the least of all
     let mut reached = low.cloned();
     for (from, to) in covered {
         let is_gap = matches!((&reached, &from), (Some(reached), Some(from)) if reached < from);

@@ -1,8 +1,8 @@
-//! The loop's margins and its Bode diagram, where it is clear where the loop is cut.
+//! The loop's margins, its Bode diagram and its Nyquist curve, where it is clear where the loop is cut.
 
 use super::limits::{DIGITS, PLACES};
 use super::part::{Part, Parts, Work};
-use crate::figures::{bode, frequency_response};
+use crate::figures::{bode, frequency_response, nyquist};
 use crate::page::{Table, escaped, figure, math, paragraph};
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::Answer;
@@ -50,14 +50,16 @@ pub(super) fn bode_section(margins: &Part<Answer<Margins>>, parts: &Parts<'_>) -
         Err(missing) => return missing.html(),
         Ok(answer) => answer,
     };
-    let drawn =
-        parts.part("Bode diagram", WORK, |budget| Ok(bode(answer, &frequency_response(answer.value(), budget)?)));
+    let drawn = parts.part("Bode diagram", WORK, |budget| {
+        let response = frequency_response(answer.value(), budget)?;
+        Ok([bode(answer, &response), nyquist(answer, &response)])
+    });
     match drawn {
         Err(missing) => missing.html(),
-        Ok(drawn) => figure(
-            "bode",
-            &drawn,
-            "Magnitude and phase of the open loop; the curves are floating point, the marked crossings are exact",
-        ),
+        Ok([first, second]) => {
+            let drawn = "the curves are floating point, the marked crossings are exact";
+            figure("bode", &first, &format!("Magnitude and phase of the open loop; {drawn}"))
+                + &figure("nyquist", &second, &format!("The open loop around -1; {drawn}"))
+        }
     }
 }

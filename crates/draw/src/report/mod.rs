@@ -112,7 +112,7 @@ pub fn loop_report(question: &Question, request: &ReportRequest<'_>, budget: &Bu
         ),
         ("tolerance", "Worst corner of the tolerances", Box::new(|| tolerance::section(question, &parts))),
         ("locus", "Root locus", Box::new(|| pictures::locus(&limits, &parts))),
-        ("bode", "Bode diagram", Box::new(|| margins::bode_section(&margins, &parts))),
+        ("bode", "Bode and Nyquist diagrams", Box::new(|| margins::bode_section(&margins, &parts))),
         ("response", "Response", Box::new(|| pictures::response(&problem, &verdict, &parts))),
         ("map", "Map of two parameters", Box::new(|| map::section(question, &limits, &parts))),
         (

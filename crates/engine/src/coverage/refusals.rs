@@ -49,7 +49,7 @@ fn filled(text: &str, words: &[(&str, &str)]) -> String {
     words.iter().fold(text.to_owned(), |text, (name, word)| text.replace(&format!("{{{name}}}"), word))
 }
 
-const KNOWN: &str = "known of it: {known}";
+const KNOWN: &str = "what can be asked of it: {known}";
 const AT_A_POINT: &str = "ask 'verdict' with a value for every parameter";
 const OTHER_CERTIFICATES: &str = "known: loops behind a hold, or with prewarp, at times that are rational numbers, the dead time of a loop with one, a gain beside a fixed one; the answer is printed without it";
 const CERTIFIED_MAPS: &str = "exact maps have one where the loop is rational, the bound of its region a number, and stability all that is asked; with constants that are not rational maps by boxes have one: --method boxes";
@@ -64,7 +64,7 @@ pub(crate) static BESIDE_DEAD_TIME: Refusal = Refusal::new(
 pub(crate) static FUNCTIONS: Refusal = Refusal::new(
     Code::Function,
     "this question is answered for rational loops only, and this loop has functions, as behind a hold",
-    "known of it: {known}; it contains {symbols}",
+    "what can be asked of it: {known}; it contains {symbols}",
 );
 pub(crate) static INSIDE: Refusal = Refusal::new(
     Code::Function,
@@ -115,7 +115,7 @@ pub(crate) static BOXES_ARE_OF_STABILITY: Refusal =
 pub(crate) static ONLY_THE_BOX: Refusal = Refusal::new(
     Code::Tolerance,
     "{what} not asked of tolerances inside of functions or with dead time yet",
-    "known of it: whether the box is stable, the largest factor with its worst point and shares, and --limit",
+    "what can be asked of it: whether the box is stable, the largest factor with its worst point and shares, and --limit",
 );
 pub(crate) static MARGINS_AT_POINTS: Refusal = Refusal::new(
     Code::Require,

@@ -101,7 +101,7 @@ static ROWS: &[Row] = &[
     Row::new(Asked::ToleranceInRegion, "tolerance --tol NAME=10% REGION", [A(&TENSOR), A(&TENSOR), A(&FUNCTION_TENSOR), R(&DECAY), R(&DECAY), NO_ORDER]),
     at_a_point(Asked::VerdictWithMargins, "verdict --modulus-margin 1/100", [A(&FREQUENCIES), A(&FREQUENCIES), OPEN_LOOP, BESIDE]),
     Row::new(Asked::IntervalsWithMargins, "intervals --param NAME --modulus-margin 1/100", [A(&RESULTANTS), A(&ENCLOSED_RESULTANTS), A(&ENCLOSED_RESULTANTS), R(&MARGINS_AT_POINTS), BESIDE, NO_ORDER]),
-    Row::new(Asked::MapWithMargins, "map -x NAME -y NAME --modulus-margin 1/100", [A(&RESULTANTS), A(&RESULTANTS), NO_FUNCTIONS, NO_DELAY, NO_DELAY, NO_ORDER]),
+    Row::new(Asked::MapWithMargins, "map -x NAME -y NAME --modulus-margin 1/100", [A(&RESULTANTS), A(&RESULTANTS), NO_FUNCTIONS, R(&MARGINS_AT_POINTS), R(&MARGINS_AT_POINTS), NO_ORDER]),
     Row::new(Asked::ToleranceWithMargins, "tolerance --tol NAME=10% --modulus-margin 1/100", [A(&TENSOR), A(&TENSOR), BOX_ALONE, BOX_ALONE, BOX_ALONE, NO_ORDER]),
     at_a_point(Asked::VerdictWithDamping, "verdict --damping 1/10", [A(&ROOTS), A(&ROOTS), NO_DELAY, BESIDE]),
     Row::new(Asked::IntervalsWithDamping, "intervals --param NAME --damping 1/10", [A(&ROOTS), A(&ROOTS), A(&ROOTS), NO_DELAY, BESIDE, NO_ORDER]),

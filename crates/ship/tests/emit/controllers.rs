@@ -5,7 +5,7 @@ use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{BinaryFormat, Enclosure, Integer, Rational, parse_number};
 use jurist_ship::format::{Fixed, Rounding};
 use jurist_ship::program::{Coefficient, Node, Operand, Program, Term};
-use jurist_ship::realise::{Realisation, Realised, delta, direct, sections, state};
+use jurist_ship::realise::{Realisation, Realised, delta, direct, parallel, sections, state};
 use jurist_ship::run::Overflow;
 
 pub fn exactly(texts: &[&str]) -> Vec<Enclosure> {
@@ -18,6 +18,7 @@ pub fn realisations() -> Vec<Realised> {
     let rows = |rows: &[&[&str]]| rows.iter().map(|row| exactly(row)).collect::<Vec<_>>();
     let of = |realisation| match realisation {
         Realisation::Sos => sections(&b, &a, &Budget::unlimited()).unwrap().expect("roots are told apart"),
+        Realisation::Parallel => parallel(&b, &a, &Budget::unlimited()).unwrap().expect("poles are apart"),
         Realisation::Delta => delta(&b, &a, 3),
         Realisation::State => state(
             &rows(&[&["0.9", "-0.3", "0"], &["0.3", "0.9", "1"], &["0", "0.125", "-0.4"]]),
