@@ -116,6 +116,8 @@ const FORMS: &[&[&str]] = &[
     &["roots"],
     &["roots", "examples/dc-servo.toml", "--explain"],
     &["roots", "--timeout", "0"],
+    &["roots", "examples/dead-time-pi.toml", "--rightmost", "2"],
+    &["roots", "examples/neutral-loop.toml", "--explain"],
     &["simulate", "--duration", "0.01"],
     &["simulate", "--switched", "--duration", "0.01"],
     &["verdict", "--set", "K_pwm=551"],
