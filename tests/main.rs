@@ -17,6 +17,7 @@ mod laws {
     mod numbers;
     mod polynomials;
     mod real_roots;
+    mod rightmost_roots;
     mod root_cases;
     mod stability;
     mod turning;
@@ -57,6 +58,7 @@ mod loops {
     mod requirements;
     mod root_requirements;
     mod roots;
+    mod roots_with_dead_time;
     mod sensitivity;
     mod square_roots;
 }

@@ -61,7 +61,7 @@ if TYPE_CHECKING:
     )
     from ._report import Report
     from ._response import Bode, FrequencyResponse, Nyquist
-    from ._roots import Root
+    from ._roots import Root, Roots
     from ._tolerance import Factor, Tolerance, Worst
     from ._rows import SweepResult
     from ._sweep import ray_executor, sweep, sweep_batches
@@ -74,7 +74,7 @@ _LATER = {
     **dict.fromkeys(("Peak", "PeakToPeak", "PhaseCrossing", "PhaseMargin"), "_margins"),
     **dict.fromkeys(("Bode", "FrequencyResponse", "Nyquist"), "_response"),
     "Report": "_report",
-    "Root": "_roots",
+    **dict.fromkeys(("Root", "Roots"), "_roots"),
     **dict.fromkeys(("Factor", "Tolerance", "Worst"), "_tolerance"),
     "from_control": "_control",
     "margins": "_control",
@@ -126,6 +126,7 @@ __all__ = [
     "Real",
     "Report",
     "Root",
+    "Roots",
     "Simulation",
     "StableSet",
     "SweepResult",

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from ._margins import Margins, Norm, PeakToPeak
     from ._report import Report
     from ._response import Bode, Nyquist
-    from ._roots import Root
+    from ._roots import Roots
 
 
 class ResponseQuestions(Asker):
@@ -110,8 +110,17 @@ class ResponseQuestions(Asker):
         words = [first, dash, input, output, "--l1", *options]
         return PeakToPeak(self._document(words, asked), self._itself, tuple(words))
 
-    def roots(self, values: Mapping[str, Exact] | None = None, **question: Unpack[Waiting]) -> list[Root]:
+    def roots(
+        self, values: Mapping[str, Exact] | None = None, *, rightmost: int | None = None, **question: Unpack[Waiting]
+    ) -> Roots:
         """The roots of the closed loop (poles), the slowest first; of a pair of conjugate roots the upper one.
+
+        Parameters
+        ----------
+        values : mapping, optional
+        rightmost : int, optional
+            Of a loop with dead time, which has infinitely many roots: how many of the rightmost are listed, a pair being one; 10 where
+            nothing is given. No other root is right of the line `others_left_of` of the list.
 
         Examples
         --------
@@ -120,11 +129,23 @@ class ResponseQuestions(Asker):
         >>> pair = loop.roots()[0]
         >>> pair.value, pair.is_pair, round(pair.damping, 6)
         ((-1+1j), True, 0.707107)
+        >>> delayed = jurist.Loop.from_toml('''
+        ... time = "continuous"
+        ... [parameters]
+        ... K = 1
+        ... [loop]
+        ... characteristic = "s + K*exp(-s)"
+        ... ''')
+        >>> roots = delayed.roots(rightmost=2)
+        >>> roots[0].re, roots[0].im, roots.others_left_of
+        ('-0.318131505205', '1.33723570143', Fraction(-12, 5))
         """
         from ._roots import roots_of
 
         asked = self._asked(values, **question)
-        return roots_of(self._document(self._words("roots", asked), asked))
+        words = self._words("roots", asked)
+        words += [] if rightmost is None else [f"--rightmost={rightmost}"]
+        return roots_of(self._document(words, asked))
 
     def bode(
         self,

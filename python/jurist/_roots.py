@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -46,9 +47,33 @@ class Root:
         return complex(re, im)
 
 
-def roots_of(document: str) -> list[Root]:
+class Roots(list[Root]):
+    """The roots of a closed loop, the slowest first: a list of `Root`, and how far they are listed.
+
+    Attributes
+    ----------
+    others_left_of : fractions.Fraction or None
+        Of a loop with dead time, which has infinitely many roots: no root that is not listed has this real part or a greater one. None where
+        all roots are listed.
+    chain : pair of fractions.Fraction or None
+        Of a loop of neutral type: certified bounds of the real part of a line that infinitely many roots come as near to as one likes.
+    """
+
+    def __init__(
+        self,
+        roots: Iterable[Root] = (),
+        others_left_of: Fraction | None = None,
+        chain: tuple[Fraction, Fraction] | None = None,
+    ) -> None:
+        super().__init__(roots)
+        self.others_left_of = others_left_of
+        self.chain = chain
+
+
+def roots_of(text: str) -> Roots:
     """The roots of a document `jurist/roots/1`."""
-    return [
+    document = json.loads(text)
+    roots = [
         Root(
             re=root["re"],
             im=root["im"],
@@ -62,8 +87,10 @@ def roots_of(document: str) -> list[Root]:
             natural_frequency=root["natural_frequency"],
             natural_frequency_hz=root["natural_frequency_hz"],
         )
-        for root in json.loads(document)["roots"]
+        for root in document["roots"]
     ]
+    line, chain = document.get("others_left_of"), document.get("chain")
+    return Roots(roots, None if line is None else Fraction(line), None if chain is None else _bounds(chain))
 
 
 def _bounds(texts: list[str]) -> tuple[Fraction, Fraction]:

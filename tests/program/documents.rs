@@ -120,6 +120,8 @@ const FORMS: &[&[&str]] = &[
     &["roots", "--timeout", "0"],
     &["ship", "examples/drive-blocks.toml", "--block", "speed controller", "--format", "Q4.12", "--signal", "Q8.16"],
     &["ship", "examples/drive-blocks.toml", "--block", "current controller", "--format", "float32", "--param", "T"],
+    &["roots", "examples/dead-time-pi.toml", "--rightmost", "2"],
+    &["roots", "examples/neutral-loop.toml", "--explain"],
     &["simulate", "--duration", "0.01"],
     &["simulate", "--switched", "--duration", "0.01"],
     &["verdict", "--set", "K_pwm=551"],

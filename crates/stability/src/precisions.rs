@@ -60,6 +60,9 @@ pub const ORDER_OF_DEAD_TIMES: Precisions = Precisions::new(96, 1 << 12);
 /// The argument along the imaginary axis. The function may be zero there.
 pub const ARGUMENT_ALONG_AXIS: Precisions = Precisions::new(64, 1 << 14);
 
+/// A root of a loop with dead time. All are simple, but where nothing is near to the approximation no bits show one.
+pub const ROOT_OF_QUASI_POLYNOMIAL: Precisions = Precisions::new(128, 1 << 12);
+
 /// The sum of an impulse response beside which the errors of its samples are small: the first bits, and how many beyond those that the digits
 /// take. Where all coefficients of the numerator are zero by identities the sum is zero, which no bits show.
 pub const IMPULSE_RESPONSE: Precisions = Precisions::new(64, 1 << 12);

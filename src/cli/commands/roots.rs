@@ -6,6 +6,7 @@ use crate::cli::destinations::Files;
 use crate::cli::input::{load, question};
 use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
+use jurist_engine::answer::RIGHTMOST;
 use jurist_engine::coverage::Asked;
 use jurist_engine::show::documents::Roots;
 
@@ -14,6 +15,9 @@ use jurist_engine::show::documents::Roots;
 pub(in crate::cli) struct Options {
     #[command(flatten)]
     pub model: ModelOptions,
+    /// Of a loop with dead time, which has infinitely many roots: how many of the rightmost are listed, a pair being one
+    #[arg(long, value_name = "N", default_value_t = RIGHTMOST as u16, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub rightmost: u16,
     #[command(flatten)]
     pub explain: ExplainOptions,
     #[command(flatten)]
@@ -43,7 +47,7 @@ fn run(options: &Options, context: &Context) -> Outcome {
     let digits = output.digits() as usize;
     let problem = question(context, &model, &options.model, &RegionOptions::default())?.problem()?;
     context.explain(&options.explain, output, &problem, Asked::Roots)?;
-    let answer = match decided(problem.roots(digits, &context.budget))? {
+    let answer = match decided(problem.rightmost_roots(options.rightmost.into(), digits, &context.budget))? {
         Ok(answer) => answer,
         Err(stopped) => {
             return context.undecided(output, &stopped, || None, || Roots::new(&problem, Err(&stopped), digits));

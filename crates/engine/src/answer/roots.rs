@@ -1,14 +1,16 @@
 //! Where the roots of a closed loop are, each in a small disc.
 
 use super::Answer;
+use super::rightmost::rightmost;
 use crate::error::Error;
 use crate::model::{Time, quotient_at};
 use crate::precisions::ROOTS;
-use crate::problem::{Problem, exact_or_enclosed};
+use crate::problem::{BaseDelay, DelayedLoop, Problem, exact_or_enclosed};
+use crate::stability::dead_time::QuasiPolynomial;
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, checkpoint};
 use jurist_algebra::number::{Enclosure, Rational};
-use jurist_algebra::poly::{RootDisc, UniPoly, complex_roots, root_discs};
+use jurist_algebra::poly::{Domain, RootDisc, UniPoly, complex_roots, root_discs};
 use std::sync::Arc;
 
 /// The roots of the characteristic polynomial at a point.
@@ -35,7 +37,24 @@ pub struct Roots {
     /// The slowest root first: by magnitude from the largest in discrete time, by real part from the rightmost in continuous time. Of a
     /// pair of conjugate roots the upper one is listed.
     pub list: Vec<ClosedLoopRoot>,
+    /// Of a loop with dead time, which has infinitely many roots, how far they are listed; `None` where all are.
+    pub beyond: Option<BeyondRoots>,
 }
+
+/// Where the roots are that are not listed, of a loop with dead time.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct BeyondRoots {
+    /// How many were asked for. More are listed where real parts are nearly the same, fewer where a chain of roots comes before.
+    pub wanted: usize,
+    /// No other root has this real part or a greater one.
+    pub others_left_of: Rational,
+    /// Of a loop of neutral type the real part of a line that infinitely many roots come as near to as one likes.
+    pub chain: Option<Enclosure>,
+}
+
+/// How many roots of a loop with dead time are listed where nothing else is asked for.
+pub const RIGHTMOST: usize = 10;
 
 /// A root, or a cluster: several roots that share one disc.
 #[derive(Clone, Debug)]
@@ -43,9 +62,9 @@ pub struct Roots {
 pub struct ClosedLoopRoot {
     /// Where.
     pub disc: RootDisc,
-    time: Time,
+    pub(super) time: Time,
     /// From one sample to the next, of a discrete loop that says it; of several rates the hyperperiod.
-    period: Option<Rational>,
+    pub(super) period: Option<Rational>,
 }
 
 impl ClosedLoopRoot {
@@ -149,24 +168,62 @@ enum Polynomial {
     Exact(UniPoly),
     /// Enclosed, with so many bits.
     Enclosed(Vec<RootDisc>),
+    /// With a dead time.
+    Delayed(QuasiPolynomial, Rational),
 }
 
 impl Problem {
     /// The roots of the characteristic polynomial at the point that the values of all parameters are, in discs that are small enough for so
     /// many significant digits of the root.
     ///
-    /// The discs are proved (Smith 1970); multiplicities are exact for a rational loop. Behind holds roots that are equal, or nearer to each other than
-    /// some thousand bits tell, share a disc.
+    /// The discs are proved (Smith 1970); multiplicities are exact for a rational loop and for one with dead time. Behind holds roots that are
+    /// equal, or nearer to each other than some thousand bits tell, share a disc. Of a loop with dead time the [ten](RIGHTMOST) rightmost roots are
+    /// listed, as by [`Problem::rightmost_roots`].
     ///
     /// Cost: that of the characteristic polynomial, and of some dozen rounds of the iteration of Aberth and Ehrlich.
     ///
     /// # Errors
-    /// [`Error::Refused`] (`E-dead-time`) for dead time in continuous time: there are infinitely many roots. [`Error::Undefined`] where the loop
-    /// is, and where its polynomial is zero; [`Error::Stopped`].
+    /// As [`Problem::rightmost_roots`].
     ///
     /// # Panics
     /// When a parameter is free.
     pub fn roots(self: &Arc<Self>, digits: usize, budget: &Budget) -> Result<Answer<Roots>, Error> {
+        self.rightmost_roots(RIGHTMOST, digits, budget)
+    }
+
+    /// The same with another number of roots of a loop with dead time, of which infinitely many exist: so many of the rightmost, a pair of
+    /// conjugates being one. No other root is right of the line that [`BeyondRoots`] says. Of a loop without dead time all roots are listed.
+    ///
+    /// Discs are proved by Rouché's theorem, and that there are no others by a count along the line
+    /// ([`rightmost_roots`](crate::stability::dead_time::rightmost_roots)).
+    ///
+    /// Cost: as [`Problem::roots`]; with dead time that of the searches and counts there.
+    ///
+    /// # Errors
+    /// [`Error::Refused`] (`E-dead-time`) for dead time beside other functions, and where infinitely many roots are right of any line.
+    /// [`Error::Undefined`] where the loop is, and where its polynomial is zero; [`Error::Stopped`].
+    ///
+    /// # Panics
+    /// When a parameter is free.
+    ///
+    /// ```
+    /// use jurist_algebra::limits::Budget;
+    /// use jurist_engine::model::{Model, ParameterBuilder, Time};
+    /// let (model, _) = Model::builder(Time::Continuous)
+    ///     .parameter(ParameterBuilder::new("K").nominal("1"))
+    ///     .characteristic("s + K*exp(-s)")
+    ///     .build()?;
+    /// let answer = model.ask().problem()?.rightmost_roots(3, 12, &Budget::unlimited())?;
+    /// let beyond = answer.value().beyond.as_ref().unwrap();
+    /// assert_eq!((answer.value().list.len(), beyond.others_left_of.to_string().as_str()), (3, "-14/5"));
+    /// # Ok::<(), jurist_engine::error::Error>(())
+    /// ```
+    pub fn rightmost_roots(
+        self: &Arc<Self>,
+        wanted: usize,
+        digits: usize,
+        budget: &Budget,
+    ) -> Result<Answer<Roots>, Error> {
         assert!(self.free().is_empty(), "a point has no free parameters");
         let narrow = Rational::from(10).pow(-(digits as i64 + 4)).expect("ten is not zero");
         let time = self.time();
@@ -184,6 +241,10 @@ impl Problem {
             }
             Polynomial::Exact(p) => complex_roots(&p, &narrow, budget)?,
             Polynomial::Enclosed(discs) => discs,
+            Polynomial::Delayed(p, tau) => {
+                let roots = rightmost(&p, &tau, wanted, &narrow, degree, budget)?;
+                return Ok(Answer::new(Arc::clone(self), roots));
+            }
         };
         let found: usize = discs.iter().map(|d| if d.is_pair { 2 * d.count } else { d.count }).sum();
         let root = |disc| ClosedLoopRoot { disc, time, period: period.clone() };
@@ -191,7 +252,7 @@ impl Problem {
         list.sort_by_cached_key(|root| {
             std::cmp::Reverse((root.slowness(), root.disc.re.clone(), root.disc.im.clone()))
         });
-        Ok(Answer::new(Arc::clone(self), Roots { degree, infinite: degree.saturating_sub(found), list }))
+        Ok(Answer::new(Arc::clone(self), Roots { degree, infinite: degree.saturating_sub(found), list, beyond: None }))
     }
 
     /// By the polynomial of the algebra.
@@ -202,15 +263,16 @@ impl Problem {
     ) -> Result<(Polynomial, usize, Option<Rational>), Error> {
         let algebra = self.algebra_over_symbols(budget)?;
         let symbols = algebra.symbols();
-        if !symbols.delays().is_empty() {
-            return Err(crate::coverage::CoefficientRing::of(symbols).not_rational(symbols).into());
-        }
         let undefined = || {
             let why = algebra.undefined().unwrap_or("an expression divides by zero");
             Error::Undefined(why.to_owned())
         };
         let degree = algebra.formal_degree();
         let period = algebra.sample_time().and_then(|t| t.as_constant());
+        if !symbols.delays().is_empty() {
+            let delayed = self.delayed(budget)?.ok_or_else(undefined)?;
+            return Ok((with_dead_time(delayed), degree, period));
+        }
         if symbols.is_empty() {
             let p = self.parametric(budget)?.filter(|p| !p.is_undefined_at(&Rational::ZERO)).ok_or_else(undefined)?;
             return Ok((Polynomial::Exact(p.specialised(&Rational::ZERO)), degree, period));
@@ -234,6 +296,15 @@ impl Problem {
         let Some((degree, period)) = self.size_in_numbers(budget)? else { return Ok(None) };
         let discs = discs(|bits| self.polynomial_in_numbers(bits, budget), 0, narrow, budget)?;
         Ok(Some((Polynomial::Enclosed(discs), degree, period)))
+    }
+}
+
+/// The characteristic function of a loop with dead time, where that is no factor that can be left out.
+fn with_dead_time(delayed: &DelayedLoop) -> Polynomial {
+    let Some(p) = delayed.quasi_polynomial() else { return Polynomial::Exact(UniPoly::zero()) };
+    match delayed.delay() {
+        BaseDelay::Number(tau) if p.delays() > 0 => Polynomial::Delayed(p, tau.clone()),
+        _ => Polynomial::Exact(p.without_delay()),
     }
 }
 

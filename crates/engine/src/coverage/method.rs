@@ -39,6 +39,11 @@ pub(super) static DISCS: Method = Method::new(
     "The iteration of Aberth and Ehrlich gives approximations of all roots. Discs around them are proved to hold the roots (Smith); with more bits they are apart and small. Multiplicities of a rational loop come from its square-free factors.",
     "answer::roots",
 );
+pub(super) static RIGHTMOST: Method = Method::new(
+    "discs right of a line",
+    "There are infinitely many roots. Newton's method gives approximations of the rightmost ones, discs around them are proved to hold one root each (Rouché), and a count of the argument's quarter turns along a line shows that no other root is right of it.",
+    "stability::dead_time::rightmost_roots",
+);
 pub(super) static ARGUMENT: Method = Method::new(
     "argument principle along the imaginary axis",
     "The argument of the characteristic function turns by a quarter for each root left of the axis; the turns are counted between certified frequencies (Mikhailov).",

@@ -61,6 +61,11 @@ pub(crate) static BESIDE_DEAD_TIME: Refusal = Refusal::new(
     "beside dead time the loop contains other functions that are not rational",
     "write the values of exp, sqrt, sin, cos, tan and pi as numbers",
 );
+pub(crate) static ADVANCED: Refusal = Refusal::new(
+    Code::DeadTime,
+    "infinitely many roots lie right of any line: the highest power of s has no part without delay",
+    "no such loop is stable: look for a transfer function with dead time that has more zeros than poles",
+);
 pub(crate) static FUNCTIONS: Refusal = Refusal::new(
     Code::Function,
     "this question is answered for rational loops only, and this loop has functions, as behind a hold",

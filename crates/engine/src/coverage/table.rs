@@ -81,7 +81,7 @@ static ROWS: &[Row] = &[
     Row::new(Asked::Locus, "locus --param NAME", [A(&FLOATING), A(&FLOATING), A(&FLOATING), NO_DELAY, BESIDE, NO_ORDER]).called("locus"),
     Row::new(Asked::Map, "map -x NAME -y NAME", [A(&DECOMPOSITION), A(&DECOMPOSITION), B(&FUNCTION_BOXES), B(&DELAYED_BOXES), BESIDE, NO_ORDER]).called("map"),
     Row::new(Asked::Tolerance, "tolerance --tol NAME=10%", [A(&TENSOR), A(&TENSOR), A(&FUNCTION_TENSOR), A(&DELAYED_TENSOR), BESIDE, NO_ORDER]).called("tolerance"),
-    at_a_point(Asked::Roots, "roots", [A(&DISCS), A(&DISCS), NO_DELAY, NO_DELAY]).called("roots"),
+    at_a_point(Asked::Roots, "roots", [A(&DISCS), A(&DISCS), P(&RIGHTMOST, &ADVANCED), BESIDE]).called("roots"),
     at_a_point(Asked::Jury, "jury", [A(&TABLE), A(&ENCLOSED_TABLE), NO_DELAY, NO_DELAY]).called("jury at a point"),
     Row::new(Asked::JuryInParameter, "jury --param NAME", [A(&TABLE), A(&ENCLOSED_TABLE), NO_FUNCTIONS, NO_DELAY, NO_DELAY, NO_ORDER]).called("jury in one parameter"),
     Row::new(Asked::Report, "report", [A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), A(&SEVERAL)]).called("report"),

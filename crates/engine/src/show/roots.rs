@@ -2,10 +2,11 @@
 
 use super::intervals::heading;
 use super::layout::Columns;
-use crate::answer::{Answer, ClosedLoopRoot, Roots};
+use crate::answer::{Answer, BeyondRoots, ClosedLoopRoot, Roots};
 use crate::model::Time;
 use crate::problem::Problem;
-use jurist_algebra::number::{Enclosure, Rational, enclosed_decimal, to_scientific};
+use jurist_algebra::number::{Enclosure, Rational, enclosed_decimal, to_decimal, to_scientific};
+use std::cmp::Ordering;
 
 /// Bits beyond those of the digits.
 const SPARE_BITS: u64 = 64;
@@ -59,14 +60,9 @@ impl Answer<Roots> {
     pub fn text(&self, digits: usize) -> String {
         let (problem, roots) = (self.problem(), self.value());
         let mut out = format!("{}\n", heading(problem));
-        let infinite = match roots.infinite {
-            0 => String::new(),
-            n => format!(", {n} of them at infinity"),
-        };
-        out.push_str(&match roots.degree {
-            0 => "the characteristic polynomial is a constant: no roots\n".to_owned(),
-            1 => format!("1 root{infinite}\n"),
-            n => format!("{n} roots{infinite}, the slowest first\n"),
+        out.push_str(&match &roots.beyond {
+            Some(beyond) => rightmost(roots.list.len(), beyond),
+            None => number_of(roots),
         });
         let mut columns = Columns::new("    ");
         columns.row(titles(problem));
@@ -76,8 +72,53 @@ impl Answer<Roots> {
         if !roots.list.is_empty() {
             out.push_str(&columns.to_string());
         }
+        if let Some(beyond) = &roots.beyond {
+            out.push_str(&others(roots.list.is_empty(), beyond));
+        }
         out
     }
+}
+
+/// How many roots there are.
+fn number_of(roots: &Roots) -> String {
+    let infinite = match roots.infinite {
+        0 => String::new(),
+        n => format!(", {n} of them at infinity"),
+    };
+    match roots.degree {
+        0 => "the characteristic polynomial is a constant: no roots\n".to_owned(),
+        1 => format!("1 root{infinite}\n"),
+        n => format!("{n} roots{infinite}, the slowest first\n"),
+    }
+}
+
+/// How many of infinitely many roots are listed.
+fn rightmost(listed: usize, beyond: &BeyondRoots) -> String {
+    let wanted = beyond.wanted;
+    let why = match listed.cmp(&wanted) {
+        Ordering::Equal => String::new(),
+        Ordering::Greater => format!(" ({wanted} were asked for; the next ones have nearly the same real part)"),
+        Ordering::Less => format!(" ({wanted} were asked for)"),
+    };
+    match listed {
+        0 => format!("infinitely many roots{why}\n"),
+        1 => format!("infinitely many roots, the rightmost{why}\n"),
+        n => format!("infinitely many roots, the {n} rightmost{why}; a pair counts as one\n"),
+    }
+}
+
+/// Where the roots are that are not listed.
+fn others(none: bool, beyond: &BeyondRoots) -> String {
+    let line = to_decimal(&beyond.others_left_of, MOST_DIGITS_OF_LINE);
+    let other = if none { "no root" } else { "no other root" };
+    let mut out = format!("{other} lies right of Re s = {line}\n");
+    if let Some(chain) = &beyond.chain {
+        let place = certain(chain, DERIVED_DIGITS);
+        out.push_str(&format!(
+            "neutral type: infinitely many roots come as near as one likes to the line Re s = {place}\n"
+        ));
+    }
+    out
 }
 
 fn titles(problem: &Problem) -> Vec<String> {
@@ -88,6 +129,9 @@ fn titles(problem: &Problem) -> Vec<String> {
     titles.extend(["damping", "natural frequency"].map(str::to_owned));
     titles
 }
+
+/// The line is a decimal number with fewer digits.
+const MOST_DIGITS_OF_LINE: usize = 60;
 
 /// Digits of what is computed of a root.
 const DERIVED_DIGITS: usize = 7;

@@ -71,16 +71,18 @@ pub(super) fn roots_right_of_line(
     if growth.is_zero() || p.delays() == 0 {
         return roots_right(p, tau, 0, budget).map(Some);
     }
-    match p.kind() {
-        Kind::Advanced => return Ok(None),
-        Kind::Neutral => return Err(NotCounted::Neutral),
-        Kind::Retarded => {}
+    if p.kind() == Kind::Advanced {
+        return Ok(None);
     }
-    Ok(Some(budget.enter(|| Walk::new(p, tau, p.order(), growth).follow(0, budget))??))
+    let walk = budget.enter(|| Walk::new(p, tau, p.order(), growth))?;
+    if !walk.is_dominated() {
+        return Err(NotCounted::Neutral);
+    }
+    Ok(Some(budget.enter(|| walk.follow(0, budget))??))
 }
 
 /// The derivatives by `s`: the parts of `sum P_k z^k` become `P_k' - k tau P_k`, over a power of the denominator of tau.
-fn derivatives(p: &QuasiPolynomial, tau: &Rational, orders: usize) -> Vec<Vec<UniPoly>> {
+pub(super) fn derivatives(p: &QuasiPolynomial, tau: &Rational, orders: usize) -> Vec<Vec<UniPoly>> {
     let (a, d) = (tau.numerator(), tau.denominator());
     let mut out = vec![p.parts().to_vec()];
     for j in 0..orders {
@@ -132,6 +134,14 @@ impl<'p> Walk<'p> {
         let one = if growth.is_zero() { Rational::ONE } else { upper_exponential(growth) };
         let weights = (0..p.parts().len()).map(|k| one.pow(k as i64).expect("not zero")).collect();
         Walk { p, tau, n, derivatives: derivatives(p, tau, TERMS), scale: ARGUMENT_ALONG_AXIS.first, growth, weights }
+    }
+
+    /// Whether the coefficient without delay outweighs the sum of the others in the difference operator, on the line.
+    fn is_dominated(&self) -> bool {
+        let top = self.p.difference();
+        let weighted = |(c, weight): (&Integer, &Rational)| Rational::from(&c.abs()) * weight;
+        let rest = top.coeffs().iter().zip(&self.weights).skip(1).map(weighted).fold(Rational::ZERO, |sum, x| sum + x);
+        rest < Rational::from(&top.coeff(0).abs())
     }
 
     fn follow(mut self, at_zero: usize, budget: &Budget) -> Result<usize, Exhausted> {

@@ -9,6 +9,7 @@
 //! | [`gain_cells`] | all values of a parameter at a fixed dead time |
 //! | [`PlaneLoop::boxes`] | two parameters, by boxes |
 //! | [`count_delayed_roots`] | the roots at one rational dead time, by a certified count of the argument's turns |
+//! | [`rightmost_roots`] | the rightmost roots at one rational dead time, and that no other lies right of a line |
 
 mod count;
 mod crossing;
@@ -28,6 +29,10 @@ mod plane;
 mod plane_function;
 mod plane_walk;
 mod quasi_polynomial;
+mod rightmost;
+mod rightmost_cut;
+mod rightmost_disc;
+mod rightmost_search;
 mod stable_set;
 mod strip;
 #[cfg(test)]
@@ -42,6 +47,8 @@ mod tests_gain;
 mod tests_plane;
 #[cfg(test)]
 mod tests_plane_bounds;
+#[cfg(test)]
+mod tests_rightmost;
 mod trigonometric;
 mod turn;
 mod windows;
@@ -58,4 +65,5 @@ pub use plane::{DeadTime, PlaneLoop};
 pub use plane_function::{PlaneFunction, Shares};
 pub use plane_walk::Known;
 pub use quasi_polynomial::{Kind, QuasiPolynomial};
+pub use rightmost::{RightmostRoots, rightmost_roots};
 pub use windows::{DelayCells, Never, Switch, delay_cells};

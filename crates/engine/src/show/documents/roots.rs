@@ -37,6 +37,16 @@ pub struct RootsFound {
     pub degree: usize,
     /// Roots at infinity: by how much the degree drops at this point.
     pub infinite: usize,
+    /// Of a loop with dead time, which has infinitely many roots: how many of the rightmost were asked for. More are listed where real
+    /// parts are nearly the same, fewer where infinitely many come near to the line `chain`. Without this key all roots are listed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rightmost: Option<usize>,
+    /// With `rightmost`: no root that is not listed has this real part or a greater one; a rational number.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub others_left_of: Option<String>,
+    /// Of a loop of neutral type: certified bounds of the real part of a line that infinitely many roots come as near to as one likes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub chain: Option<Enclosure>,
 }
 
 /// A root or a pair, or several that are not told apart.
@@ -105,6 +115,13 @@ impl Roots {
             roots: roots.list.iter().map(|root| RootFound::new(root, digits)).collect(),
             degree: roots.degree,
             infinite: roots.infinite,
+            rightmost: roots.beyond.as_ref().map(|beyond| beyond.wanted),
+            others_left_of: roots.beyond.as_ref().map(|beyond| beyond.others_left_of.to_string()),
+            chain: roots
+                .beyond
+                .as_ref()
+                .and_then(|beyond| beyond.chain.as_ref())
+                .map(|x| enclosure(x.lower(), x.upper())),
         };
         Roots { schema: RootsName::V1, question: PointQuestion::new(problem), answer: Answered::of(roots, found) }
     }

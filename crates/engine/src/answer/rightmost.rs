@@ -1,0 +1,27 @@
+//! The rightmost roots of a loop with dead time.
+
+use super::dead_time::not_counted;
+use super::roots::{BeyondRoots, ClosedLoopRoot, Roots};
+use crate::coverage::refusals::ADVANCED;
+use crate::error::Error;
+use crate::model::Time;
+use crate::stability::dead_time::{QuasiPolynomial, rightmost_roots};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+
+/// The roots right of a line, so many or some more, and the line.
+pub(super) fn rightmost(
+    p: &QuasiPolynomial,
+    tau: &Rational,
+    wanted: usize,
+    narrow: &Rational,
+    degree: usize,
+    budget: &Budget,
+) -> Result<Roots, Error> {
+    let found = rightmost_roots(p, tau, wanted, narrow, budget).map_err(not_counted)?;
+    let found = found.ok_or_else(|| ADVANCED.diagnostic(&[]))?;
+    let root = |disc| ClosedLoopRoot { disc, time: Time::Continuous, period: None };
+    let beyond = BeyondRoots { wanted, others_left_of: found.others_left_of, chain: found.chain };
+    let list = found.list.into_iter().map(root).collect();
+    Ok(Roots { degree, infinite: 0, list, beyond: Some(beyond) })
+}
