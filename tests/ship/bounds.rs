@@ -81,7 +81,7 @@ fn no_run_of_the_processor_leaves_its_bounds() {
             let r = [most, -most, random.below(2 * most as usize + 1) as i64 - most][random.below(3)];
             let difference = Integer::from(r) - &y;
             let before = states.clone();
-            let outputs = fixed.step(&mut states, &[difference.clone()]);
+            let outputs = fixed.step(&mut states, std::slice::from_ref(&difference));
             let (nodes, exact_y) = unrounded.step(&(&unit * &Rational::from(r)));
             let moved = (Rational::from(y.clone()) * &unit - exact_y).abs();
             assert!(moved <= ranges.moved[0].1, "{realisation} {round}: {moved} {}", ranges.moved[0].1);

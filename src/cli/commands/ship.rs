@@ -64,6 +64,15 @@ pub(in crate::cli) struct Options {
     /// Also gives the limits of this parameter with more and more bits; with -o FILE.svg, .png or .pdf as a picture
     #[arg(long, value_name = "NAME")]
     pub param: Option<String>,
+    #[command(flatten)]
+    pub written: Box<Written>,
+    #[command(flatten)]
+    pub output: OutputOptions,
+}
+
+/// Files that are written beside the answer.
+#[derive(Args, Debug)]
+pub(in crate::cli) struct Written {
     /// Writes the model with the stored coefficients: a model for every other command
     #[arg(long, value_name = "FILE")]
     pub rounded: Option<OsString>,
@@ -88,8 +97,6 @@ pub(in crate::cli) struct Options {
     /// Writes a certificate that 'jurist verify' re-checks: the verdict on the model of --rounded
     #[arg(long, value_name = "FILE", requires = "rounded")]
     pub certificate: Option<OsString>,
-    #[command(flatten)]
-    pub output: OutputOptions,
 }
 
 impl Runs for Options {
@@ -103,12 +110,15 @@ impl Runs for Options {
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
         files.question(&self.model.model, &self.output.output);
-        files.outputs.extend(self.rounded.iter().map(|file| ("the rounded model", file.clone())));
-        files.outputs.extend(self.every.iter().map(|file| ("the model of every rounding", file.clone())));
-        let code =
-            [("the code in C", &self.c), ("the code in structured text", &self.st), ("the code in Rust", &self.rust)];
+        files.outputs.extend(self.written.rounded.iter().map(|file| ("the rounded model", file.clone())));
+        files.outputs.extend(self.written.every.iter().map(|file| ("the model of every rounding", file.clone())));
+        let code = [
+            ("the code in C", &self.written.c),
+            ("the code in structured text", &self.written.st),
+            ("the code in Rust", &self.written.rust),
+        ];
         files.outputs.extend(code.into_iter().filter_map(|(what, file)| Some((what, file.clone()?))));
-        files.outputs.extend(self.certificate.iter().map(|file| ("the certificate", file.clone())));
+        files.outputs.extend(self.written.certificate.iter().map(|file| ("the certificate", file.clone())));
         Ok(())
     }
 }
@@ -128,20 +138,27 @@ fn run(options: &Options, context: &Context) -> Outcome {
     let (asked, question) = options.require.asked(&model, question, &options.region, context)?;
     let shipping = Asked::of(&model, &overrides(options, context, model.inputs())?)?;
     let problem = question.problem()?;
-    let beside =
-        Beside { fewest: options.fewest, limits_of: options.param.clone(), worst_input: options.worst.is_some() };
+    let beside = Beside {
+        fewest: options.fewest,
+        limits_of: options.param.clone(),
+        worst_input: options.written.worst.is_some(),
+    };
     let answer = match decided(ShipAnswer::of(&problem, shipping, &asked, &beside, &context.budget))? {
         Ok(answer) => answer,
         Err(stopped) => return context.undecided(output, &stopped, || None, || no_answer(&problem, &stopped)),
     };
     context.warn(None, problem.warnings());
     let rounded = answer.shipped.rounded_text();
-    for (text, file) in [(rounded, &options.rounded), (&answer.shipped.every_text().0, &options.every)] {
+    for (text, file) in [(rounded, &options.written.rounded), (&answer.shipped.every_text().0, &options.written.every)]
+    {
         if let Some(file) = file {
             write_answer(text, Some(file))?;
         }
     }
-    if !options.model.set.is_empty() && !context.quiet && (options.rounded.is_some() || options.every.is_some()) {
+    if !options.model.set.is_empty()
+        && !context.quiet
+        && (options.written.rounded.is_some() || options.written.every.is_some())
+    {
         note(
             "note: the models that are written have the file's own values beside the controller: give --set again with them",
         );
@@ -155,7 +172,8 @@ fn run(options: &Options, context: &Context) -> Outcome {
         Some(kind) => draw(&answer, kind, output)?,
         None => context.answer(output, || answer.text(digits), || answer.json(digits))?,
     }
-    let proof = certified(context, &options.certificate, || answer.rounded.verdict.certificate(&context.budget))?;
+    let proof =
+        certified(context, &options.written.certificate, || answer.rounded.verdict.certificate(&context.budget))?;
     if let Some((text, file)) = &proof {
         write_answer(text, Some(file))?;
         check_certificate(context, &output.run, rounded, text, file);
@@ -170,7 +188,7 @@ fn run(options: &Options, context: &Context) -> Outcome {
 
 /// The model of the inner signals, and the worst inputs, where they are asked for.
 fn signals(answer: &ShipAnswer, options: &Options, context: &Context) -> Result<(), Error> {
-    if options.signals.is_none() && options.worst.is_none() {
+    if options.written.signals.is_none() && options.written.worst.is_none() {
         return Ok(());
     }
     let ranges = match &answer.ranges {
@@ -184,10 +202,10 @@ fn signals(answer: &ShipAnswer, options: &Options, context: &Context) -> Result<
             return Err(error.help("add --signal Q5.10 or --input NAME=BOUND").into());
         }
     };
-    if let Some(file) = &options.signals {
+    if let Some(file) = &options.written.signals {
         write_answer(&ranges.problem.model().source().text, Some(file))?;
     }
-    let Some(file) = &options.worst else { return Ok(()) };
+    let Some(file) = &options.written.worst else { return Ok(()) };
     let Some(worst) = &answer.worst_input else {
         let error = Diagnostic::error(Code::ShipFormat, "no input of the loop has a bound");
         return Err(error.help("add --input NAME=BOUND").into());
@@ -217,7 +235,11 @@ fn table(worst: &WorstInput, problem: &Problem, budget: &Budget) -> String {
 
 /// The controller as code in each language that is asked for.
 fn code(answer: &ShipAnswer, options: &Options, certificate: Option<&str>) -> Result<(), Error> {
-    let files = [(Target::C, &options.c), (Target::StructuredText, &options.st), (Target::Rust, &options.rust)];
+    let files = [
+        (Target::C, &options.written.c),
+        (Target::StructuredText, &options.written.st),
+        (Target::Rust, &options.written.rust),
+    ];
     for (target, file) in files {
         let Some(file) = file else { continue };
         let remarks = remarks(answer, certificate);
@@ -266,7 +288,7 @@ fn picture(options: &Options) -> Result<Option<Kind>, Error> {
 fn draw(answer: &ShipAnswer, kind: Kind, output: &OutputOptions) -> Result<(), Error> {
     let limits = match &answer.limits {
         Some(Ok(limits)) => limits,
-        Some(Err(error)) => return Err(error.clone().into()),
+        Some(Err(error)) => return Err(error.clone()),
         None => return Ok(()),
     };
     let rows: Vec<_> = limits.rows.iter().filter_map(|(bits, set)| Some(((*bits)?, set.value()))).collect();
