@@ -6,6 +6,9 @@ use super::{Colour, Item, Point, Scene, Segment, Words};
 /// Dots of a letter: two across, four down.
 const DOTS: (usize, usize) = (2, 4);
 
+/// Words are put so many letters further right at most, where others stand in their place.
+const FURTHER: usize = 16;
+
 /// What a place of the screen shows.
 #[derive(Clone, Copy, Default)]
 struct Cell {
@@ -121,18 +124,45 @@ impl Screen {
             Anchor::End => length,
         };
         let (x, y) = ((words.at.0 + at.0) * self.scale.0, (words.at.1 + at.1) * self.scale.1);
-        for (k, letter) in letters.into_iter().enumerate() {
-            let along = k as f64 - before.floor();
-            // The middle of a letter's height is above its base line.
-            let place = if words.turned {
-                (x.floor(), (y + before.floor() - k as f64 - 0.5).floor())
-            } else {
-                (x.floor() + along, (y - 0.25 * words.size * self.scale.1).floor())
-            };
-            if let Some(cell) = self.cell(place.0, place.1) {
-                *cell = Cell { letter: Some(letter), colour: Some(words.colour), ..*cell };
+        if words.turned {
+            for (k, letter) in letters.into_iter().enumerate() {
+                let row = (y + before.floor() - k as f64 - 0.5).floor();
+                self.put((x.floor(), row), letter, words.colour);
             }
+            return;
         }
+        // The middle of a letter's height is above its base line.
+        let wanted = (x.floor() - before.floor(), (y - 0.25 * words.size * self.scale.1).floor());
+        // Words for which there is no place would hide others.
+        let Some((column, row)) = self.free_place(wanted, letters.len()) else { return };
+        for (k, letter) in letters.into_iter().enumerate() {
+            self.put((column + k as f64, row), letter, words.colour);
+        }
+    }
+
+    fn put(&mut self, place: Point, letter: char, colour: Colour) {
+        if let Some(cell) = self.cell(place.0, place.1) {
+            *cell = Cell { letter: Some(letter), colour: Some(colour), ..*cell };
+        }
+    }
+
+    fn is_lettered(&mut self, place: Point) -> bool {
+        self.cell(place.0, place.1).is_some_and(|cell| cell.letter.is_some())
+    }
+
+    /// Where so many letters meet no others: at the place that is wanted, else further right, else in the rows next to it. Letters are larger
+    /// than the words of a scene, so that what stands side by side there may not do so here.
+    fn free_place(&mut self, wanted: Point, length: usize) -> Option<Point> {
+        let right = (0..=FURTHER).map(|k| (wanted.0 + k as f64, wanted.1));
+        let rows = [1.0, -1.0, 2.0, 3.0, 4.0].map(|by| (wanted.0, wanted.1 + by));
+        let is_inside = |(column, row): Point, screen: &Screen| {
+            column >= 0.0 && column + length as f64 <= screen.columns as f64 && row >= 0.0 && row < screen.rows as f64
+        };
+        right.chain(rows).enumerate().map(|(k, place)| (k == 0, place)).find_map(|(is_first, (column, row))| {
+            let is_clear = (0..length + 2).all(|k| !self.is_lettered((column + k as f64 - 1.0, row)));
+            // What is cut off at the edge of the screen stays where it is.
+            (is_clear && (is_first || is_inside((column, row), self))).then_some((column, row))
+        })
     }
 
     fn text(&self, colours: bool, plain: &[Colour]) -> String {
@@ -179,5 +209,16 @@ mod tests {
         assert_eq!(scene.characters((4, 2), false, &[], &[]), "⠉⠉⠉⠉\nab\n");
         let coloured = scene.characters((4, 2), true, &[], &[Colour::BLACK]);
         assert_eq!(coloured, "\u{1b}[38;2;1;2;3m⠉⠉⠉⠉\u{1b}[0m\nab\n");
+    }
+
+    #[test]
+    fn words_do_not_run_into_one_another() {
+        let mut scene = Scene::new(40.0, 8.0);
+        for (text, x) in [("unit circle", 0.0), ("stable", 8.0), ("not stable", 16.0)] {
+            scene.words(Words::new(text, (x, 3.0), 2.0, Colour::BLACK));
+        }
+        let shown = scene.characters((32, 4), false, &[], &[]);
+        assert!(["unit circle", "stable", "not stable"].iter().all(|text| shown.contains(text)), "{shown}");
+        assert!(shown.contains("unit circle stable"), "{shown}");
     }
 }
