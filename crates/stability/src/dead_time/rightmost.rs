@@ -248,13 +248,13 @@ fn shifted(p: &QuasiPolynomial, line: &Rational) -> QuasiPolynomial {
 /// proved where roots are counted.
 fn floor_approximate(p: &QuasiPolynomial, tau: &Rational) -> Option<Rational> {
     /// The logarithm of a base that is tried.
-    const FINEST: i64 = 256;
+    const FINEST: i64 = 64;
     let top = p.difference();
     if p.kind() != Kind::Neutral {
         return None;
     }
     let first = top.coeff(0).abs();
-    // |z| <= x is allowed, x being a power of 2^(1/256).
+    // |z| <= x is allowed, x being a power of 2^(1/64).
     let share = |c: &Integer| Rational::new(c.abs(), first.clone()).to_f64_approximate();
     let shares: Vec<f64> = top.coeffs().iter().map(share).collect();
     let outweighs =
