@@ -139,7 +139,7 @@ impl Search {
         }
         let widest = self.near.iter().fold(1.0, |most: f64, root| most.max(root.size()));
         let far = 4.0 * top + 20.0 * widest;
-        self.from_approximate(&starts, far, budget)?;
+        self.follow_approximate(&starts, far, budget)?;
         // Further up, as long as roots are to be expected that are not left of all that are wanted.
         let end = top.max(2.0 * widest);
         for _ in 0..MOST_ABOVE << round {
@@ -151,14 +151,14 @@ impl Search {
             if starts.is_empty() && y > end {
                 break;
             }
-            self.from_approximate(&starts, far + 4.0 * y, budget)?;
+            self.follow_approximate(&starts, far + 4.0 * y, budget)?;
             y += step;
         }
         Ok(())
     }
 
     /// Newton's method from each of these points.
-    fn from_approximate(&mut self, starts: &[Approximate], far: f64, budget: &Budget) -> Result<(), Exhausted> {
+    fn follow_approximate(&mut self, starts: &[Approximate], far: f64, budget: &Budget) -> Result<(), Exhausted> {
         for start in starts {
             budget.check()?;
             if self.roots.len() >= MOST_ROOTS {

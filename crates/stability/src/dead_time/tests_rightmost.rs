@@ -33,11 +33,14 @@ fn are(found: &RightmostRoots, expected: &[(&str, &str)]) {
     }
 }
 
+/// The parts of a function, the dead time, and real and imaginary parts of roots.
+type Case = (&'static [&'static [i64]], &'static str, &'static [(&'static str, &'static str)]);
+
 /// The roots of `s + a + b exp(-tau s)` are `W_k(-b tau exp(a tau))/tau - a` (Corless and others, On the Lambert W function, 1996); the digits are
 /// those of mpmath's `lambertw` with 45 digits.
 #[test]
 fn loops_of_first_order_have_the_branches_of_lamberts_function() {
-    let cases: [(&[&[i64]], &str, &[(&str, &str)]); 4] = [
+    let cases: [Case; 4] = [
         (
             &[&[0, 1], &[1]],
             "1",
