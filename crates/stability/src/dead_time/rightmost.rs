@@ -68,8 +68,9 @@ pub fn rightmost_roots(
     let mut all = All::new(p, tau, relative, budget)?;
     let mut last = None;
     for round in 0..ROUNDS {
+        let floor = all.floor.as_ref().map_or(f64::NEG_INFINITY, Rational::to_f64_approximate);
         for part in &mut all.parts {
-            part.search.look_approximate(wanted + MOST_MORE, round, budget)?;
+            part.search.look_approximate(wanted + MOST_MORE, floor, round, budget)?;
         }
         match all.attempt(wanted, budget)? {
             Ok(mut found) => {
@@ -220,8 +221,11 @@ impl Part {
     /// The number of roots right of a line on which no known one is.
     fn counted(&self, tau: &Rational, line: &Rational, budget: &Budget) -> Result<usize, NotCounted> {
         budget.step("counting roots right of a line");
-        let shifted = shifted(&self.p, line);
-        let count = count_from_line(&shifted, tau, &-(tau * line), budget)?;
+        // In units in which the dead time is not above 1: the way along the line begins with a step of 1.
+        let scale = tau.ceil().bit_length();
+        let shifted = shifted(&self.p, line, scale);
+        let count =
+            count_from_line(&shifted, &(tau * &Rational::dyadic(&Integer::ONE, scale)), &-(tau * line), budget)?;
         count.right.ok_or(NotCounted::Neutral)
     }
 
@@ -232,14 +236,15 @@ impl Part {
     }
 }
 
-/// The parts in `s` counted from a line, over the integers.
-fn shifted(p: &QuasiPolynomial, line: &Rational) -> QuasiPolynomial {
+/// The parts in `2^scale s`, `s` being counted from a line, over the integers.
+fn shifted(p: &QuasiPolynomial, line: &Rational, scale: u64) -> QuasiPolynomial {
     let (a, d) = (line.numerator(), line.denominator());
     let n = p.order();
     // d^n P(s + a/d) = Q(d s + a) with the coefficients c_j d^(n - j).
     let shift = |part: &UniPoly| {
         let scaled = part.coeffs().iter().enumerate().map(|(j, c)| c * &d.pow((n - j) as u64));
-        UniPoly::new(scaled.collect()).taylor_shift(&a).scaled_argument(&d)
+        let moved = UniPoly::new(scaled.collect()).taylor_shift(&a).scaled_argument(&d);
+        UniPoly::new(moved.coeffs().iter().enumerate().map(|(j, c)| c << (scale * (n - j) as u64)).collect())
     };
     QuasiPolynomial::new(p.parts().iter().map(shift).collect()).expect("the function is not zero")
 }
