@@ -73,6 +73,9 @@ const EQUAL: f64 = 1e-7;
 /// Further left powers of `z` are out of the range of numbers.
 const MOST_DECAY: f64 = 600.0;
 
+/// Where large terms cancel, steps that are not larger beside the number are rounding.
+const ROUNDED: f64 = 1e-5;
+
 /// Steps of Newton's method.
 const STEPS: usize = 60;
 
@@ -117,11 +120,17 @@ impl Search {
         self.roots.iter().map(|root| root.scaled(self.unit))
     }
 
-    /// Searches for roots, about so many, more densely and further in each round.
+    /// Searches for roots, about so many right of a real part, more densely and further in each round.
     ///
     /// # Errors
     /// [`Exhausted`].
-    pub fn look_approximate(&mut self, wanted: usize, round: u32, budget: &Budget) -> Result<(), Exhausted> {
+    pub fn look_approximate(
+        &mut self,
+        wanted: usize,
+        floor: f64,
+        round: u32,
+        budget: &Budget,
+    ) -> Result<(), Exhausted> {
         let mut starts = Vec::new();
         if round == 0 {
             // What is exactly on the axis, or on another root, has no way off it.
@@ -139,11 +148,11 @@ impl Search {
         }
         let widest = self.near.iter().fold(1.0, |most: f64, root| most.max(root.size()));
         let far = 4.0 * top + 20.0 * widest;
-        self.from_approximate(&starts, far, budget)?;
+        self.follow_approximate(&starts, far, budget)?;
         // Further up, as long as roots are to be expected that are not left of all that are wanted.
         let end = top.max(2.0 * widest);
         for _ in 0..MOST_ABOVE << round {
-            let least = self.least_approximate(wanted);
+            let least = self.least_approximate(wanted).max(floor / self.unit);
             starts.clear();
             checkpoint(self.parts.len() as u64);
             self.balanced(y, &mut starts);
@@ -151,14 +160,14 @@ impl Search {
             if starts.is_empty() && y > end {
                 break;
             }
-            self.from_approximate(&starts, far + 4.0 * y, budget)?;
+            self.follow_approximate(&starts, far + 4.0 * y, budget)?;
             y += step;
         }
         Ok(())
     }
 
     /// Newton's method from each of these points.
-    fn from_approximate(&mut self, starts: &[Approximate], far: f64, budget: &Budget) -> Result<(), Exhausted> {
+    fn follow_approximate(&mut self, starts: &[Approximate], far: f64, budget: &Budget) -> Result<(), Exhausted> {
         for start in starts {
             budget.check()?;
             if self.roots.len() >= MOST_ROOTS {
@@ -256,8 +265,8 @@ impl Search {
             if !w.re.is_finite() || !w.im.is_finite() || w.size() > far || w.re < -MOST_DECAY {
                 return None;
             }
-            settled = step.size() <= 1e-12 * w.size();
-            if settled {
+            settled = step.size() <= ROUNDED * w.size();
+            if step.size() <= 1e-12 * w.size() {
                 break;
             }
         }
