@@ -29,6 +29,7 @@ pub use plan::Answers;
 pub use roots::{BeyondRoots, ClosedLoopRoot, RIGHTMOST, Roots};
 pub use sensitivity::{Sensitivities, Sensitivity};
 pub use table::{ParametricTable, PointTable};
+pub(crate) use tolerance::{SYMBOL_BITS, Truth};
 pub use tolerance::{LimitSide, RequiredBox, ToleranceAnswer, ToleranceLimit, ToleranceRequest, WorstEnd};
 pub use verdict::{DelayedRoots, PointVerdict, Verdict};
 
