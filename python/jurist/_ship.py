@@ -11,7 +11,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
 from ._answers import Document, PointVerdict
-from ._errors import JuristWarning, Undecided
+from ._errors import JuristWarning, QuestionError, Undecided
 from ._exact import fraction
 from ._margins import Margins
 from ._sets import StableSet
@@ -215,13 +215,17 @@ class Ship(Document):
     def every_rounding(self) -> Tolerance | None:
         """Whether every rounding within the format's unit holds, with ``holds`` and ``factor``; `None` where nothing is rounded.
 
-        The names in its box are those of the coefficients with ``ship_`` before them.
+        The names in its box are those of the coefficients with ``ship_`` before them. Its text is asked from `every_rounding_model`,
+        and may bracket the factor more narrowly.
         """
         found = self._document["every_rounding"]
         if found is None:
             return None
         loop = None if self._loop is None else self.every_rounding_model()
-        return Tolerance(self._answer("tolerance", found), loop, ("tolerance", "-", *self._shared))
+        # Tolerances of the model file are no part of this.
+        others = [] if loop is None else [name for name in (*loop.parameters, *loop.constants) if name not in found["box"]]
+        fixed = [word for name in others for word in ("--fix", name)]
+        return Tolerance(self._answer("tolerance", found), loop, ("tolerance", "-", *self._shared, *fixed))
 
     @property
     def fewest(self) -> Fewest | None:
@@ -294,7 +298,7 @@ class Ship(Document):
         return self._read(self._rounded)
 
     def every_rounding_model(self) -> Loop:
-        """The loop in which each coefficient has the tolerance of its rounding, for `Loop.tolerance`."""
+        """The loop in which each coefficient has the tolerance of its rounding, beside those of the model file, for `Loop.tolerance`."""
         return self._read(self._every)
 
     def _read(self, text: str) -> Loop:
@@ -372,10 +376,15 @@ def asked_with_files(loop: Loop, words: list[str], options: tuple[str, ...], ask
         named = [word for option, path in zip(options, paths, strict=True) for word in (option, path)]
         try:
             answer = loop._document([*words, *named], asked)
+        except QuestionError:
+            # It is refused once more, in words that quote no file.
+            answer = ""
         except Undecided as error:
             if error.document is None or json.loads(error.document).get("undecided", "") is not None:
                 raise
             answer = error.document
+        if not answer:
+            loop._document(words, asked)
         written = []
         for path in paths:
             with open(path, encoding="utf-8") as file:

@@ -115,6 +115,16 @@ def test_parts_know_their_questions(loop, ship):
     assert str(ship.every_rounding) == str(again)
 
 
+def test_every_rounding_is_about_the_coefficients_alone():
+    model = PI.replace("nominal = 1,", "nominal = 1, tolerance = '20%',").replace("0.9)", "p)") + "[constants]\np = { value = 0.9, tolerance = '1%' }\n"
+    found = jurist.Loop.from_toml(model).ship("controller", format="Q2.14")
+    assert set(found.every_rounding.box) == {"ship_b0", "ship_b1"}
+    alone = found.every_rounding_model().tolerance(fix=["K", "p"])
+    assert alone.box == found.every_rounding.box
+    assert str(found.every_rounding) == str(alone)
+    assert set(found.every_rounding_model().tolerance().box) == {"ship_b0", "ship_b1", "K", "p"}
+
+
 def test_a_controller_that_is_not_right_is_an_answer(loop):
     lost = loop.ship("controller", format="Q2.12")
     assert (lost.stable, lost.holds, bool(lost), lost.verdict.verdict, lost.exact_verdict.verdict) == (False, False, False, "marginal", "stable")
@@ -166,6 +176,11 @@ def test_what_cannot_be_is_refused_with_what_to_do(loop):
     assert (caught.value.code, "controller, plant" in caught.value.help) == ("E-ship-block", True)
     with pytest.raises(jurist.QuestionError, match="unknown number format"):
         loop.ship("controller", format="Q2")
+    with pytest.raises(jurist.QuestionError, match="the loop has no input 'q'") as caught:
+        loop.ship("controller", format="Q2.13", inputs={"q": 1})
+    # No file that nobody named is quoted.
+    assert "--input q=1" in str(caught.value)
+    assert "written" not in str(caught.value)
     with pytest.raises(TypeError, match="unexpected keyword"):
         loop.ship("controller", form="Q2.13")
     with pytest.raises(jurist.Undecided):
