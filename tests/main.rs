@@ -103,6 +103,7 @@ mod certificates {
     mod attacks;
     mod blocks;
     mod boxes;
+    mod boxes_held;
     mod check;
     mod coq;
     mod dead_time;

@@ -999,7 +999,9 @@ def product_of(m, k, bits):
             corners = [a * b for a in x for b in y]
             out = added(out, (min(corners), max(corners)))
         return floor_shift(out, bits)
-    spend(len(m) ** 3, bits, bits)
+    of_m, of_k = (size(end for row in matrix for x in row for end in x) for matrix in (m, k))  # large arguments make long numbers
+    hold(2 * len(m) ** 2, of_m + of_k)
+    spend(len(m) ** 3, max(of_m, bits), max(of_k, bits))
     return [[entry(row, column) for column in zip(*k)] for row in m]
 
 def solutions(monic, t, bits):
@@ -1699,9 +1701,8 @@ class Tensor:
             spend(len(plane), size(plane), size(factors))
             for j, scale in enumerate(factors):
                 plane[j::k + 1] = [c * scale for c in plane[j::k + 1]]
-        common = gcd(*(c for plane in tensor.planes for c in plane)) or 1
-        slack = [-(-off // common) for off in tensor.slack]
-        return Tensor(tensor.counts, [[c // common for c in plane] for plane in tensor.planes], slack)
+        common = 1 if any(tensor.slack) else gcd(*(c for plane in tensor.planes for c in plane)) or 1
+        return Tensor(tensor.counts, [[c // common for c in plane] for plane in tensor.planes], tensor.slack)
 
     def slices(self, plane, axis):
         """The coefficients with each index along an axis."""
@@ -1868,9 +1869,14 @@ class InBox:
             while self.has_parameters(p) and (quotient := p / f) is not None:
                 p = quotient
         for f in factors:
-            while self.has_parameters(p) and any(common := p.common(f)):
+            while self.has_parameters(p) and self.may_share(p, f) and any(common := p.common(f)):
                 p = p / common
         return bool(p) and not self.has_parameters(p) and all(abs(about) > off for about, off in self.known(p).values())
+
+    def may_share(self, p, f):
+        """Whether there may be a common factor with a parameter in it, as images in one variable tell."""
+        shared = [v for v in range(2, 2 + self.parameters) if p.degree(v) and f.degree(v)]
+        return any(len(common_image(image(p, v, POINTS[0]), image(f, v, POINTS[0]))) != 1 for v in shared)
 
     def at(self, polynomials, point):
         """Polynomials in symbols, together times a positive number."""

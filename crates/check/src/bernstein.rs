@@ -120,14 +120,15 @@ impl Tensor {
         self.planes.iter().flatten().map(Z::bits).max().unwrap_or(0)
     }
 
-    /// Without integers common to all: a positive factor does not matter.
+    /// Without integers common to all: a positive factor does not matter. Beside what may be off these mean nothing.
     fn reduce(&mut self, clock: &Clock) -> Result<(), String> {
+        if self.slack.iter().any(|off| !off.is_zero()) {
+            return Ok(());
+        }
         let common = gcd_of(self.planes.iter().flatten(), clock)?;
         if !common.is_zero() && !common.is_one() {
             clock.spend(self.planes.len() * self.len(), self.longest(), common.bits())?;
             self.planes.iter_mut().flatten().for_each(|c| *c /= &common);
-            // Rounded up.
-            self.slack.iter_mut().for_each(|s| *s = (&*s + &common - 1) / &common);
         }
         Ok(())
     }

@@ -350,7 +350,9 @@ fn is_discrete(json: &Json) -> Result<bool, String> {
 /// The table of symbols of a certificate that has one.
 fn table(json: &Json) -> Result<Option<Rc<Table>>, Rejection> {
     let part = |key: &str| json.get(key).ok_or_else(|| format!("the certificate has no '{key}'"));
-    if ![SCHEMA_WITH_SYMBOLS, SCHEMA_OF_BOXES_WITH_SYMBOLS].map(|s| Some(s.into())).contains(&json.get("schema").cloned())
+    if ![SCHEMA_WITH_SYMBOLS, SCHEMA_OF_BOXES_WITH_SYMBOLS]
+        .map(|s| Some(s.into()))
+        .contains(&json.get("schema").cloned())
     {
         return Ok(None);
     }

@@ -2,6 +2,7 @@
 
 mod common;
 
+use common::may_share;
 pub(super) use common::separated;
 
 use super::blocks::cleared;
@@ -201,7 +202,7 @@ pub(super) fn beside_factors(p: &Multi, factors: &[Multi], parameters: usize, cl
         }
     }
     for f in factors {
-        while !is_done(&p) {
+        while !is_done(&p) && may_share(&p, f, FIRST..FIRST + parameters, clock)? {
             let common = p.gcd(f, clock)?;
             if common.is_constant() {
                 break;

@@ -66,7 +66,8 @@ impl Ground {
     /// Whether all roots are inside at a point, and the degree is that of all coefficients.
     pub fn is_stable(&self, d: &[Multi], point: &[Q], discrete: bool, clock: &Clock) -> Result<bool, String> {
         if let Some(table) = &self.table {
-            let enclosed = values_at(d, point, clock)?.iter().map(|c| number(table, c, clock)).collect::<Result<Vec<_>, _>>()?;
+            let enclosed =
+                values_at(d, point, clock)?.iter().map(|c| number(table, c, clock)).collect::<Result<Vec<_>, _>>()?;
             return Ok(inside(enclosed, true, table, clock)? == d.len() - 1);
         }
         let at = at(d, point, clock)?;

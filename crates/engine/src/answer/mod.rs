@@ -29,8 +29,8 @@ pub use plan::Answers;
 pub use roots::{BeyondRoots, ClosedLoopRoot, RIGHTMOST, Roots};
 pub use sensitivity::{Sensitivities, Sensitivity};
 pub use table::{ParametricTable, PointTable};
-pub(crate) use tolerance::{SYMBOL_BITS, Truth};
 pub use tolerance::{LimitSide, RequiredBox, ToleranceAnswer, ToleranceLimit, ToleranceRequest, WorstEnd};
+pub(crate) use tolerance::{SYMBOL_BITS, Truth};
 pub use verdict::{DelayedRoots, PointVerdict, Verdict};
 
 use crate::problem::Problem;

@@ -66,9 +66,8 @@ impl Held {
             Ok::<_, Error>(budget.enter(|| enclosed.inside(rest.coeffs(), None, false))?.map(|inside| (inside, bits)))
         })?;
         let outside = |inside: usize| d.len() - 1 - on - inside;
-        let is_right = |&(inside, _): &(usize, u64)| {
-            (inside, on, outside(inside)) == (count.inside, count.on, count.outside)
-        };
+        let is_right =
+            |&(inside, _): &(usize, u64)| (inside, on, outside(inside)) == (count.inside, count.on, count.outside);
         Ok(found.filter(is_right).map(|(_, bits)| bits + longest(d.iter())))
     }
 
@@ -81,9 +80,7 @@ impl Held {
                 Ok(is_zero.then_some(CERTIFICATE_OVER_SYMBOLS.first))
             }
             Some(AtPoint::Zero) => self.bits_at(p, &witness.point, (RootCount::default(), p.formal_degree()), budget),
-            Some(AtPoint::Defined { count, infinite }) => {
-                self.bits_at(p, &witness.point, (*count, *infinite), budget)
-            }
+            Some(AtPoint::Defined { count, infinite }) => self.bits_at(p, &witness.point, (*count, *infinite), budget),
             None | Some(AtPoint::Delayed { .. }) => Ok(None),
         }
     }
