@@ -58,12 +58,16 @@ pub(super) fn definitions<'t>(tokens: &[Token<'t>]) -> Result<Vec<Definition<'t>
                 at += 3 + length;
                 continue;
             }
-            [name, dot, field, ..] if name.is_word() && dot.is(".") && field.is_word() && is_assigned(&rest[3..]) => {
-                if names.contains(name.text) {
-                    return Err(refused(format!("'{}' is changed by a statement", shown(name.text)))
-                        .at(whole(&rest[..3]), "assigned")
-                        .help("write the value in the braces of its definition: no statement is run"));
-                }
+            [name, dot, field, ..]
+                if name.is_word()
+                    && dot.is(".")
+                    && field.is_word()
+                    && is_assigned(&rest[3..])
+                    && names.contains(name.text) =>
+            {
+                return Err(refused(format!("'{}' is changed by a statement", shown(name.text)))
+                    .at(whole(&rest[..3]), "assigned")
+                    .help("write the value in the braces of its definition: no statement is run"));
             }
             _ => {}
         }

@@ -83,7 +83,7 @@ impl Implementation {
                 .at(fraction.span, "bits behind the point")
                 .also(integer.span, "bits before it, the sign among them"));
         }
-        let delta = scalar(definition, "delta")?.filter(|delta| is_step(delta));
+        let delta = scalar(definition, "delta")?.filter(is_step);
         Ok(Implementation {
             bits,
             fraction: fraction.whole(".frac_bits", 0, MOST_BITS)?,

@@ -29,7 +29,7 @@ pub(super) fn write(parts: &Parts<'_>) -> Result<Loop, Diagnostic> {
     let Parts { controller, plant, reading, .. } = parts;
     let mut constants = String::new();
     // Only the plant's uncertainty is looked at, as in the source.
-    let c = [&controller.b, &controller.a].map(|list| plain(list));
+    let c = [&controller.b, &controller.a].map(plain);
     let p = [("plant_b", &plant.b), ("plant_a", &plant.a)].map(|(name, list)| named(name, list, &mut constants));
     let c = fraction("controller", controller, c, *reading)?;
     let p = fraction("plant", plant, p, *reading)?;

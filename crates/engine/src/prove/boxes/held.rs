@@ -9,6 +9,7 @@ use crate::problem::Problem;
 use crate::stability::boxes::{BoxPolynomial, Witness};
 use crate::stability::{AtPoint, Cause, RootCount};
 use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Integer;
 use jurist_algebra::number::{Rational, Sign};
 use jurist_algebra::poly::{Domain, MultiPoly};
 use jurist_algebra::symbols::Symbols;
@@ -93,7 +94,8 @@ impl Held {
 
     /// A factor without factors that are numbers, polynomials in symbols, with the sign that it has; `None` where nothing else is in it.
     pub fn in_parameters(&self, f: &MultiPoly) -> Option<MultiPoly> {
-        let mut parts: Vec<(Vec<u32>, Vec<(Vec<u32>, _)>)> = Vec::new();
+        type Terms = Vec<(Vec<u32>, Integer)>;
+        let mut parts: Vec<(Vec<u32>, Terms)> = Vec::new();
         for (monomial, c) in f.terms() {
             let mut of_parameters = monomial.exponents().to_vec();
             let mut of_symbols = of_parameters.clone();
