@@ -131,6 +131,7 @@ mod expectations {
 mod ship {
     mod bounds;
     mod cases;
+    mod dsverifier;
     mod roundings;
 }
 
