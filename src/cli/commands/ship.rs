@@ -71,7 +71,7 @@ pub(in crate::cli) struct Options {
     pub from: Option<OsString>,
     /// How the lists of --from are read: falling powers of z (the last entry is the constant), or powers of 1/z (the first is)
     /// [default: z]
-    #[arg(long, value_enum, value_name = "POWERS", requires = "from")]
+    #[arg(long, value_enum, value_name = "POWERS")]
     pub reading: Option<ReadingWord>,
     #[command(flatten)]
     pub written: Box<Written>,
@@ -140,10 +140,7 @@ fn run(options: &Options, context: &Context) -> Outcome {
     if picture.is_none() {
         context.check_output(output)?;
     }
-    let model = match &options.from {
-        Some(file) => of_dsverifier(file, options, context)?,
-        None => load(options.model.model.as_ref(), &options.model.line, context)?,
-    };
+    let model = model(options, context)?;
     if let Some(name) = &options.param {
         known_names(context, &model, "--param", from_ref(name))?;
     }
@@ -202,8 +199,15 @@ fn run(options: &Options, context: &Context) -> Outcome {
 /// What is said where the file of `--from` cannot be read.
 const LOOP: Wanted = Wanted { noun: "loop", help: "--from takes a .c file of DSVerifier, or '-' for standard input" };
 
-/// The model of a loop of DSVerifier.
-fn of_dsverifier(file: &OsString, options: &Options, context: &Context) -> Result<Model, Error> {
+/// The model, or that of a loop of DSVerifier.
+fn model(options: &Options, context: &Context) -> Result<Model, Error> {
+    let Some(file) = &options.from else {
+        if options.reading.is_some() {
+            let error = Diagnostic::error(Code::Usage, "--reading goes with --from FILE.c, not with a model file");
+            return Err(error.help("leave it out").into());
+        }
+        return load(options.model.model.as_ref(), &options.model.line, context);
+    };
     let (name, bytes) = read_bytes(file, &LOOP, context)?;
     context.budget.step("reading the loop");
     let found = dsverifier::read(&name, &bytes, options.reading)?;

@@ -150,3 +150,6 @@ fn one<'a, 't>(
 fn refused(message: impl Into<String>) -> Diagnostic {
     Diagnostic::error(Code::Import, message)
 }
+
+#[cfg(test)]
+mod tests;

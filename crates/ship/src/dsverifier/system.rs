@@ -48,8 +48,12 @@ impl System {
         let b = list(definition, "b", &mut remarks)?;
         let a = list(definition, "a", &mut remarks)?;
         if a.is_zero() {
-            return Err(refused(format!("the denominator of '{}' is zero", shown(definition.name)))
-                .at(a.span, "all its coefficients are 0"));
+            let error = refused(format!("the denominator of '{}' is zero", shown(definition.name)))
+                .at(a.span, "all its coefficients are 0");
+            return Err(match b.is_zero() {
+                true => error.help("nothing is said of this system yet: write its coefficients into both lists"),
+                false => error.help("write its coefficients, the highest power of z first"),
+            });
         }
         let sample_time = scalar(definition, "sample_time")?.filter(|time| !time.value.is_zero());
         if let Some(time) = sample_time.as_ref().filter(|time| time.value.is_negative()) {
