@@ -5,7 +5,7 @@ use crate::helpers::model::read;
 use crate::helpers::number::number;
 use crate::helpers::schema::fits;
 use jurist_algebra::limits::Budget;
-use jurist_algebra::number::{BinaryFormat, Rational, to_scientific};
+use jurist_algebra::number::{BinaryFormat, Rational, to_decimal, to_scientific};
 use jurist_engine::model::Model;
 use serde_json::Value;
 
@@ -220,6 +220,7 @@ fn the_digits_of_the_papers_polynomial_move_its_limits() {
     let decimal = |digits: usize| move |x: &Rational| number(&to_scientific(x, digits));
     let lower: Vec<String> =
         (10..=16).map(|digits| limits(&decimal(digits)).first().cloned().unwrap_or_default()).collect();
-    let shown: Vec<&str> = lower.iter().map(|text| &text[..text.len().min(7)]).collect();
-    assert_eq!(shown, ["173.160", "0.93094", "2.98531", "0.22398", "0.02240", "0.00149", "0.00011"]);
+    let shown: Vec<String> = lower.iter().map(|text| to_decimal(&number(text), 6)).collect();
+    let expected = ["173.160", "0.930950", "2.98532", "0.223982", "0.0224007", "0.00149341", "0.000112006"];
+    assert_eq!(shown, expected);
 }
