@@ -5,6 +5,7 @@
 //! | [`answer`] | everything together, for people and programs |
 //! | [`asked`] | what `[ship]` and options ask for |
 //! | [`shipped`] | the stored coefficients, put into the loop; every rounding |
+//! | [`dsverifier`] | loops in C files of DSVerifier, read as models |
 //! | [`fewest`] | how many bits behind the point are enough |
 //! | [`ranges`] | how large signals become, and what their rounding adds |
 //! | [`document`] | the answer as JSON |
@@ -22,6 +23,7 @@
 pub mod answer;
 pub mod asked;
 pub mod document;
+pub mod dsverifier;
 mod every;
 pub mod fewest;
 pub mod format;

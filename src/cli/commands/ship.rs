@@ -4,16 +4,18 @@ use super::{Context, Runs, decided};
 use crate::cli::arguments::{DecisionOptions, RunOptions};
 use crate::cli::assignments::{assignments, in_line};
 use crate::cli::destinations::Files;
-use crate::cli::input::decision;
-use crate::cli::output::write_answer;
+use crate::cli::import::{DsOptions, Words, read_c};
+use crate::cli::input::{Wanted, decision, question, read_bytes};
+use crate::cli::output::{note, write_answer};
 use crate::cli::requirements::RequirementOptions;
 use crate::cli::status::{Error, Outcome, Status};
 use crate::cli::written::certify;
 use clap::Args;
 use jurist_algebra::limits::Exhausted;
 use jurist_engine::answer::PointVerdict;
-use jurist_engine::error::{Code, Diagnostic};
-use jurist_engine::problem::Problem;
+use jurist_engine::error::{Code, Diagnostic, Source};
+use jurist_engine::model::Model;
+use jurist_engine::problem::{Problem, Question};
 use jurist_engine::show::documents;
 use jurist_ship::answer::{Holds, ShipAnswer};
 use jurist_ship::asked::{Asked, Overrides};
@@ -26,6 +28,11 @@ pub(in crate::cli) struct Options {
     pub decision: DecisionOptions,
     #[command(flatten)]
     pub require: RequirementOptions,
+    /// Ships the controller of a C file of DSVerifier in its loop, in the place of MODEL
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["model", "hold", "delay"])]
+    pub from: Option<OsString>,
+    #[command(flatten)]
+    pub of_c: DsOptions,
     /// The block that is the controller [default: that of [ship]]
     #[arg(long, value_name = "NAME")]
     pub block: Option<String>,
@@ -69,6 +76,7 @@ impl Runs for Options {
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
         files.question(&self.decision.model.model, &self.decision.output.output);
+        files.inputs.extend(self.from.iter().map(|file| ("the file of DSVerifier", file.as_os_str())));
         files.outputs.extend(self.rounded.iter().map(|file| ("the rounded model", file.clone())));
         files.outputs.extend(self.every.iter().map(|file| ("the model of every rounding", file.clone())));
         files.outputs.extend(self.certificate.iter().map(|file| ("the certificate", file.clone())));
@@ -79,7 +87,10 @@ impl Runs for Options {
 /// Answers on standard output or in a file: 0 stable, requirements and ranges hold, 1 not, 3 open.
 fn run(options: &Options, context: &Context) -> Outcome {
     let output = &options.decision.output;
-    let (model, question) = decision(&options.decision, context)?;
+    let (model, question) = match &options.from {
+        Some(file) => from_dsverifier(file, options, context)?,
+        None => decision(&options.decision, context)?,
+    };
     let (asked, question) = options.require.asked(&model, question, &options.decision.region, context)?;
     let shipping = Asked::of(&model, &overrides(options, context, model.inputs())?)?;
     let problem = question.problem()?;
@@ -107,6 +118,26 @@ fn run(options: &Options, context: &Context) -> Outcome {
         Holds::No => Status::DoesNotHold,
         Holds::Open => Status::Undecided,
     })
+}
+
+/// The model of a file of DSVerifier, and the question about it. What its own storing makes of it is said.
+fn from_dsverifier(file: &OsString, options: &Options, context: &Context) -> Result<(Model, Question), Error> {
+    const FILE: Wanted = Wanted { noun: "file of DSVerifier", help: "FILE is a .c file of DSVerifier" };
+    context.check_output(&options.decision.output)?;
+    let (name, bytes) = read_bytes(file, &FILE, context)?;
+    context.budget.step("reading the file");
+    let words = Words { round: options.round.as_deref(), realisation: options.realisation.as_deref() };
+    let (read, writing) = read_c((&name, &bytes), &options.of_c, words, context)?;
+    let (model, warnings) =
+        Model::from_toml(&Source::new(format!("the model of {name}"), read.model(&name, &writing)?))?;
+    context.warn(Some(model.source()), &warnings);
+    if !context.quiet
+        && let Some(text) = read.storing_note(&writing, &context.budget)?
+    {
+        note(&format!("note: {text}"));
+    }
+    let question = question(context, &model, &options.decision.model, &options.decision.region)?;
+    Ok((model, question))
 }
 
 /// The document where even the verdicts are not decided.

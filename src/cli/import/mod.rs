@@ -1,10 +1,11 @@
-//! State-space systems in files of other programs: one file for each format, and what is written of them.
+//! Systems in files of other programs: one file for each format, and what is written of them.
 //!
 //! Crates for these formats were looked at: matfile reads no structs, matrw and npyz bring parsers and more with them. A system needs little
 //! of a format: the readers here take that, and unpack with `miniz_oxide` up to a limit.
 
 mod assemble;
 mod csv;
+mod dsverifier;
 mod json;
 mod mat;
 mod mat_element;
@@ -17,6 +18,7 @@ mod write;
 mod zip;
 
 pub(super) use assemble::assemble;
+pub(super) use dsverifier::{DsOptions, Words, is_c, read as read_c};
 pub(super) use write::{Form, model};
 
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Source, Span};
@@ -171,7 +173,7 @@ pub(super) fn read(name: &str, bytes: &[u8]) -> Result<(Variables, Option<Arc<So
         Some(Format::Csv) => text(csv::read),
         Some(Format::Modelica) => text(modelica::read),
         None => Err(refused(format!("{name} is of no format that can be imported"))
-            .help("there are .mat (MATLAB, SciPy), .npz (NumPy), .json, .csv, and .mo (OpenModelica's linearize)")
+            .help("there are .mat (MATLAB, SciPy), .npz (NumPy), .json, .csv, .mo (OpenModelica's linearize), and .c (DSVerifier)")
             .into()),
     }
 }
