@@ -58,7 +58,8 @@ def structs(text):
             depth += (text[at] == "{") - (text[at] == "}")
             at += 1
         fields = re.finditer(r"\.(\w+)\s*=\s*(\{[^}]*\}|[^,}]+)", text[start.end() : at - 1])
-        found[start[1]] = {f[1]: [n.strip().rstrip("fF") for n in f[2].strip(" {}\r\n\t").split(",") if n.strip()] for f in fields}
+        # What is given twice no compiler takes.
+        found[start[1]] = None if start[1] in found else {f[1]: [n.strip().rstrip("fF") for n in f[2].strip(" {}\r\n\t").split(",") if n.strip()] for f in fields}
     return found
 
 
@@ -87,7 +88,7 @@ def loops_of(path):
     for combination in itertools.product(*([(n, v) for v in sorted(vs)] for n, vs in sorted(values.items()))):
         found = structs(chosen(text, dict(combination)))
         controller, plant = found.get("controller") or found.get("control"), found.get("plant")
-        if not controller or not plant or "impl" not in found:
+        if not controller or not plant or not found.get("impl"):
             continue
         lists = tuple(tuple(sized(s, n)) for s in (controller, plant) for n in "ba")
         percent = tuple(tuple((plant.get(n + "_uncertainty", []) + ["0"] * 50)[: len(sized(plant, n))]) for n in "ba")
@@ -198,7 +199,7 @@ def main():
     parser.add_argument("--table")
     options = parser.parse_args()
     root = Path(options.checkout)
-    files = sorted(p for part in ("regression", "benchmarks") for p in (root / part).rglob("*.c"))
+    files = [p for part in ("regression", "benchmarks") for p in sorted((root / part).rglob("*.c"))]
     loops, unread = [], []
     for path in files:
         try:

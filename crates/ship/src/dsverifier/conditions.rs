@@ -40,8 +40,8 @@ pub(super) fn selected<'t>(tokens: &[Token<'t>], given: &[Define]) -> Result<Sel
             ("if" | "ifdef" | "ifndef", _) => {
                 let holds = stands && begins(word, rest, &defines, token)?;
                 open.push(Branch { holds, held: holds, stands });
-                if stands && !holds && out.missing.len() < 4 {
-                    out.missing.extend(wish(rest));
+                if stands && !holds {
+                    wish(rest, &mut out.missing);
                 }
             }
             ("elif", Some(branch)) => {
@@ -114,10 +114,14 @@ fn value(text: &str, defines: &[Define]) -> Option<i64> {
     }
 }
 
-/// What would make a condition hold, to be shown: `DS_ID=1`.
-fn wish(condition: &str) -> Option<String> {
-    let (name, number) = unwrapped(condition).split_once("==")?;
-    Some(format!("{}={}", name.trim(), number.trim())).filter(|wish| wish.len() < 60)
+/// Adds what would make a condition hold, to be shown: `DS_ID=1`, once for a name.
+fn wish(condition: &str, missing: &mut Vec<String>) {
+    let Some((name, number)) = unwrapped(condition).split_once("==") else { return };
+    let (name, wish) = (name.trim(), format!("{}={}", name.trim(), number.trim()));
+    let is_new = missing.iter().all(|known| known.split('=').next() != Some(name));
+    if is_new && wish.len() < 60 && missing.len() < 4 {
+        missing.push(wish);
+    }
 }
 
 /// Without blanks and one pair of parentheses around it all.

@@ -122,7 +122,8 @@ impl DsFile {
             let _ = writeln!(out, "{name} = {{ bits = {bits}, fraction = {fraction}, round = \"{}\" }}", round.name());
         }
         if let Some(bound) = &one.bound {
-            let _ = writeln!(out, "inputs = {{ r = \"{bound}\" }}");
+            let quote = if bound.is_integer() && bound.numerator().bit_length() < 50 { "" } else { "\"" };
+            let _ = writeln!(out, "inputs = {{ r = {quote}{bound}{quote} }}");
         }
         if let Some(delta) = one.delta.as_ref().filter(|delta| step(&delta.value).is_some()) {
             let _ = writeln!(out, "delta = {}", delta.text);
