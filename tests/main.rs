@@ -132,7 +132,6 @@ mod expectations {
 mod ship {
     mod bounds;
     mod cases;
-    mod dsverifier;
     mod roundings;
 }
 

@@ -1,5 +1,6 @@
 //! Systems in files of other programs: every format, what is written of it, and what is refused.
 
+mod c_files;
 mod refused;
 mod written;
 

@@ -4,8 +4,7 @@ use super::{Context, Runs};
 use crate::cli::arguments::RunOptions;
 use crate::cli::assignments::{in_line, plain_number};
 use crate::cli::destinations::Files;
-use crate::cli::import::dsverifier::{self, ReadingWord};
-use crate::cli::import::{Form, Time, assemble, in_file, model, read};
+use crate::cli::import::{DsOptions, Form, Time, Words, assemble, in_file, is_c, model, read, read_c};
 use crate::cli::input::{Wanted, read_bytes};
 use crate::cli::output::{finish_answer, note};
 use crate::cli::status::{Error, Outcome, Status};
@@ -19,7 +18,7 @@ use std::path::Path;
 #[derive(Args, Debug)]
 pub(in crate::cli) struct Options {
     /// A file with the matrices A, B, C, D: .mat (MATLAB up to -v7, SciPy), .npz (NumPy), .json, .csv, or .mo (OpenModelica's
-    /// linearize); or .c, a loop of DSVerifier; '-' for standard input
+    /// linearize); or a .c file of DSVerifier; '-' for standard input
     #[arg(value_name = "FILE")]
     pub file: OsString,
     /// The sample time of the matrices, 0 for continuous time; left out: that of the file. Nothing is made discrete by it
@@ -31,10 +30,14 @@ pub(in crate::cli) struct Options {
     /// Gives each entry that is no integer half a unit in its last place as a tolerance, for 'jurist tolerance'
     #[arg(long)]
     pub last_place: bool,
-    /// How the lists of a .c file are read: falling powers of z (the last entry is the constant), or powers of 1/z (the first
-    /// is) [default: z]
-    #[arg(long, value_enum, value_name = "POWERS")]
-    pub reading: Option<ReadingWord>,
+    #[command(flatten)]
+    pub of_c: DsOptions,
+    /// How the coefficients of a C file of DSVerifier are rounded [default: floor]
+    #[arg(long, value_name = "MODE")]
+    pub round: Option<String>,
+    /// Writes the loop of a C file of DSVerifier with the coefficients that DSVerifier stores
+    #[arg(long)]
+    pub stored: bool,
     /// Writes the model to a file
     #[arg(short, long, value_name = "MODEL")]
     pub output: Option<OsString>,
@@ -69,19 +72,23 @@ fn run(options: &Options, context: &Context) -> Outcome {
     let time = options.sample_time.as_ref().map(|text| sample_time(text, context)).transpose()?;
     let (name, bytes) = read_bytes(&options.file, &SYSTEM, context)?;
     context.budget.step("reading the system");
-    if dsverifier::is_named(&name, &bytes) {
-        return of_dsverifier(options, &name, &bytes, context);
-    }
-    if options.reading.is_some() {
-        let error = Diagnostic::error(Code::Usage, "--reading goes with a .c file of DSVerifier, not with matrices");
-        return Err(error.help("leave it out").into());
+    let file = Path::new(&name).file_name().map_or(name.clone(), |file| file.to_string_lossy().into_owned());
+    let is_c = is_c(&name, &bytes);
+    refuse_options(options, is_c, context)?;
+    if is_c {
+        let words = Words { round: options.round.as_deref(), realisation: None };
+        let (read, writing) = read_c((&name, &bytes), &options.of_c, words, context)?;
+        let read = if options.stored { read.stored(writing.rounding)? } else { read };
+        let text = read.model(&file, &writing)?;
+        context.reporter.finish();
+        finish_answer(&text, options.output.as_ref())?;
+        return Ok(Status::Holds);
     }
     let (variables, source) = read(&name, &bytes)?;
     let system = assemble(variables, time).map_err(|error| match source {
         Some(source) => Diagnostics::from(error).in_source(&source),
         None => in_file(&name, error).into(),
     })?;
-    let file = Path::new(&name).file_name().map_or(name.clone(), |file| file.to_string_lossy().into_owned());
     let (text, remarks) = model(&system, &file, Form { open: options.open, last_place: options.last_place });
     for remark in remarks.iter().filter(|_| !context.quiet) {
         note(&format!("note: {remark}"));
@@ -91,25 +98,29 @@ fn run(options: &Options, context: &Context) -> Outcome {
     Ok(Status::Holds)
 }
 
-/// Writes the model of a loop of DSVerifier, which is closed and has its sample time.
-fn of_dsverifier(options: &Options, name: &str, bytes: &[u8], context: &Context) -> Outcome {
-    let given = [
+/// Options of matrices go with matrices, those of DSVerifier with its files.
+fn refuse_options(options: &Options, is_c: bool, context: &Context) -> Result<(), Error> {
+    let of_matrices = [
         ("--sample-time", options.sample_time.is_some()),
         ("--open", options.open),
         ("--last-place", options.last_place),
     ];
-    if let Some((option, _)) = given.iter().find(|(_, is_given)| *is_given) {
-        let error =
-            Diagnostic::error(Code::Usage, format!("{option} goes with matrices, not with a .c file of DSVerifier"));
-        return Err(error.help("leave it out").into());
+    let of_c = [
+        (options.of_c.given().unwrap_or_default(), options.of_c.given().is_some()),
+        ("--round", options.round.is_some()),
+        ("--stored", options.stored),
+    ];
+    let (wrong, goes) = match is_c {
+        true => (of_matrices.iter().find(|(_, is_given)| *is_given), "goes with matrices, not with a C file"),
+        false => (of_c.iter().find(|(_, is_given)| *is_given), "goes with a C file of DSVerifier, not with matrices"),
+    };
+    match wrong {
+        Some((option, _)) => {
+            let error = Diagnostic::error(Code::Usage, format!("{option} {goes}")).help("leave it out");
+            Err(in_line(context.line, vec![error]).into())
+        }
+        None => Ok(()),
     }
-    let found = dsverifier::read(name, bytes, options.reading)?;
-    for remark in found.remarks.iter().filter(|_| !context.quiet) {
-        note(&format!("note: {remark}"));
-    }
-    context.reporter.finish();
-    finish_answer(&found.model, options.output.as_ref())?;
-    Ok(Status::Holds)
 }
 
 /// The sample time that the command line gives, as a model file has it.

@@ -347,7 +347,7 @@ commands! {
     export: Export in "cli";
     /// A commented model file to begin with
     new: New;
-    /// A model file from a state-space system of MATLAB, SciPy, NumPy or OpenModelica
+    /// A model file from a state-space system of MATLAB, SciPy, NumPy or OpenModelica, or a loop of DSVerifier
     import: Import in "cli";
     /// What an error code or a word of the answers means
     explain: Explain in "cli";

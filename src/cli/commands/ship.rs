@@ -4,7 +4,7 @@ use super::{Context, Runs, decided};
 use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions, RunOptions};
 use crate::cli::assignments::{assignments, in_line};
 use crate::cli::destinations::Files;
-use crate::cli::import::dsverifier::{self, ReadingWord};
+use crate::cli::import::{DsOptions, Words, read_c};
 use crate::cli::input::{Wanted, known_names, load, question, read_bytes};
 use crate::cli::output::{ending, note, write_answer};
 use crate::cli::picture::{Kind, Picture, deliver};
@@ -69,10 +69,8 @@ pub(in crate::cli) struct Options {
     /// A loop of DSVerifier, a file in C, in the place of MODEL
     #[arg(long, value_name = "FILE.c", conflicts_with = "model")]
     pub from: Option<OsString>,
-    /// How the lists of --from are read: falling powers of z (the last entry is the constant), or powers of 1/z (the first is)
-    /// [default: z]
-    #[arg(long, value_enum, value_name = "POWERS")]
-    pub reading: Option<ReadingWord>,
+    #[command(flatten)]
+    pub of_c: DsOptions,
     #[command(flatten)]
     pub written: Box<Written>,
     #[command(flatten)]
@@ -202,20 +200,24 @@ const LOOP: Wanted = Wanted { noun: "loop", help: "--from takes a .c file of DSV
 /// The model, or that of a loop of DSVerifier.
 fn model(options: &Options, context: &Context) -> Result<Model, Error> {
     let Some(file) = &options.from else {
-        if options.reading.is_some() {
-            let error = Diagnostic::error(Code::Usage, "--reading goes with --from FILE.c, not with a model file");
+        if let Some(option) = options.of_c.given() {
+            let error = Diagnostic::error(Code::Usage, format!("{option} goes with --from FILE.c, not with a model"));
             return Err(error.help("leave it out").into());
         }
         return load(options.model.model.as_ref(), &options.model.line, context);
     };
     let (name, bytes) = read_bytes(file, &LOOP, context)?;
     context.budget.step("reading the loop");
-    let found = dsverifier::read(&name, &bytes, options.reading)?;
-    for remark in found.remarks.iter().filter(|_| !context.quiet) {
-        note(&format!("note: {remark}"));
-    }
-    let (model, warnings) = Model::from_toml(&Source::new(format!("the model of {name}"), found.model))?;
+    let words = Words { round: options.round.as_deref(), realisation: options.realisation.as_deref() };
+    let (read, writing) = read_c((&name, &bytes), &options.of_c, words, context)?;
+    let source = Source::new(format!("the model of {name}"), read.model(&name, &writing)?);
+    let (model, warnings) = Model::from_toml(&source)?;
     context.warn(Some(model.source()), &warnings);
+    if !context.quiet
+        && let Some(text) = read.storing_note(&writing, &context.budget)?
+    {
+        note(&format!("note: {text}"));
+    }
     Ok(model)
 }
 

@@ -1,11 +1,11 @@
-//! State-space systems in files of other programs: one file for each format, and what is written of them.
+//! Systems in files of other programs: one file for each format, and what is written of them.
 //!
 //! Crates for these formats were looked at: matfile reads no structs, matrw and npyz bring parsers and more with them. A system needs little
 //! of a format: the readers here take that, and unpack with `miniz_oxide` up to a limit.
 
 mod assemble;
 mod csv;
-pub(super) mod dsverifier;
+mod dsverifier;
 mod json;
 mod mat;
 mod mat_element;
@@ -18,6 +18,7 @@ mod write;
 mod zip;
 
 pub(super) use assemble::assemble;
+pub(super) use dsverifier::{DsOptions, Words, is_c, read as read_c};
 pub(super) use write::{Form, model};
 
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Source, Span};

@@ -107,6 +107,7 @@ pub enum Code {
     Write = "E-write",
     CertificateWarning = "W-certificate",
     DomainWarning = "W-domain",
+    DsvReadingWarning = "W-dsv-reading",
     ExpectWarning = "W-expect",
     FeedthroughWarning = "W-feedthrough",
     NominalWarning = "W-nominal",

@@ -1,155 +1,127 @@
-//! Loops of DSVerifier, a checker of digital systems: its files in C as models.
+//! Loops in the C files of DSVerifier, as models.
 //!
-//! Source: <https://github.com/ssvlab/dsverifier> at commit 1daca47. Its closed-loop check of stability reads a list as falling powers of z,
-//! the last entry the constant; its functions in time read powers of 1/z, the first entry the one of the present sample. Lists of equal
-//! length are the same in both readings.
+//! A file names a controller and a plant by lists of coefficients, and a fixed-point format. How DSVerifier reads such a file was taken from its
+//! source, <https://github.com/ssvlab/dsverifier> at commit 1daca47:
+//!
+//! | in the file | what it means |
+//! |---|---|
+//! | `.b`, `.a` | numerator and denominator; filled with zeros at the end, or cut, to `.b_size` and `.a_size` |
+//! | a list | falling powers of z in the check of closed loops, powers of z^-1 in simulations: [`Reading`] |
+//! | `controller`, `plant` | a loop with negative feedback; `SERIES` and `FEEDBACK` have the same denominator |
+//! | `ds` | a controller alone |
+//! | `.int_bits`, `.frac_bits` | bits before the point, the sign among them, and behind it |
+//! | `.min`, `.max`, `.scale` | bounds of the input, each divided by the scale |
+//! | `.b_uncertainty`, `.a_uncertainty` | of the plant: per cent of each coefficient, positive ones only; those of a controller in a loop are not used |
+//!
+//! Numbers are the decimals that are written, exactly, with or without `f` behind them. DSVerifier's compiler keeps them as binary numbers of 64 bits,
+//! which differ from them by less than one part in 10^15.
 
-mod initialiser;
+mod conditions;
+mod fields;
 mod number;
+mod stored;
 mod system;
 mod token;
-mod write;
+mod verdicts;
+mod written;
 
-use initialiser::{Definition, definitions};
+pub use conditions::Define;
+pub use number::Number;
+pub use system::{Implementation, List, System};
+pub use written::Writing;
+
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Source};
-use number::shown;
 use std::sync::Arc;
-use system::{Implementation, System};
 
-/// How a list of coefficients is read.
+/// The most coefficients of a list: DSVerifier's arrays have so many places.
+pub const MAX_COEFFICIENTS: usize = 50;
+
+/// What the entries of a list stand at.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Reading {
-    /// Falling powers of z, the last entry is the constant: so does DSVerifier's check of closed-loop stability.
+    /// Falling powers of z, the last entry is the constant: lists are aligned at their ends. So DSVerifier checks the stability of closed loops.
     #[default]
     Z,
-    /// Powers of 1/z, the first entry is the constant: so do its functions in time.
-    InverseZ,
+    /// Powers of z^-1, the first entry is the constant: lists are aligned at their beginnings. So DSVerifier simulates.
+    Delays,
 }
 
 impl Reading {
-    /// All readings.
-    pub const ALL: [Reading; 2] = [Reading::Z, Reading::InverseZ];
+    /// Both readings.
+    pub const ALL: [Reading; 2] = [Reading::Z, Reading::Delays];
 
-    /// `z` or `z^-1`.
-    ///
-    /// ```
-    /// use jurist_ship::dsverifier::Reading;
-    /// assert_eq!(Reading::ALL.map(Reading::name), ["z", "z^-1"]);
-    /// ```
+    /// The word of the command line.
     pub fn name(self) -> &'static str {
         match self {
             Reading::Z => "z",
-            Reading::InverseZ => "z^-1",
+            Reading::Delays => "z^-1",
         }
     }
+
+    /// The reading of a word.
+    ///
+    /// ```
+    /// use jurist_ship::dsverifier::Reading;
+    /// assert_eq!(Reading::named("z^-1"), Some(Reading::Delays));
+    /// ```
+    pub fn named(name: &str) -> Option<Reading> {
+        Reading::ALL.into_iter().find(|reading| reading.name() == name)
+    }
 }
 
-/// A loop of such a file as a model.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// What a file of DSVerifier says of a loop.
+#[derive(Clone, Debug)]
 #[non_exhaustive]
-pub struct Loop {
-    /// The text of a model file: the blocks `controller` and `plant` with negative feedback, and `[ship]`.
-    pub model: String,
-    /// What is to be said of it, in sentences without a full stop.
-    pub remarks: Vec<String>,
+pub struct DsFile {
+    /// The text, into which errors point.
+    pub source: Arc<Source>,
+    /// The controller: `controller` or `control`, else `ds`.
+    pub controller: System,
+    /// The plant; `None` where the file has `ds` alone.
+    pub plant: Option<System>,
+    /// The number format and the bounds of the input.
+    pub implementation: Option<Implementation>,
+    /// Whether the controller's coefficients are those that DSVerifier stores.
+    pub is_stored: bool,
 }
 
-/// The controller's names; the first one that is there is taken.
-const CONTROLLERS: [&str; 3] = ["controller", "control", "ds"];
-
-/// Whether a text has a definition of a digital system: a word, not a promise that it can be read.
-///
-/// ```
-/// assert!(jurist_ship::dsverifier::is_one("digital_system plant = {};"));
-/// ```
-pub fn is_one(text: &str) -> bool {
-    text.contains("digital_system")
-}
-
-/// Reads a loop: the definitions `digital_system` of a controller (`controller`, `control` or `ds`) and of `plant`, and an
-/// `implementation`, the format of the controller's coefficients. Numbers are exact decimals with the digits that are written.
-///
-/// ```
-/// use jurist_engine::error::Source;
-/// use jurist_ship::dsverifier::{Reading, read};
-/// let text = "digital_system controller = { .b = { 0.5f }, .b_size = 1, .a = { 1 }, .a_size = 1 };
-///     digital_system plant = { .b = { 0.1 }, .b_size = 1, .a = { 1, -0.9 }, .a_size = 2, .a_uncertainty = { 0, 5 } };
-///     implementation impl = { .int_bits = 3, .frac_bits = 13 };";
-/// let found = read(&Source::new("loop.c", text), Reading::Z)?;
-/// assert!(found.model.contains("plant_a1 = { value = -0.9, tolerance = \"5%\" }"));
-/// assert!(found.model.contains("format = { bits = 16, fraction = 13, round = \"floor\" }"));
-/// # Ok::<(), jurist_engine::error::Diagnostics>(())
-/// ```
-///
-/// Cost: linear in the text.
-///
-/// # Errors
-/// `E-import` with the place in the text: a definition is missing or there are several, a value is no literal decimal number, a denominator
-/// or the controller is zero, a numerator has a higher degree than its denominator.
-pub fn read(source: &Arc<Source>, reading: Reading) -> Result<Loop, Diagnostics> {
-    read_text(source, reading).map_err(|error| Diagnostics::from(error).in_source(source))
-}
-
-fn read_text(source: &Source, reading: Reading) -> Result<Loop, Diagnostic> {
-    let tokens = token::tokens(&source.text);
-    let definitions = definitions(&tokens)?;
-    let mut remarks = Vec::new();
-    let controller = controller(&definitions, &mut remarks)?;
-    let plant = one(&definitions, "digital_system", Some("plant"))?.ok_or_else(|| {
-        refused("there is no 'digital_system plant = { ... }' in the file")
-            .at(controller.span, "a controller without a plant")
-            .help("the file is about the controller alone: add the plant for questions about a loop")
-    })?;
-    let implementation = one(&definitions, "implementation", None)?.map(Implementation::of).transpose()?;
-    let (controller, plant) = (System::of(controller)?, System::of(plant)?);
-    if controller.b.is_zero() {
-        return Err(refused("the controller is zero: it controls nothing")
-            .at(controller.b.span, "all its coefficients are 0")
-            .help("the plant alone decides; write it as a model of its own"));
+impl DsFile {
+    /// Reads a file; `defines` stand for what DSVerifier's command line passes on to the compiler as `-D NAME=NUMBER`.
+    ///
+    /// Cost: linear in the text.
+    ///
+    /// ```
+    /// use jurist_engine::error::Source;
+    /// use jurist_ship::dsverifier::{DsFile, Writing};
+    /// let text = "digital_system controller = { .b = { 0.2 }, .b_size = 1, .a = { 1.0f }, .a_size = 1 };
+    ///     implementation impl = { .int_bits = 3, .frac_bits = 13 };
+    ///     digital_system plant = { .b = { 1 }, .b_size = 1, .a = { 1, -0.5 }, .a_size = 2 };";
+    /// let file = DsFile::read(&Source::new("input.c", text), &[])?;
+    /// let model = file.model("input.c", &Writing::default())?;
+    /// assert!(model.contains("num = [0.2]") && model.contains("format = { bits = 16, fraction = 13, round = \"floor\" }"));
+    /// # Ok::<(), jurist_engine::error::Diagnostics>(())
+    /// ```
+    ///
+    /// # Errors
+    /// `E-import` with the place in the text: what is no list of numbers, lists of more than [`MAX_COEFFICIENTS`], a size or a struct that is missing
+    /// or given twice, a controller that is zero.
+    pub fn read(source: &Arc<Source>, defines: &[Define]) -> Result<DsFile, Diagnostics> {
+        let read = || {
+            let tokens = token::tokens(&source.text)?;
+            let selected = conditions::selected(&tokens, defines)?;
+            let structs = fields::structs(&selected.tokens)?;
+            system::file(source, &structs, &selected.missing)
+        };
+        read().map_err(|error: Diagnostic| Diagnostics::from(error).in_source(source))
     }
-    write::write(&write::Parts { source, reading, controller, plant, implementation, remarks })
+
+    /// An error about the text.
+    fn refuse(&self, error: Diagnostic) -> Diagnostics {
+        Diagnostics::from(error).in_source(&self.source)
+    }
 }
 
-fn controller<'a, 't>(
-    definitions: &'a [Definition<'t>],
-    remarks: &mut Vec<String>,
-) -> Result<&'a Definition<'t>, Diagnostic> {
-    let mut found = Vec::new();
-    for name in CONTROLLERS {
-        found.extend(one(definitions, "digital_system", Some(name))?);
-    }
-    let Some(first) = found.first() else {
-        let error = refused("there is no 'digital_system controller = { ... }' in the file");
-        return Err(error.help("its names are 'controller', 'control' and 'ds'; fields are written as .b = { 1, 2 }"));
-    };
-    if let Some(other) = found.get(1) {
-        remarks.push(format!("the controller is '{}'; '{}' is not read", first.name, other.name));
-    }
-    Ok(first)
-}
-
-/// The only definition of a type, or of one of its names.
-fn one<'a, 't>(
-    definitions: &'a [Definition<'t>],
-    kind: &str,
-    name: Option<&str>,
-) -> Result<Option<&'a Definition<'t>>, Diagnostic> {
-    let mut found = definitions.iter().filter(|one| one.kind == kind && name.is_none_or(|name| one.name == name));
-    let (first, second) = (found.next(), found.next());
-    if let (Some(first), Some(second)) = (first, second) {
-        let what = name.map_or(format!("'{kind}'"), |name| format!("'{}'", shown(name)));
-        return Err(refused(format!("there are several definitions of {what}"))
-            .at(second.span, "the second one")
-            .also(first.span, "the first one")
-            .help("leave one of them in the file: '#if' and '#endif' are passed over"));
-    }
-    Ok(first)
-}
-
-/// An error about such a file.
+/// An error about a file of DSVerifier.
 fn refused(message: impl Into<String>) -> Diagnostic {
     Diagnostic::error(Code::Import, message)
 }
-
-#[cfg(test)]
-mod tests;

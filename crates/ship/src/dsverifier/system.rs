@@ -1,183 +1,178 @@
-//! What a definition says: two lists, or a format.
+//! From fields to a controller, a plant and a number format.
 
-use super::initialiser::{Definition, Field, entries};
-use super::number::{Number, shown, whole};
-use super::refused;
-use jurist_engine::error::{Diagnostic, Span};
+use super::fields::{Field, Struct};
+use super::{DsFile, MAX_COEFFICIENTS, Number, refused};
+use jurist_algebra::number::Rational;
+use jurist_engine::error::{Diagnostic, Source, Span};
+use std::sync::Arc;
 
-/// Longer lists are refused.
-const MOST: i64 = 200;
-
-/// The most bits of a number.
-const MOST_BITS: i64 = 64;
-
-/// A coefficient with its uncertainty in per cent, where it has one.
-#[derive(Clone, Debug)]
-pub(super) struct Coefficient {
-    pub number: Number,
-    pub uncertainty: Option<Number>,
-}
-
-/// A list of coefficients with its place.
-#[derive(Clone, Debug)]
-pub(super) struct List {
-    pub entries: Vec<Coefficient>,
+/// The coefficients of a numerator or a denominator.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct List {
+    /// As many numbers as the size says.
+    pub numbers: Vec<Number>,
+    /// What each may differ by, in per cent of it; zero where nothing is said.
+    pub uncertainty: Vec<Number>,
+    /// Where the list stands.
     pub span: Span,
 }
 
 impl List {
-    /// Whether all of its numbers are 0.
+    /// Whether all numbers are zero.
     pub fn is_zero(&self) -> bool {
-        self.entries.iter().all(|entry| entry.number.value.is_zero())
+        self.numbers.iter().all(|number| number.value.is_zero())
+    }
+
+    /// How many zeros stand in front.
+    pub fn leading_zeros(&self) -> usize {
+        self.numbers.iter().take_while(|number| number.value.is_zero()).count()
     }
 }
 
-/// A `digital_system`.
-#[derive(Clone, Debug)]
-pub(super) struct System {
-    pub b: List,
-    pub a: List,
+/// A transfer function.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct System {
+    /// The name of the struct.
+    pub name: String,
+    /// `.b`.
+    pub numerator: List,
+    /// `.a`.
+    pub denominator: List,
+    /// `.sample_time`, if it is positive.
     pub sample_time: Option<Number>,
-    /// What is to be said of it.
-    pub remarks: Vec<String>,
 }
 
-impl System {
-    pub fn of(definition: &Definition<'_>) -> Result<System, Diagnostic> {
-        let mut remarks = Vec::new();
-        let b = list(definition, "b", &mut remarks)?;
-        let a = list(definition, "a", &mut remarks)?;
-        if a.is_zero() {
-            let error = refused(format!("the denominator of '{}' is zero", shown(definition.name)))
-                .at(a.span, "all its coefficients are 0");
-            return Err(match b.is_zero() {
-                true => error.help("nothing is said of this system yet: write its coefficients into both lists"),
-                false => error.help("write its coefficients, the highest power of z first"),
-            });
-        }
-        let sample_time = scalar(definition, "sample_time")?.filter(|time| !time.value.is_zero());
-        if let Some(time) = sample_time.as_ref().filter(|time| time.value.is_negative()) {
-            return Err(refused("a sample time is not negative").at(time.span, "negative"));
-        }
-        Ok(System { b, a, sample_time, remarks })
-    }
-}
-
-/// An `implementation`.
-#[derive(Clone, Debug)]
-pub(super) struct Implementation {
-    pub bits: i64,
-    pub fraction: i64,
-    /// The greatest magnitude of the input, divided by the scale.
-    pub bound: Option<String>,
+/// How numbers are stored.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Implementation {
+    /// Bits before the point, the sign among them.
+    pub integer: u32,
+    /// Bits behind the point.
+    pub fraction: u32,
+    /// The greatest magnitude of the input, already divided by the scale.
+    pub bound: Option<Rational>,
+    /// The step of the delta operator, if there is one.
     pub delta: Option<Number>,
+    /// Where the format is given.
+    pub span: Span,
 }
 
-impl Implementation {
-    pub fn of(definition: &Definition<'_>) -> Result<Implementation, Diagnostic> {
-        let required = |name: &str| {
-            scalar(definition, name)?.ok_or_else(|| {
-                refused(format!("'{}' has no .{name}", shown(definition.name))).at(definition.span, "not complete")
-            })
-        };
-        let (integer, fraction) = (required("int_bits")?, required("frac_bits")?);
-        let bits = integer.whole(".int_bits", 0, MOST_BITS)? + fraction.whole(".frac_bits", 0, MOST_BITS)?;
-        if !(1..=MOST_BITS).contains(&bits) {
-            return Err(refused(format!("a number has 1 to {MOST_BITS} bits, not {bits}"))
-                .at(fraction.span, "bits behind the point")
-                .also(integer.span, "bits before it, the sign among them"));
+/// The parts of a loop among the structs of a file.
+pub(super) fn file(source: &Arc<Source>, structs: &[Struct<'_>], missing: &[String]) -> Result<DsFile, Diagnostic> {
+    for (k, one) in structs.iter().enumerate() {
+        if structs[..k].iter().any(|other| other.name == one.name) {
+            let error = refused(format!("'{}' is given twice", one.name)).at(one.name_span, "again here");
+            return Err(error.help("leave one of them; what a condition chooses is said with -D NAME=NUMBER"));
         }
-        let delta = scalar(definition, "delta")?.filter(is_step);
-        Ok(Implementation {
-            bits,
-            fraction: fraction.whole(".frac_bits", 0, MOST_BITS)?,
-            bound: bound(definition)?,
-            delta,
-        })
     }
+    let of = |kind: &str, names: &[&str]| {
+        names.iter().find_map(|name| structs.iter().find(|s| s.kind == kind && s.name == *name))
+    };
+    let controller = of("digital_system", &["controller", "control"]);
+    let plant = of("digital_system", &["plant"]);
+    let alone = of("digital_system", &["ds"]).filter(|_| controller.is_none() && plant.is_none());
+    let (controller, plant) = match (controller, plant, alone) {
+        (Some(controller), Some(plant), _) => (controller, Some(plant)),
+        (_, _, Some(alone)) => (alone, None),
+        (Some(one), None, _) => return Err(absent("plant", Some(one), missing)),
+        (None, Some(one), _) => return Err(absent("controller", Some(one), missing)),
+        (None, None, None) => return Err(absent("controller", None, missing)),
+    };
+    let implementation = of("implementation", &["impl"]).map(implementation).transpose()?;
+    let controller = system(controller)?;
+    refuse_zero(&controller)?;
+    let plant = plant.map(system).transpose()?;
+    Ok(DsFile { source: Arc::clone(source), controller, plant, implementation, is_stored: false })
 }
 
-/// Whether the delta operator of `[ship]` takes this step: a power of two below 1.
-fn is_step(delta: &Number) -> bool {
-    (1..=32).any(|k| delta.value == crate::format::power_of_two(-k))
-}
-
-/// The greater magnitude of `.min` and `.max`, over the scale.
-fn bound(definition: &Definition<'_>) -> Result<Option<String>, Diagnostic> {
-    let [least, greatest, scale] = ["min", "max", "scale"].map(|name| scalar(definition, name));
-    let (least, greatest, scale) = (least?, greatest?, scale?);
-    let (Some(least), Some(greatest)) = (least, greatest) else { return Ok(None) };
-    if greatest.value < least.value {
-        return Err(refused(".max is below .min").at(greatest.span, "the greatest").also(least.span, "the least"));
-    }
-    let most = if greatest.value.abs() < least.value.abs() { &least } else { &greatest };
-    let scale = scale.filter(|scale| !scale.value.is_zero());
-    Ok(match scale.and_then(|scale| most.value.abs().checked_div(&scale.value.abs())) {
-        Some(quotient) => Some(format!("\"{quotient}\"")),
-        None => Some(most.text.trim_start_matches('-').to_owned()),
+fn absent(name: &str, other: Option<&Struct<'_>>, missing: &[String]) -> Diagnostic {
+    let error = refused(format!("there is no 'digital_system {name} = {{ .. }}'"));
+    let error = match other {
+        Some(other) => error.at(other.name_span, "this alone is no loop"),
+        None => error,
+    };
+    error.help(match missing {
+        [] => "a file of DSVerifier has a controller and a plant, or 'ds' alone".to_owned(),
+        _ => format!("parts of the file stand behind conditions: add -D {}", missing.join(" -D ")),
     })
 }
 
-fn scalar(definition: &Definition<'_>, name: &str) -> Result<Option<Number>, Diagnostic> {
-    let Some(field) = definition.field(name) else { return Ok(None) };
-    if field.value.is_empty() {
-        return Err(no_value(field));
-    }
-    Number::of(&field.value).map(Some)
+fn system(given: &Struct<'_>) -> Result<System, Diagnostic> {
+    let list = |name: &str| list(given, name);
+    let sample_time = given.number("sample_time").filter(|time| time.value > Rational::ZERO).cloned();
+    Ok(System { name: given.name.to_owned(), numerator: list("b")?, denominator: list("a")?, sample_time })
 }
 
-fn no_value(field: &Field<'_>) -> Diagnostic {
-    refused(format!("'.{}' has no value", shown(field.name))).at(field.span, "nothing behind '='")
-}
-
-/// The numbers of a field in braces; of one number without braces, C makes the first entry.
-fn numbers(field: &Field<'_>) -> Result<(Vec<Number>, Span), Diagnostic> {
-    let inner = match field.value.as_slice() {
-        [] => return Err(no_value(field)),
-        [open, inner @ .., close] if open.is("{") && close.is("}") => inner,
-        all => all,
+/// A list of the size that is given with it.
+fn list(given: &Struct<'_>, name: &str) -> Result<List, Diagnostic> {
+    let needed = |name: &str| {
+        given.field(name).ok_or_else(|| {
+            let error = refused(format!("'{}' has no .{name}, so C takes it for empty", given.name));
+            error.at(given.name_span, format!("without .{name}"))
+        })
     };
-    let mut out = Vec::new();
-    for entry in entries(inner) {
-        if entry.is_empty() {
-            return Err(refused("there is no number between two commas").at(whole(inner), "in this list"));
-        }
-        if out.len() as i64 >= MOST {
-            return Err(refused(format!("a list has at most {MOST} numbers")).at(whole(entry), "one more"));
-        }
-        out.push(Number::of(entry)?);
-    }
-    Ok((out, whole(&field.value)))
+    let (field, sizing) = (needed(name)?, needed(&format!("{name}_size"))?);
+    let most = MAX_COEFFICIENTS as u32;
+    let size = whole(sizing, 1, most)? as usize;
+    let limited = |field: &Field<'_>| match field.numbers.len() {
+        0..=MAX_COEFFICIENTS => Ok(()),
+        _ => Err(refused(format!("a list of more than {most} numbers")).at(field.span, "too long for DSVerifier")),
+    };
+    limited(field)?;
+    let sized = |numbers: &[Number]| -> Vec<Number> {
+        let zeros = std::iter::repeat_with(|| Number::zero(field.span));
+        numbers.iter().cloned().chain(zeros).take(size).collect()
+    };
+    let uncertainty = match given.field(&format!("{name}_uncertainty")) {
+        Some(field) => limited(field).map(|()| sized(&field.numbers))?,
+        None => sized(&[]),
+    };
+    Ok(List { numbers: sized(&field.numbers), uncertainty, span: field.span })
 }
 
-/// `.b` or `.a`, filled with zeros or cut to its size.
-fn list(definition: &Definition<'_>, name: &str, remarks: &mut Vec<String>) -> Result<List, Diagnostic> {
-    let Some(field) = definition.field(name) else {
-        return Err(refused(format!("'{}' has no .{name}", shown(definition.name))).at(definition.span, "not complete"));
-    };
-    let (mut found, span) = numbers(field)?;
-    let size = match scalar(definition, &format!("{name}_size"))? {
-        Some(size) => size.whole(&format!(".{name}_size"), 1, MOST)? as usize,
+/// DSVerifier refuses a controller that is zero, or divides by zero.
+pub(super) fn refuse_zero(controller: &System) -> Result<(), Diagnostic> {
+    let lists = [(&controller.numerator, "numerator"), (&controller.denominator, "denominator")];
+    match lists.into_iter().find(|(list, _)| list.is_zero()) {
+        Some((list, what)) => {
+            let error = refused(format!("the {what} of '{}' is zero", controller.name));
+            Err(error.at(list.span, "all zero, as far as the size goes").help("DSVerifier refuses it too"))
+        }
+        None => Ok(()),
+    }
+}
+
+fn implementation(given: &Struct<'_>) -> Result<Implementation, Diagnostic> {
+    let bits = |name: &str, least: u32| match given.field(name) {
+        Some(field) => whole(field, least, 64),
         None => {
-            remarks.push(format!("'{}' has no .{name}_size: the list .{name} is taken whole", definition.name));
-            found.len().max(1)
+            Err(refused(format!("'{}' has no .{name}", given.name)).at(given.name_span, format!("without .{name}")))
         }
     };
-    if found.len() != size {
-        let done = if found.len() < size { "filled with zeros at its end" } else { "cut at its end" };
-        remarks.push(format!("the list .{name} of '{}' is {done}, to .{name}_size = {size}", definition.name));
+    let (integer, fraction) = (bits("int_bits", 1)?, bits("frac_bits", 0)?);
+    if integer + fraction > 64 {
+        let error = refused(format!("a number of {} bits", integer + fraction)).at(given.name_span, "more than 64");
+        return Err(error.help("DSVerifier demands less than 32 bits: .int_bits counts the sign"));
     }
-    found.resize_with(size, || Number::zero(span));
-    let uncertain = match definition.field(&format!("{name}_uncertainty")) {
-        Some(field) => numbers(field)?.0,
-        None => Vec::new(),
-    };
-    let mut uncertain = uncertain.into_iter();
-    let entries = found.into_iter().map(|number| {
-        let percent = uncertain
-            .next()
-            .filter(|percent| !(percent.value.is_negative() || percent.value.is_zero() || number.value.is_zero()));
-        Coefficient { number, uncertainty: percent }
+    let scale = given.number("scale").map(|scale| scale.value.abs()).filter(|scale| !scale.is_zero());
+    let bound = ["min", "max"].into_iter().filter_map(|name| given.number(name)).map(|end| end.value.abs()).max();
+    let bound = bound.filter(|bound| !bound.is_zero()).and_then(|bound| match &scale {
+        Some(scale) => bound.checked_div(scale),
+        None => Some(bound),
     });
-    Ok(List { entries: entries.collect(), span })
+    let delta = given.number("delta").filter(|delta| !delta.value.is_zero()).cloned();
+    Ok(Implementation { integer, fraction, bound, delta, span: given.name_span })
+}
+
+/// A whole number between two bounds.
+fn whole(field: &Field<'_>, least: u32, most: u32) -> Result<u32, Diagnostic> {
+    let number = field.numbers.first().filter(|number| number.value.is_integer());
+    let value = number.and_then(|number| number.value.numerator().to_i64()).and_then(|n| u32::try_from(n).ok());
+    value.filter(|value| (least..=most).contains(value)).ok_or_else(|| {
+        let error = refused(format!("'{}' is no whole number from {least} to {most}", field.name));
+        error.at(field.span, "out of range")
+    })
 }

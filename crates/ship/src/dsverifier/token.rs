@@ -1,13 +1,21 @@
-//! Words, numbers and signs of a text in C. What is no code is passed over: comments, lines of the preprocessor, texts in quotes.
+//! Words, numbers and signs of C, and lines of the preprocessor.
 
-use jurist_engine::error::Span;
+use super::refused;
+use jurist_engine::error::{Diagnostic, Span};
 
-/// What a token is.
+/// Longer files are refused.
+const MAX_TOKENS: usize = 4_000_000;
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
+    /// A name or a keyword.
     Word,
     Number,
+    /// A text or a character in quotes.
+    Text,
     Sign,
+    /// A line that begins with `#`, without that sign.
+    Directive,
 }
 
 /// A piece of the text.
@@ -19,95 +27,87 @@ pub(super) struct Token<'t> {
 }
 
 impl Token<'_> {
+    /// Whether it is this word or sign.
     pub fn is(&self, text: &str) -> bool {
-        self.text == text
-    }
-
-    pub fn is_word(&self) -> bool {
-        self.kind == Kind::Word
+        matches!(self.kind, Kind::Word | Kind::Sign) && self.text == text
     }
 }
 
-/// All tokens of a text, in linear time. What is not closed ends with the text.
-pub(super) fn tokens(text: &str) -> Vec<Token<'_>> {
+/// All pieces; comments are left out.
+pub(super) fn tokens(text: &str) -> Result<Vec<Token<'_>>, Diagnostic> {
     let mut out = Vec::new();
-    let mut at = 0;
-    let mut is_line_start = true;
-    while let Some(letter) = text[at..].chars().next() {
+    let (mut at, mut begins_line) = (0, true);
+    while let Some(first) = text[at..].chars().next() {
         let rest = &text[at..];
-        let (length, kind) = match letter {
-            '#' if is_line_start => (line(rest), None),
-            '/' if rest.starts_with("//") => (line(rest), None),
-            '/' if rest.starts_with("/*") => (rest[2..].find("*/").map_or(rest.len(), |end| end + 4), None),
-            '"' | '\'' => (quoted(rest, letter), None),
-            _ if letter.is_whitespace() || letter == '\u{feff}' => (letter.len_utf8(), None),
-            _ if letter.is_ascii_alphabetic() || letter == '_' => (word(rest), Some(Kind::Word)),
-            _ if letter.is_ascii_digit() => (number(rest), Some(Kind::Number)),
-            '.' if rest[1..].starts_with(|c: char| c.is_ascii_digit()) => (number(rest), Some(Kind::Number)),
-            _ => (letter.len_utf8(), Some(Kind::Sign)),
+        let (kind, length) = match first {
+            _ if first.is_whitespace() || first == '\u{feff}' => (None, first.len_utf8()),
+            _ if rest.starts_with("//") => (None, line_length(rest)),
+            _ if rest.starts_with("/*") => (None, comment(rest, at)?),
+            '#' if begins_line => (Some(Kind::Directive), line_length(rest)),
+            '"' | '\'' => (Some(Kind::Text), quoted(rest, first)),
+            'A'..='Z' | 'a'..='z' | '_' => (Some(Kind::Word), word(rest)),
+            '0'..='9' => (Some(Kind::Number), number(rest)),
+            '.' if rest[1..].starts_with(|c: char| c.is_ascii_digit()) => (Some(Kind::Number), number(rest)),
+            _ => (Some(Kind::Sign), first.len_utf8()),
         };
+        begins_line = first == '\n' || begins_line && kind.is_none();
         if let Some(kind) = kind {
-            out.push(Token { kind, text: &rest[..length], span: Span::new(at, at + length) });
+            let skipped = usize::from(kind == Kind::Directive);
+            out.push(Token { kind, text: &rest[skipped..length], span: Span::new(at, at + length) });
         }
-        is_line_start = letter == '\n' || is_line_start && (letter.is_whitespace() || letter == '\u{feff}');
+        if out.len() > MAX_TOKENS {
+            return Err(refused("the file is too long").at(Span::new(at, at + 1), "not read any further"));
+        }
         at += length;
     }
-    out
+    Ok(out)
 }
 
-/// Up to the end of a line; a backslash there continues it.
-fn line(rest: &str) -> usize {
+/// The length of a line that a backslash at its end makes longer.
+fn line_length(rest: &str) -> usize {
     let mut length = 0;
-    for part in rest.split_inclusive('\n') {
-        length += part.len();
-        if !part.trim_end_matches(['\n', '\r']).ends_with('\\') {
-            // The end of the line stays: what follows stands at the start of a line.
-            return length - usize::from(part.ends_with('\n'));
+    for line in rest.split_inclusive('\n') {
+        length += line.len();
+        if !line.trim_end_matches(['\n', '\r']).ends_with('\\') {
+            return length - usize::from(line.ends_with('\n'));
         }
     }
-    length
+    rest.len()
 }
 
-fn word(rest: &str) -> usize {
-    rest.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).unwrap_or(rest.len())
+fn comment(rest: &str, at: usize) -> Result<usize, Diagnostic> {
+    let found = rest[2..].find("*/").map(|end| end + 4);
+    found.ok_or_else(|| refused("a comment does not end").at(Span::new(at, at + 2), "begins here"))
 }
 
-/// A number in the sense of C's preprocessor: with all letters behind it, and signs behind an `e`.
-fn number(rest: &str) -> usize {
-    let is_hexadecimal = rest.starts_with("0x") || rest.starts_with("0X");
-    let mut before = ' ';
-    let belongs = |before: char, letter: char| {
-        letter.is_ascii_alphanumeric()
-            || ['.', '_'].contains(&letter)
-            || ['+', '-'].contains(&letter) && ['e', 'E'].contains(&before) && !is_hexadecimal
-    };
-    let end = rest.find(|letter: char| !belongs(std::mem::replace(&mut before, letter), letter));
-    end.unwrap_or(rest.len())
-}
-
+/// The length of a text in quotes; one that does not end on its line ends with it.
 fn quoted(rest: &str, quote: char) -> usize {
     let mut is_escaped = false;
-    for (at, letter) in rest.char_indices().skip(1) {
-        match letter {
+    for (length, c) in rest.char_indices().skip(1) {
+        match c {
+            '\n' => return length,
             _ if is_escaped => is_escaped = false,
             '\\' => is_escaped = true,
-            // No text of C goes over the end of a line.
-            '\n' => return at,
-            _ if letter == quote => return at + 1,
+            _ if c == quote => return length + 1,
             _ => {}
         }
     }
     rest.len()
 }
 
-#[cfg(test)]
-mod tests {
-    use super::tokens;
+fn word(rest: &str) -> usize {
+    rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(rest.len())
+}
 
-    #[test]
-    fn what_is_no_code_is_passed_over() {
-        let text = "#define A \\\n 7\n/* .b = 3 */ x = {1.e+3f,-.5}; // y\n \"z\\\"/*\" 0x1e+2 'q' /* open";
-        let found: Vec<&str> = tokens(text).iter().map(|token| token.text).collect();
-        assert_eq!(found, ["x", "=", "{", "1.e+3f", ",", "-", ".5", "}", ";", "0x1e", "+", "2"]);
+/// The length of a number of the preprocessor: a sign belongs to it only behind `e` or `p`.
+fn number(rest: &str) -> usize {
+    let mut before = ' ';
+    for (at, c) in rest.char_indices() {
+        let is_exponent_sign = matches!(c, '+' | '-') && matches!(before, 'e' | 'E' | 'p' | 'P');
+        if !c.is_ascii_alphanumeric() && !matches!(c, '.' | '_') && !is_exponent_sign {
+            return at;
+        }
+        before = c;
     }
+    rest.len()
 }
