@@ -133,6 +133,7 @@ mod ship {
     mod bounds;
     mod cases;
     mod dsverifier;
+    mod limits;
     mod roundings;
 }
 
