@@ -132,6 +132,7 @@ mod expectations {
 mod ship {
     mod bounds;
     mod cases;
+    mod limits;
     mod roundings;
 }
 
