@@ -80,7 +80,7 @@ fn options_that_do_not_go_together() {
     let name = file("pendulum.c");
     refused(&["import", &name, "--open"], "E-usage");
     refused(&["import", &file("servo.mat"), "--stored"], "E-usage");
-    refused(&["import", &name, "--reading", "w"], "E-option-value");
+    refused(&["import", &name, "--reading", "w"], "E-usage");
     refused(&["import", &name, "-D", "DS_ID"], "E-option-value");
     refused(&["import", &name, "--round", "up"], "E-option-value");
     refused(&["ship", "--from", &file("is-not-there.c")], "E-read");

@@ -3,6 +3,7 @@
 use super::refused;
 use super::token::{Kind, Token};
 use jurist_engine::error::Diagnostic;
+use std::collections::HashMap;
 
 /// A name with the number that it has, as `-D NAME=NUMBER` gives it to a compiler.
 pub type Define = (String, i64);
@@ -14,6 +15,9 @@ pub(super) struct Selected<'t> {
     pub missing: Vec<String>,
 }
 
+/// The names that have numbers.
+type Defines = HashMap<String, i64>;
+
 /// A condition that is open: whether it holds, whether a branch of it held before, and whether it stands at all.
 struct Branch {
     holds: bool,
@@ -23,7 +27,7 @@ struct Branch {
 
 /// The tokens outside of conditions that do not hold. A name without a number is 0, as in C.
 pub(super) fn selected<'t>(tokens: &[Token<'t>], given: &[Define]) -> Result<Selected<'t>, Diagnostic> {
-    let mut defines = given.to_vec();
+    let mut defines: Defines = given.iter().cloned().collect();
     let mut open: Vec<Branch> = Vec::new();
     let mut out = Selected { tokens: Vec::new(), missing: Vec::new() };
     for token in tokens {
@@ -62,8 +66,8 @@ pub(super) fn selected<'t>(tokens: &[Token<'t>], given: &[Define]) -> Result<Sel
     Ok(out)
 }
 
-fn begins(word: &str, rest: &str, defines: &[Define], token: &Token<'_>) -> Result<bool, Diagnostic> {
-    let is_defined = || defines.iter().any(|(name, _)| name == split_word(rest).0);
+fn begins(word: &str, rest: &str, defines: &Defines, token: &Token<'_>) -> Result<bool, Diagnostic> {
+    let is_defined = || defines.contains_key(split_word(rest).0);
     match word {
         "ifdef" => Ok(is_defined()),
         "ifndef" => Ok(!is_defined()),
@@ -72,16 +76,15 @@ fn begins(word: &str, rest: &str, defines: &[Define], token: &Token<'_>) -> Resu
 }
 
 /// `#define NAME NUMBER`; what the command line gives stays.
-fn define(rest: &str, defines: &mut Vec<Define>, given: &[Define]) {
+fn define(rest: &str, defines: &mut Defines, given: &[Define]) {
     let (name, value) = split_word(rest);
     if !name.is_empty() && given.iter().all(|(known, _)| known != name) {
-        defines.retain(|(known, _)| known != name);
-        defines.push((name.to_owned(), value.trim().parse().unwrap_or(0)));
+        defines.insert(name.to_owned(), value.trim().parse().unwrap_or(0));
     }
 }
 
 /// `A`, `3`, `defined(A)`, `!A`, `A == 3`, `A != 3`, each in parentheses or not.
-fn condition(text: &str, defines: &[Define], token: &Token<'_>) -> Result<bool, Diagnostic> {
+fn condition(text: &str, defines: &Defines, token: &Token<'_>) -> Result<bool, Diagnostic> {
     let unread = || {
         refused("this condition is not read")
             .at(token.span, "not a comparison of a name with a number")
@@ -100,9 +103,9 @@ fn condition(text: &str, defines: &[Define], token: &Token<'_>) -> Result<bool, 
     }
 }
 
-fn value(text: &str, defines: &[Define]) -> Option<i64> {
+fn value(text: &str, defines: &Defines) -> Option<i64> {
     let text = unwrapped(text);
-    let of = |name: &str| defines.iter().find(|(known, _)| known == name).map(|(_, value)| *value);
+    let of = |name: &str| defines.get(name).copied();
     let is_name = |text: &str| !text.is_empty() && split_word(text).0 == text;
     if let Some(name) = text.strip_prefix("defined").map(unwrapped).filter(|name| is_name(name)) {
         return Some(i64::from(of(name).is_some()));
