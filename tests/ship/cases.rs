@@ -224,3 +224,25 @@ fn the_digits_of_the_papers_polynomial_move_its_limits() {
     let expected = ["173.160", "0.930950", "2.98532", "0.223982", "0.0224007", "0.00149341", "0.000112006"];
     assert_eq!(shown, expected);
 }
+
+#[test]
+fn the_drives_controllers_are_shipped_in_all_formats() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/shipped");
+    let mut seen = Vec::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let (status, document) = ship(&std::fs::read_to_string(&path).unwrap(), &[]);
+        assert_eq!((status, &document["rounded"]["verdict"]), (0, &"stable".into()), "{}", path.display());
+        assert_eq!(document["every_rounding"]["verdict"], "stable", "{}", path.display());
+        let stored = document["coefficients"]["b"].clone();
+        seen.push((path.file_name().unwrap().to_string_lossy().into_owned(), stored));
+    }
+    seen.sort_by(|a, b| a.0.cmp(&b.0));
+    let names: Vec<&str> = seen.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(names, ["current-float32.toml", "current-q15.toml", "speed-float64.toml", "speed-q15.toml"]);
+    // 10.025 * 2^15 / 2^4 = 20531.2 and 1.00025 * 2^15 / 2 = 16388.096.
+    assert_eq!(
+        [&seen[1].1["integers"], &seen[3].1["integers"]],
+        [&serde_json::json!([null, "20531", "-20429"]), &serde_json::json!([null, "16388", "-16380"])]
+    );
+}

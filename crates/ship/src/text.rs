@@ -24,6 +24,9 @@ use std::fmt::Write;
 /// Digits of bounds and factors.
 const FEW: usize = 6;
 
+/// As many digits show the rounding of a `float64`.
+const MOST_DIGITS: usize = 20;
+
 /// What a text takes.
 const TAKES: &str = "a text takes all text";
 
@@ -284,9 +287,21 @@ fn coefficients(all: &[Stored], digits: usize) -> String {
     let last = if has_integers { "integer" } else { "" };
     columns.row(["".into(), "exact".into(), "stored".into(), last.to_owned()]);
     for c in all {
-        let exact = enclosed_decimal(c.exact.lower(), c.exact.upper(), digits).unwrap_or_default();
+        let [exact, stored] = beside(c, digits);
         let integer = c.integer.as_ref().map(Integer::to_string).unwrap_or_default();
-        columns.row([c.name.clone(), exact, to_decimal(&c.value, digits), integer]);
+        columns.row([c.name.clone(), exact, stored, integer]);
     }
     columns.to_string()
+}
+
+/// A coefficient as written and as stored, with so many more digits that they differ, where they do.
+fn beside(c: &Stored, digits: usize) -> [String; 2] {
+    let exact = |digits| enclosed_decimal(c.exact.lower(), c.exact.upper(), digits);
+    let pair = |digits| Some([exact(digits)?, to_decimal(&c.value, digits)]);
+    let is_exact = c.exact.lower() == &c.value && c.exact.upper() == &c.value;
+    let most = if is_exact { digits } else { digits.max(MOST_DIGITS) };
+    let differ = (digits..=most)
+        .filter_map(pair)
+        .find(|[exact, stored]| exact.trim_end_matches('0') != stored.trim_end_matches('0'));
+    differ.unwrap_or_else(|| [exact(digits).unwrap_or_default(), to_decimal(&c.value, digits)])
 }
