@@ -136,6 +136,12 @@ mod ship {
     mod roundings;
 }
 
+/// The best gains within what is required.
+mod tune {
+    mod cases;
+    mod laws;
+}
+
 /// Responses and root loci in floating point, against exact answers.
 mod simulation {
     mod linear;

@@ -605,7 +605,7 @@ class Model:
 
     def __init__(self, text):
         need(len(text) <= MAX_MODEL, "the model is too long")
-        keys = "title time sample_time constants parameters loop block simulation require expect ship"  # the last three change nothing of the loop
+        keys = "title time sample_time constants parameters loop block simulation require expect ship tune"  # the last four change nothing of the loop
         self.root = table(parsed(text.removeprefix("\ufeff")), keys)
         need(not any(match["number"] for match in NOT_DECIMAL.finditer(text)), "a number is not decimal")
         text_of(self.root.get("title", ""))
@@ -4017,12 +4017,12 @@ def fnv1a64(text):
     return f"{digest:016x}"
 
 def loop_alone(text):
-    """The text without the sections `[[expect]]` and `[ship]`: their lines from the one in brackets to the next that begins with another `[`."""
+    """The text without the sections `[[expect]]`, `[ship]` and `[tune]`: their lines from the one in brackets to the next that begins with another `[`."""
     kept, left_out = [], False
     for line in re.findall(r"[^\n]*\n|[^\n]+", text):
         start = line.lstrip(" \t")
         if start.startswith("["):
-            left_out = start.lstrip("[").startswith(("expect", "ship"))
+            left_out = start.lstrip("[").startswith(("expect", "ship", "tune"))
         if not left_out:
             kept.append(line)
     return "".join(kept)

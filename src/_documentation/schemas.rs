@@ -39,5 +39,6 @@ schemas! {
     test: "`jurist/test/1`, of `jurist test --json`.", "test-1";
     tolerance: "`jurist/tolerance/1`, of `jurist tolerance`.", "tolerance-1";
     transfer: "`jurist/transfer/1`, of `jurist charpoly --transfer`.", "transfer-1";
+    tune: "`jurist/tune/1`, of `jurist tune`.", "tune-1";
     verdict: "`jurist/verdict/1`, of `jurist verdict`.", "verdict-1";
 }

@@ -199,6 +199,15 @@ fn number_between(text: &str, start: usize, end: usize, place: Place) -> Result<
     })
 }
 
+/// Reads `NAME=LO..HI` of an option, both ends included; either side left out or infinite.
+pub(super) fn bound(
+    line: &CommandLine,
+    option: &str,
+    text: &str,
+) -> Result<(String, Option<Rational>, Option<Rational>), Diagnostics> {
+    range(text, line.option_value(option, text), option).map_err(|d| in_line(line, vec![d]))
+}
+
 /// `NAME=LO..HI`, either side left out or infinite.
 fn range(text: &str, place: Place, option: &str) -> Result<(String, Option<Rational>, Option<Rational>), Diagnostic> {
     let (name, start) = split_name(text, place, option, "LO..HI")?;

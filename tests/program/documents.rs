@@ -9,6 +9,7 @@ use jurist_engine::error::Source;
 use jurist_engine::model::Model;
 use jurist_engine::show::documents::through_its_type;
 use jurist_ship::document::Ship;
+use jurist_tune::document::Tune;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -43,6 +44,7 @@ fn read_and_written(document: &Value) -> Result<Value, String> {
         "jurist/main/1" => through::<Main>(document),
         "jurist/ship/1" => through::<Ship>(document),
         "jurist/simulate/1" => through::<Simulation>(document),
+        "jurist/tune/1" => through::<Tune>(document),
         other => panic!("the schema {other}"),
     }
 }
@@ -120,6 +122,9 @@ const FORMS: &[&[&str]] = &[
     &["roots", "--timeout", "0"],
     &["ship", "examples/drive-blocks.toml", "--block", "speed controller", "--format", "Q4.12", "--signal", "Q8.16"],
     &["ship", "examples/drive-blocks.toml", "--block", "current controller", "--format", "float32", "--param", "T"],
+    &["tune", "examples/pi-sensitivity.toml"],
+    &["tune", "examples/pi-sensitivity.toml", "--bound", "ki=1..2"],
+    &["tune", "examples/dc-servo.toml", "--free", "K", "--objective", "min radius"],
     &["roots", "examples/dead-time-pi.toml", "--rightmost", "2"],
     &["roots", "examples/neutral-loop.toml", "--explain"],
     &["simulate", "--duration", "0.01"],

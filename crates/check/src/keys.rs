@@ -4,7 +4,7 @@ use super::number::shorten;
 use super::toml::Toml;
 
 // What is required or expected of the loop, and how its controller is stored, change nothing of it and are not read: what is proved is stability.
-const ROOT: [&str; 11] = [
+const ROOT: [&str; 12] = [
     "title",
     "time",
     "sample_time",
@@ -16,6 +16,7 @@ const ROOT: [&str; 11] = [
     "require",
     "expect",
     "ship",
+    "tune",
 ];
 const PARAMETER: [&str; 8] = ["nominal", "min", "max", "closed", "domain", "unit", "description", "tolerance"];
 const CONSTANT: [&str; 4] = ["value", "unit", "description", "tolerance"];

@@ -40,19 +40,27 @@ pub fn in_sector<R: Domain>(p: &Poly<R>, damping: &Rational) -> Poly<R> {
 /// Polynomials in `rho`, up to factors, whose common zeros are the roots `s = rho exp(j psi)`, `cos psi = -damping`: those on the
 /// sector's edge for `rho > 0`. They are the imaginary parts of `P` and of `P exp(-j psi)`, over `sin psi`, the first over `rho` too.
 pub fn on_sector_edge<R: Domain>(p: &Poly<R>, damping: &Rational) -> [Poly<R>; 2] {
+    on_edge_of(p, [&R::from_integer(&damping.numerator()), &R::from_integer(&damping.denominator())])
+}
+
+/// The same with a damping of the coefficients' ring: its numerator and its denominator.
+pub fn on_edge_of<R: Domain>(p: &Poly<R>, [above, below]: [&R; 2]) -> [Poly<R>; 2] {
     let n = p.coeffs().len().saturating_sub(1);
-    // u_k = sin(k psi)/sin psi.
-    let twice_cosine = -(damping + damping);
-    let mut sines = vec![Rational::ZERO, Rational::ONE];
+    let twice_cosine = above.plus(above).negated();
+    // u_k = sin(k psi)/sin psi, times the (k - 1)-th power of the denominator.
+    let mut sines = vec![R::zero(), R::one()];
+    let mut powers = vec![R::one()];
     for k in 2..=n {
-        let next = &twice_cosine * &sines[k - 1] - &sines[k - 2];
-        sines.push(next);
+        let before = sines[k - 2].times(&below.times(below));
+        sines.push(twice_cosine.times(&sines[k - 1]).minus(&before));
     }
-    let clear = sines.iter().fold(Integer::ONE, |l, u| l.lcm(&u.denominator()));
-    let weight = |u: &Rational| R::from_integer(&(u * &Rational::from(&clear)).numerator());
-    let first = (1..=n).map(|k| p.coeff(k).times(&weight(&sines[k]))).collect();
-    let before = |k: usize| if k == 0 { -Rational::ONE } else { sines[k - 1].clone() };
-    let second = (0..=n).map(|k| p.coeff(k).times(&weight(&before(k)))).collect();
+    for k in 1..=n + 1 {
+        powers.push(powers[k - 1].times(below));
+    }
+    let weight = |k: usize| sines[k].times(&powers[n - k]);
+    let first = (1..=n).map(|k| p.coeff(k).times(&weight(k))).collect();
+    let before = |k: usize| if k == 0 { powers[n].negated() } else { sines[k - 1].times(&powers[n + 2 - k]) };
+    let second = (0..=n).map(|k| p.coeff(k).times(&before(k))).collect();
     [Poly::new(first), Poly::new(second)]
 }
 

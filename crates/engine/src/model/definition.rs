@@ -5,6 +5,7 @@ use super::expectation::Expectation;
 use super::shipping::Shipping;
 use super::text::Expression;
 use super::tolerance::Tolerance;
+use super::tuning::Tuning;
 use crate::error::{Source, Span};
 use jurist_algebra::number::Rational;
 use std::collections::HashMap;
@@ -457,6 +458,7 @@ pub struct Model {
     pub(super) require: Vec<RequirementText>,
     pub(super) expect: Vec<Expectation>,
     pub(super) shipping: Option<Shipping>,
+    pub(super) tuning: Option<Tuning>,
     /// Positions of constants and parameters by name.
     pub(super) index: HashMap<String, Position>,
 }
@@ -544,6 +546,11 @@ impl Model {
     /// How the controller is stored and run, as it is written.
     pub fn shipping(&self) -> Option<&Shipping> {
         self.shipping.as_ref()
+    }
+
+    /// Which gains are to be best, as it is written.
+    pub fn tuning(&self) -> Option<&Tuning> {
+        self.tuning.as_ref()
     }
 
     /// The unit of a signal, where the model names one.

@@ -29,6 +29,7 @@ mod shipping;
 mod symbols;
 pub(crate) mod text;
 pub(crate) mod tolerance;
+mod tuning;
 mod written;
 
 pub use builder::{BlockBuilder, ModelBuilder, ParameterBuilder};
@@ -52,4 +53,5 @@ pub(crate) use symbols::{beside, quotient_at};
 pub(crate) use text::names::shorten;
 pub use text::{Expression, Factor, Function, MAX_DEPTH, MAX_EXPONENT, Node, Sign, nearest_name};
 pub use tolerance::Tolerance;
+pub use tuning::Tuning;
 pub use written::Written;

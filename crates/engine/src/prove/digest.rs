@@ -29,7 +29,7 @@ pub(super) fn sha256(text: &str) -> String {
 }
 
 /// How the names of sections begin that change nothing of the loop.
-const ASIDE: [&str; 2] = ["expect", "ship"];
+const ASIDE: [&str; 3] = ["expect", "ship", "tune"];
 
 /// The text without the sections that change nothing of the loop, what is expected of it and how it is stored: without the lines from one that
 /// begins with the name of such a section in brackets to the next that begins with another `[`.

@@ -2,7 +2,7 @@
 
 use super::open_loop::OpenLoop;
 use super::place::{modulus_squared, product};
-use super::requirement::{Requirement, Rule};
+use super::requirement::{Circle, Requirement, Rule};
 use crate::coverage::refusals::MARGINS_IN_ONE;
 use crate::error::{Code, Diagnostic, Error};
 use crate::model::{ClosedLoop, Cut, Opened};
@@ -97,6 +97,11 @@ pub(super) trait Elimination<R: Domain> {
     /// What is zero where `a + alpha b` is.
     fn sum(&self, a: &R, b: &R, alpha: &RealAlgebraic, budget: &Budget) -> Result<Self::Left, Exhausted>;
 
+    /// What is negative where the condition of a circle is violated, of the squares of `|D0 + N|` and of the combination.
+    fn excess(&self, circle: &Circle, sum_squared: &Poly<R>, combined_squared: &Poly<R>) -> Poly<R> {
+        circle.excess(sum_squared, combined_squared)
+    }
+
     /// What is zero where a square-free polynomial of degree 2 at least has a repeated root.
     fn discriminant(&self, p: &Poly<R>, budget: &Budget) -> Result<Self::Left, Exhausted>;
 }
@@ -139,6 +144,11 @@ impl<R: Parameters> Family<R> {
     /// `D0` and `N` with the open loop `N/D0`, in the variable of the closed loop.
     pub fn parts(&self) -> [&Poly<R>; 2] {
         [&self.quotient.denominator, &self.quotient.numerator]
+    }
+
+    /// `N/D0`.
+    pub(super) fn quotient(&self) -> &Quotient<R> {
+        &self.quotient
     }
 
     /// The open loop at a point.
@@ -218,7 +228,7 @@ impl<R: Domain> Quotient<R> {
         let at_ends = |p: &Poly<R>| self.at_ends(p).into_iter().map(|f| by.function(f)).collect::<Vec<_>>();
         Ok(match requirement.rule() {
             Rule::Circle(circle) => {
-                let excess = circle.excess(&squared(&d.plus(&n)), &squared(&circle.combination(&d, &n)));
+                let excess = by.excess(circle, &squared(&d.plus(&n)), &squared(&circle.combination(&d, &n)));
                 // Where the content is zero, all frequencies pass to the other side at once.
                 let (content, excess) = budget.enter(|| (excess.content(), excess.square_free_part()))?;
                 let mut zeros = at_ends(&excess);
@@ -262,6 +272,11 @@ impl<R: Domain> Quotient<R> {
                 Boundaries { zeros: Vec::new(), touches: one() }
             }
         })
+    }
+
+    /// With other coefficients.
+    pub fn map<S: Domain>(&self, f: impl Fn(&R) -> S) -> Quotient<S> {
+        Quotient { denominator: self.denominator.map(&f), numerator: self.numerator.map(&f), shape: self.shape }
     }
 
     /// The values at the ends of the range of frequencies, and the leading coefficient.

@@ -280,6 +280,18 @@ pub(super) fn add_curves(
     Ok(())
 }
 
+/// Square-free polynomials in two variables without common factors, whose zeros together are those of the given ones.
+///
+/// Cost: a greatest common divisor for each pair.
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out.
+pub fn coprime_polynomials(all: &[MultiPoly], budget: &Budget) -> Result<Vec<MultiPoly>, Exhausted> {
+    let mut curves = Vec::new();
+    add_curves(&mut curves, all, &Integers, budget)?;
+    Ok(curves.into_iter().map(|curve| curve.polynomial).collect())
+}
+
 /// Why a loop with a characteristic polynomial is stable at no point: the boundary polynomial that vanishes
 /// identically; `None` when there is none.
 ///

@@ -19,7 +19,7 @@ mod through;
 mod touching;
 
 pub use certified::{at_height, critical_polynomials, over};
-pub use curves::{Curve, PlanePolynomial, boundary_curves, vanishing_boundary};
+pub use curves::{Curve, PlanePolynomial, boundary_curves, coprime_polynomials, vanishing_boundary};
 pub use decompose::{Branch, Cell, StabilityMap, StableRegion, Strip, stability_map};
 pub use glue::{Join, joins};
 pub use layers::{Asked, layers};

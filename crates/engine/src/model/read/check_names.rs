@@ -1,7 +1,7 @@
 //! Whether the names and values of a model make sense.
 
 use super::reader::Reader;
-use super::{ship, simulation};
+use super::{ship, simulation, tune};
 use crate::error::{Code, Diagnostic, Span};
 use crate::model::definition::{
     Block, Constant, Discretization, Dynamics, Form, Matrix, Model, Name, Output, Parameter, Ports, Position, Time,
@@ -307,6 +307,7 @@ pub(super) fn names(model: &Model, form_is_broken: bool, reader: &mut Reader) {
     let Names { used, reader, .. } = names;
     simulation::check(model, reader);
     ship::check(model, reader);
+    tune::check(model, reader);
     let constants = model.constants.iter().map(|c| (&c.name, c.span, "constant"));
     let parameters = model.parameters.iter().map(|p| (&p.name, p.span, "parameter"));
     for (name, span, what) in constants.chain(parameters).filter(|(name, ..)| !used.contains(name.as_str())) {

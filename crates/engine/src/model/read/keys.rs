@@ -92,7 +92,7 @@ pub(super) const EDGES: [&str; EDGE_LIST.len() + 1] = {
 pub(super) const HELD: &str = "hold";
 
 /// The whole file.
-pub(super) const MODEL: [Key; 11] = [
+pub(super) const MODEL: [Key; 12] = [
     key("title", Shape::Text, "what the loop is, for people"),
     needed(
         "time",
@@ -112,6 +112,20 @@ pub(super) const MODEL: [Key; 11] = [
     key("require", Shape::Table(&REQUIRE), "what is required of the loop beyond stability"),
     key("expect", Shape::Tables(&EXPECT), "what 'jurist test' is to find"),
     key("ship", Shape::Table(&SHIP), "how the controller is stored and run, for 'jurist ship'"),
+    key("tune", Shape::Table(&TUNE), "which gains are to be best, for 'jurist tune'"),
+];
+
+/// The table `[tune]`.
+pub(super) const TUNE: [Key; 5] = [
+    key("free", Shape::Names, "one gain or two"),
+    key("bounds", Shape::Named(&Shape::Interval), "the least and the greatest value of a gain, both included"),
+    key(
+        "objective",
+        Shape::Text,
+        "'max NAME' or 'min NAME', NAME a free gain or a number of the loop such as modulus_margin; 'none' when missing",
+    ),
+    key("gap", Shape::Number, "a bracket is narrow enough where it is less than this share, 1e-3 when missing"),
+    key("loss", Shape::Number, "what may be given up for gains of few digits: a share, or \"1%\""),
 ];
 
 /// The realisations of `[ship]`.

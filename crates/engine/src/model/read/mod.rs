@@ -22,6 +22,7 @@ mod schema;
 mod ship;
 mod simulation;
 mod tolerance;
+mod tune;
 
 pub use model_file::{DRIVE, source_from_bytes};
 pub use references::Reference;

@@ -5,7 +5,7 @@ use super::loop_forms::read_form;
 use super::reader::{Meant, NamedMatrix, Reader};
 use super::tolerance::read_tolerance;
 use super::{check_names, check_rules, check_values, rates};
-use super::{domain, expect, nominal, references, require, ship, simulation};
+use super::{domain, expect, nominal, references, require, ship, simulation, tune};
 use crate::error::{Code, Diagnostic, Diagnostics, Severity, Source, Span};
 use crate::model::definition::{Constant, Diagram, Form, Model, Name, Parameter, Time};
 use crate::model::evaluate::work::constant_value;
@@ -133,6 +133,7 @@ fn read_model(root: &Table, source: &Arc<Source>, reader: &mut Reader) -> Option
     let require = require::read(root, reader);
     let expect = expect::of_model(root, source, reader);
     let shipping = ship::read(root, reader);
+    let tuning = tune::read(root, reader);
     let mut index = HashMap::new();
     check_names::definitions(&constants, &parameters, time.unwrap_or(Time::Discrete), &mut index, reader);
     let order = check_names::order(&constants, &parameters, &index, reader);
@@ -151,6 +152,7 @@ fn read_model(root: &Table, source: &Arc<Source>, reader: &mut Reader) -> Option
         require,
         expect,
         shipping,
+        tuning,
         index,
     };
     let form_is_broken = form.is_none();

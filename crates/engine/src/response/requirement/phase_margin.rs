@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::stability::{HalfSizePair, Shape};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::{Domain, SquareFree, UniPoly, isolate_real_roots};
+use jurist_algebra::poly::{Domain, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots};
 
 pub(super) const KIND: RequirementKind = RequirementKind {
     name: "phase_margin",
@@ -48,6 +48,26 @@ impl Requirement {
         let rank = (1..=turns).filter(coprime).count();
         let twice_cosine = roots[roots.len() - rank].clone();
         Ok(Requirement { kind: &KIND, asked: format!("{degrees} deg"), rule: Rule::Turned { twice_cosine } })
+    }
+
+    /// By twice the cosine of the angle, above -2 and below 2.
+    ///
+    /// ```
+    /// use jurist_algebra::number::Rational;
+    /// use jurist_engine::response::Requirement;
+    /// assert_eq!(Requirement::phase_margin_by_cosine(&Rational::ONE)?.required(), "acos(1/2)"); // 60 degrees
+    /// # Ok::<(), jurist_engine::error::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// `E-require` for another number.
+    pub fn phase_margin_by_cosine(twice_cosine: &Rational) -> Result<Requirement, Error> {
+        if *twice_cosine <= Rational::from(-2) || *twice_cosine >= Rational::from(2) {
+            return Err(refused("a phase margin is above 0 and below 180 degrees"));
+        }
+        let cosine = twice_cosine * &Rational::new(1.into(), 2.into());
+        let twice_cosine = RealAlgebraic::from_rational(twice_cosine.clone());
+        Ok(Requirement { kind: &KIND, asked: format!("acos({cosine})"), rule: Rule::Turned { twice_cosine } })
     }
 }
 

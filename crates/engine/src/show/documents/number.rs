@@ -81,7 +81,8 @@ pub struct Number {
 }
 
 impl Number {
-    pub(super) fn new(value: &Real, digits: usize) -> Self {
+    /// With so many digits of its decimal.
+    pub fn new(value: &Real, digits: usize) -> Self {
         let rounded = real::rounded(value, digits);
         Number {
             decimal: rounded.decimal,

@@ -126,7 +126,8 @@ pub struct PointQuestion {
 }
 
 impl PointQuestion {
-    pub(super) fn new(problem: &Problem) -> Self {
+    /// The question of a problem.
+    pub fn new(problem: &Problem) -> Self {
         PointQuestion {
             title: title(problem),
             time: problem.time(),

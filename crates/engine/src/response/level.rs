@@ -1,0 +1,346 @@
+//! Numbers of a loop that are to be as good as possible: requirements whose number is not given.
+
+use super::disk::degrees;
+use super::family::{Elimination, Family};
+use super::required_set::not_decided;
+use super::requirement::{Circle, Found, Requirement, RequirementKind, Rule};
+use crate::error::Error;
+use crate::model::Time;
+use crate::problem::{DECAY, Problem, RADIUS, Region};
+use crate::stability::Shape;
+use crate::stability::plane::{PlanePolynomial, boundary_curves};
+use crate::stability::sector::on_edge_of;
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::{Enclosure, Rational};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly, RealAlgebraic, resultant};
+use std::cmp::Ordering;
+use std::sync::Arc;
+
+/// A number of a stable loop that can be required and made as good as possible.
+///
+/// It has a *scale*, in which its boundary is algebraic: a factor, a share, a rate, and of the phase margin twice the cosine.
+///
+/// ```
+/// use jurist_engine::response::Level;
+/// let names: Vec<&str> = Level::ALL.iter().map(|level| level.name()).collect();
+/// assert!(names.contains(&"modulus_margin") && names.contains(&"decay"));
+/// assert!(Level::named("phase_margin").unwrap().is_greatest_best());
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// The decay rate of all roots, in continuous time.
+    Decay,
+    /// The greatest modulus of a root, in discrete time.
+    Radius,
+    /// The least damping of a root.
+    Damping,
+    /// The gain margin both ways, as a factor.
+    GainMargin,
+    /// The phase margin; its scale is twice the cosine.
+    PhaseMargin,
+    /// The least `|1 + L|`.
+    ModulusMargin,
+    /// The greatest `|L/(1 + L)|`; its scale is the inverse.
+    ComplementaryPeak,
+    /// The balanced disk margin; its scale is half of it.
+    DiskMargin,
+}
+
+/// A level with its number: a smaller region, or a requirement.
+#[derive(Clone, Debug)]
+pub enum LevelAsked {
+    /// All roots lie in it.
+    Region(Region),
+    /// It is met.
+    Requirement(Requirement),
+}
+
+impl Level {
+    /// All levels.
+    pub const ALL: [Level; 8] = [
+        Level::Decay,
+        Level::Radius,
+        Level::Damping,
+        Level::GainMargin,
+        Level::PhaseMargin,
+        Level::ModulusMargin,
+        Level::ComplementaryPeak,
+        Level::DiskMargin,
+    ];
+
+    /// Its name: that of the requirement.
+    pub fn name(self) -> &'static str {
+        match self {
+            Level::Decay => DECAY,
+            Level::Radius => RADIUS,
+            Level::Damping => "damping",
+            Level::GainMargin => "gain_margin",
+            Level::PhaseMargin => "phase_margin",
+            Level::ModulusMargin => "modulus_margin",
+            Level::ComplementaryPeak => "complementary_peak",
+            Level::DiskMargin => "disk_margin",
+        }
+    }
+
+    /// The level of a name.
+    pub fn named(name: &str) -> Option<Level> {
+        Level::ALL.into_iter().find(|level| level.name() == name)
+    }
+
+    /// Whether more of it is better.
+    pub fn is_greatest_best(self) -> bool {
+        !matches!(self, Level::Radius | Level::ComplementaryPeak)
+    }
+
+    /// Whether it is better where its scale is greater.
+    pub fn is_rising(self) -> bool {
+        !matches!(self, Level::Radius | Level::PhaseMargin)
+    }
+
+    /// Whether it belongs to loops of this kind of time.
+    pub fn fits(self, time: Time) -> bool {
+        match self {
+            Level::Decay => time == Time::Continuous,
+            Level::Radius => time == Time::Discrete,
+            _ => true,
+        }
+    }
+
+    /// Between which values of its scale it lies; `None` is infinity.
+    pub fn scale(self) -> [Rational; 2] {
+        let far = || Rational::from(FAR);
+        match self {
+            Level::Decay => [Rational::ZERO, far()],
+            Level::Radius | Level::Damping => [Rational::ZERO, Rational::ONE],
+            Level::GainMargin => [Rational::ONE, far()],
+            Level::PhaseMargin => [Rational::from(-2), Rational::from(2)],
+            Level::ModulusMargin | Level::ComplementaryPeak | Level::DiskMargin => [Rational::ZERO, far()],
+        }
+    }
+
+    /// What asks for at least this value of the scale, strictly between its ends.
+    ///
+    /// # Errors
+    /// `E-require` for a value that is not strictly between them.
+    pub fn asked(self, scale: &Rational) -> Result<LevelAsked, Error> {
+        Ok(match self {
+            Level::Decay => LevelAsked::Region(Region::half_plane(scale.clone())),
+            Level::Radius => LevelAsked::Region(Region::disc(scale.clone())?),
+            Level::Damping => LevelAsked::Requirement(Requirement::damping(scale.clone())?),
+            Level::GainMargin => LevelAsked::Requirement(Requirement::gain_margin(scale)?),
+            Level::PhaseMargin => LevelAsked::Requirement(Requirement::phase_margin_by_cosine(scale)?),
+            Level::ModulusMargin => LevelAsked::Requirement(Requirement::modulus_margin(scale.clone())?),
+            Level::ComplementaryPeak => {
+                let peak = scale.recip().ok_or_else(|| super::requirement::not_understood(self.name(), "above 0"))?;
+                LevelAsked::Requirement(Requirement::complementary_peak(peak)?)
+            }
+            Level::DiskMargin => LevelAsked::Requirement(Requirement::disk_margin(scale + scale)?),
+        })
+    }
+
+    /// The level that a value of its scale is, enclosed: degrees of a phase margin; `None` where it is not finite.
+    pub fn enclosure(self, scale: &Enclosure, bits: u64) -> Option<Enclosure> {
+        let half = || Enclosure::from_rational(Rational::new(1.into(), 2.into()));
+        match self {
+            Level::PhaseMargin => Some(degrees(&scale.mul(&half(), bits + 8).acos(bits + 8), bits)),
+            Level::ComplementaryPeak => Enclosure::from_rational(Rational::ONE).div(scale, bits),
+            Level::DiskMargin => Some(scale.mul(&Enclosure::from_rational(Rational::from(2)), bits)),
+            _ => Some(scale.clone()),
+        }
+    }
+
+    /// The entry of the list of requirements.
+    pub fn kind(self) -> &'static RequirementKind {
+        let found = RequirementKind::all().iter().find(|kind| kind.name == self.name());
+        found.expect("each level is a requirement")
+    }
+}
+
+/// Levels beyond this are not looked for.
+const FAR: i64 = 1 << 40;
+
+/// A required number that is a variable: the first one, the parameter being the second.
+struct ByLevel;
+
+impl Elimination<MultiPoly> for ByLevel {
+    type Left = MultiPoly;
+
+    fn function(&self, f: MultiPoly) -> MultiPoly {
+        f
+    }
+
+    fn common_root(
+        &self,
+        p: &Poly<MultiPoly>,
+        a: &Poly<MultiPoly>,
+        b: &Poly<MultiPoly>,
+        _: &RealAlgebraic,
+        budget: &Budget,
+    ) -> Result<MultiPoly, Exhausted> {
+        resultant(p, &a.plus(&b.scaled(&MultiPoly::variable(0))), budget)
+    }
+
+    fn sum(&self, a: &MultiPoly, b: &MultiPoly, _: &RealAlgebraic, _: &Budget) -> Result<MultiPoly, Exhausted> {
+        Ok(a.plus(&b.times(&MultiPoly::variable(0))))
+    }
+
+    fn excess(&self, _: &Circle, sum_squared: &Poly<MultiPoly>, combined_squared: &Poly<MultiPoly>) -> Poly<MultiPoly> {
+        let square = MultiPoly::variable(0).times(&MultiPoly::variable(0));
+        sum_squared.minus(&combined_squared.scaled(&square))
+    }
+
+    fn discriminant(&self, p: &Poly<MultiPoly>, budget: &Budget) -> Result<MultiPoly, Exhausted> {
+        jurist_algebra::poly::discriminant(p, budget)
+    }
+}
+
+impl Problem {
+    /// Polynomials in a level's scale and in the one free parameter, in this order, on whose zeros alone it may change whether a loop is
+    /// stable, has the level and meets the requirements. `None` where the loop is not rational in its parameter, and where a polynomial
+    /// vanishes for all values.
+    ///
+    /// Cost: that of the boundary of a map, and a resultant and a discriminant by the frequency for each requirement and the level.
+    ///
+    /// # Errors
+    /// As [`Problem::required_set`].
+    ///
+    /// # Panics
+    /// Unless one parameter is free.
+    pub fn boundary_in_level(
+        self: &Arc<Self>,
+        level: Level,
+        requirements: &[Requirement],
+        at: Option<&str>,
+        budget: &Budget,
+    ) -> Result<Option<Vec<MultiPoly>>, Error> {
+        if !self.algebra_over_symbols(budget)?.symbols().is_empty() {
+            return Ok(None);
+        }
+        budget.enter(|| {
+            let beside = |p: &MultiPoly| p.map_variables(|_| 1);
+            let mut found = match level.asked_of_roots() {
+                true => self.boundary_of_region(level, budget)?,
+                false => self.boundary_of_stability(budget)?.map(|list| list.iter().map(beside).collect()),
+            };
+            let Some(all) = &mut found else { return Ok(None) };
+            let asked = match level.asked(&level.inside())? {
+                LevelAsked::Requirement(requirement) => Some(requirement),
+                LevelAsked::Region(_) => None,
+            };
+            let needs_cut = requirements.iter().chain(&asked).any(Requirement::needs_cut);
+            let family: Option<Family<MultiPoly>> = match needs_cut {
+                true => Some(Family::of(&self.without_region(), at, budget)?),
+                false => None,
+            };
+            let closed = || -> Result<Option<Poly<MultiPoly>>, Error> {
+                let plain = self.without_region();
+                let polynomial = plain.algebra(budget)?.polynomial().map(PlanePolynomial::new);
+                Ok(polynomial.map(|p| p.polynomial().map(beside)))
+            };
+            for requirement in requirements {
+                match (requirement.rule(), &family) {
+                    (Rule::Sector(least), _) if self.shape() == Shape::LeftHalfPlane => {
+                        let Some(closed) = closed()? else { return Ok(None) };
+                        let [first, second] = crate::stability::sector::on_sector_edge(&closed, least);
+                        all.push(resultant(&first, &second, budget)?);
+                    }
+                    (Rule::Factors(_) | Rule::Turned { .. } | Rule::Circle(_), Some(f)) => {
+                        all.extend(f.boundaries(requirement, budget)?.zeros.iter().map(beside));
+                        all.push(beside(&f.undefined));
+                    }
+                    _ => return Ok(None),
+                }
+            }
+            if let Some(asked) = &asked {
+                match (asked.rule(), &family) {
+                    (Rule::Sector(_), _) if self.shape() == Shape::LeftHalfPlane => {
+                        let Some(closed) = closed()? else { return Ok(None) };
+                        let [first, second] = on_edge_of(&closed, [&MultiPoly::variable(0), &MultiPoly::one()]);
+                        all.push(resultant(&first, &second, budget)?);
+                    }
+                    (Rule::Factors(_) | Rule::Turned { .. } | Rule::Circle(_), Some(f)) => {
+                        all.extend(f.quotient().map(beside).boundaries(&ByLevel, asked, budget)?.zeros);
+                        all.push(beside(&f.undefined));
+                    }
+                    _ => return Ok(None),
+                }
+            }
+            if all.iter().any(Domain::is_zero) {
+                return match asked.as_ref().or(requirements.first()) {
+                    Some(requirement) => Err(not_decided(requirement)),
+                    None => Ok(None),
+                };
+            }
+            all.retain(|p| !p.is_constant());
+            Ok(found)
+        })?
+    }
+
+    /// The level of a loop in which every parameter has its value, enclosed by so many bits: degrees of a phase margin. `None` where it has no bound,
+    /// of a loop that is not stable, and of numbers that are not margins.
+    ///
+    /// Cost: that of the margins.
+    ///
+    /// # Errors
+    /// As [`Problem::margins`].
+    ///
+    /// # Panics
+    /// When a parameter is free.
+    pub fn level_at(
+        self: &Arc<Self>,
+        level: Level,
+        at: Option<&str>,
+        bits: u64,
+        budget: &Budget,
+    ) -> Result<Option<Enclosure>, Error> {
+        let LevelAsked::Requirement(requirement) = level.asked(&level.inside())? else { return Ok(None) };
+        if !requirement.needs_cut() {
+            return Ok(None);
+        }
+        let margins = self.margins_with(at, &Rational::ZERO, false, budget)?;
+        let all = margins.value();
+        let found = all.stable.as_ref().and_then(|stable| requirement.found(all, stable));
+        Ok(budget.enter(|| match found? {
+            Found::Number(number) => {
+                let (low, high) = number.refined_to_digits(bits as usize * 3 / 10 + 2).enclosure();
+                Some(Enclosure::new(low, high))
+            }
+            Found::Enclosed(enclose) => enclose(bits),
+        })?)
+    }
+
+    /// Where stability may change, in the one free parameter.
+    fn boundary_of_stability(self: &Arc<Self>, budget: &Budget) -> Result<Option<Vec<MultiPoly>>, Error> {
+        let Some(polynomial) = self.algebra(budget)?.polynomial() else { return Ok(None) };
+        let curves = boundary_curves(&PlanePolynomial::new(polynomial), self.shape(), budget)?;
+        Ok(curves.map(|curves| curves.into_iter().map(|curve| curve.polynomial).collect()))
+    }
+
+    /// Where roots are on the edge of a region whose bound is the first variable.
+    fn boundary_of_region(self: &Arc<Self>, level: Level, budget: &Budget) -> Result<Option<Vec<MultiPoly>>, Error> {
+        let name = self.parameter().name.clone();
+        let question = self.model().ask().set_all(self.set().iter().cloned()).free(name.clone());
+        let problem = question.free(level.name()).domain(name, self.parameter().domain.clone()).problem()?;
+        let Some(plane) = problem.plane_over_symbols(budget)? else { return Ok(None) };
+        let curves = boundary_curves(plane, self.shape(), budget)?;
+        // The bound is the first name of such a problem.
+        Ok(curves.map(|curves| curves.into_iter().map(|curve| curve.polynomial).collect()))
+    }
+}
+
+impl Level {
+    /// Whether it is a bound of the region in which roots lie.
+    fn asked_of_roots(self) -> bool {
+        matches!(self, Level::Decay | Level::Radius)
+    }
+
+    /// A value of the scale strictly between its ends.
+    fn inside(self) -> Rational {
+        let [low, high] = self.scale();
+        let half = Rational::new(1.into(), 2.into());
+        match high.cmp(&Rational::from(FAR)) {
+            Ordering::Less => (low + high) * half,
+            _ => low + Rational::ONE,
+        }
+    }
+}

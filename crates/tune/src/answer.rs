@@ -1,0 +1,132 @@
+//! The answer: no gains at all, or the best ones.
+
+use crate::asked::{Asked, Objective};
+use crate::conflict::conflict;
+use crate::lines::Lines;
+use crate::typed::{Typed, typed};
+use crate::{one_gain, two_gains};
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::Rational;
+use jurist_algebra::real::Real;
+use jurist_engine::error::Error;
+use jurist_engine::problem::{Problem, Question};
+use std::sync::Arc;
+
+/// The best gains of a loop, or that there are none.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct TuneAnswer {
+    /// The question with all gains free.
+    pub problem: Arc<Problem>,
+    /// What was asked.
+    pub asked: Asked,
+    /// What was found.
+    pub outcome: Outcome,
+}
+
+/// What was found.
+#[derive(Clone, Debug)]
+pub enum Outcome {
+    /// No gains meet what is required: the names of requirements and bounds that exclude each other, each of them needed for that.
+    Infeasible {
+        /// The names.
+        conflict: Vec<String>,
+    },
+    /// The best.
+    Optimum(Box<Optimum>),
+    /// The work ended before it was known whether there are any gains.
+    Open(Exhausted),
+}
+
+/// The best value and its gains.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Optimum {
+    /// The best value: of a gain, or of a level in its scale.
+    pub value: Best,
+    /// The gains there, in the order in which they were asked for.
+    pub at: Vec<Place>,
+    /// Whether gains have the best value; they come as near as you like else.
+    pub attained: bool,
+    /// What binds: names of requirements, causes of a limit of stability, `bound`.
+    pub binding: Vec<String>,
+    /// Gains that meet all requirements.
+    pub found: Vec<Rational>,
+    /// A value that these have at least: of the objective, or of the level in its scale.
+    pub found_value: Option<Rational>,
+    /// The gains that are typed in.
+    pub typed: Option<Typed>,
+    /// Why the bracket is wider than the gap.
+    pub stopped: Option<Exhausted>,
+}
+
+/// A best value.
+#[derive(Clone, Debug)]
+pub enum Best {
+    /// Exactly.
+    Exact(Real),
+    /// There is none: it grows without end.
+    Unbounded,
+    /// Some gains have the first one, none the second one.
+    Between([Rational; 2]),
+    /// Nothing was to be best.
+    Nothing,
+}
+
+/// The value of a gain at the optimum.
+#[derive(Clone, Debug)]
+pub enum Place {
+    /// Exactly.
+    Exact(Real),
+    /// Between two numbers.
+    Between([Rational; 2]),
+    /// It grows without end.
+    Unbounded,
+}
+
+impl TuneAnswer {
+    /// The best gains.
+    ///
+    /// Cost: of one gain and an objective that is a gain, one set of requirements; of a level, one for each halving of the critical values, or of the
+    /// bracket. Of two gains and an objective that is a gain, one map; of a level, one for each halving of the bracket.
+    ///
+    /// # Errors
+    /// As [`Problem::required_set`], and [`Answer::with_requirements`](jurist_engine::answer::Answer::with_requirements) for two gains.
+    pub fn of(question: &Question, asked: Asked, budget: &Budget) -> Result<TuneAnswer, Error> {
+        let lines = Lines::new(question, &asked, budget)?;
+        let problem = lines.problem()?;
+        let found = match asked.gains.len() {
+            1 => one_gain::best(&lines)?,
+            _ => two_gains::best(&lines)?,
+        };
+        let outcome = match found {
+            Outcome::Infeasible { .. } => Outcome::Infeasible { conflict: conflict(&lines)? },
+            Outcome::Optimum(mut optimum) => {
+                if asked.objective != Objective::Anything {
+                    optimum.typed = typed(&lines, &optimum)?;
+                }
+                Outcome::Optimum(optimum)
+            }
+            open => open,
+        };
+        Ok(TuneAnswer { problem, outcome, asked })
+    }
+
+    /// Whether some gains meet what is required; `None` where it is open.
+    pub fn is_feasible(&self) -> Option<bool> {
+        match &self.outcome {
+            Outcome::Infeasible { .. } => Some(false),
+            Outcome::Optimum(_) => Some(true),
+            Outcome::Open(_) => None,
+        }
+    }
+
+    /// Why something is open.
+    pub fn stopped(&self) -> Option<&Exhausted> {
+        match &self.outcome {
+            Outcome::Optimum(optimum) => optimum.stopped.as_ref(),
+            Outcome::Open(stopped) => Some(stopped),
+            Outcome::Infeasible { .. } => None,
+        }
+    }
+}

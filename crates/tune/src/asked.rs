@@ -1,0 +1,188 @@
+//! What is asked: which gains are free, within which bounds, and what is to be best.
+
+use jurist_algebra::number::Rational;
+use jurist_engine::error::{Code, Diagnostic, Error};
+use jurist_engine::model::{Model, Time, nearest_name};
+use jurist_engine::response::{Level, Requirements};
+
+/// A gain that is free.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Gain {
+    /// Its name.
+    pub name: String,
+    /// The least and the greatest value, both included; `None` where the model's own domain counts.
+    pub bounds: [Option<Rational>; 2],
+}
+
+impl Gain {
+    /// A gain within the model's own domain.
+    pub fn new(name: impl Into<String>) -> Gain {
+        Gain { name: name.into(), bounds: [None, None] }
+    }
+
+    /// With bounds.
+    #[must_use]
+    pub fn within(self, bounds: [Option<Rational>; 2]) -> Gain {
+        Gain { bounds, ..self }
+    }
+}
+
+/// What is to be best.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Objective {
+    /// A gain, by its number, as great as possible.
+    Greatest(usize),
+    /// A gain as small as possible.
+    Least(usize),
+    /// A number of the loop.
+    Level(Level),
+    /// Nothing: whether any gains meet the requirements.
+    Anything,
+}
+
+/// A question.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Asked {
+    /// The gains, one or two.
+    pub gains: Vec<Gain>,
+    /// What is to be best.
+    pub objective: Objective,
+    /// What has to be met; strict stability in any case.
+    pub requirements: Requirements,
+    /// A bracket is narrow enough where it is less than this, as a share.
+    pub gap: Rational,
+    /// How much of the best is given up for gains of few digits, as a share.
+    pub loss: Option<Rational>,
+}
+
+/// The most gains.
+const MOST_GAINS: usize = 2;
+
+/// The gap where none is given.
+pub const GAP: (i64, i64) = (1, 1000);
+
+impl Asked {
+    /// The question of texts: `max ki`, `min radius`, `none`.
+    ///
+    /// ```
+    /// use jurist_engine::error::Source;
+    /// use jurist_engine::model::Model;
+    /// use jurist_engine::response::{Level, Requirements};
+    /// use jurist_tune::asked::{Asked, Gain, Objective};
+    /// let text = "time = 'continuous'\nparameters.K = 1\nloop.characteristic = 's^3 + 3*s^2 + 2*s + K'\n";
+    /// let (model, _) = Model::from_toml(&Source::new("loop.toml", text))?;
+    /// let asked = Asked::of(&model, vec![Gain::new("K")], "max decay", Requirements::default())?;
+    /// assert_eq!(asked.objective, Objective::Level(Level::Decay));
+    /// # Ok::<(), jurist_engine::error::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// `E-tune-free`, `E-tune-bounds`, `E-tune-objective`.
+    pub fn of(model: &Model, gains: Vec<Gain>, objective: &str, requirements: Requirements) -> Result<Asked, Error> {
+        check_gains(&gains)?;
+        let objective = self::objective(model, &gains, objective)?;
+        let gap = Rational::new(GAP.0.into(), GAP.1.into());
+        Ok(Asked { gains, objective, requirements, gap, loss: None })
+    }
+
+    /// The level that is to be best, if it is one.
+    pub fn level(&self) -> Option<Level> {
+        match self.objective {
+            Objective::Level(level) => Some(level),
+            _ => None,
+        }
+    }
+
+    /// `largest ki`, `best phase_margin`, for people.
+    pub fn wanted(&self) -> String {
+        match &self.objective {
+            Objective::Greatest(i) => format!("largest {}", self.gains[*i].name),
+            Objective::Least(i) => format!("smallest {}", self.gains[*i].name),
+            Objective::Level(level) if level.is_greatest_best() => format!("largest {}", level.name()),
+            Objective::Level(level) => format!("smallest {}", level.name()),
+            Objective::Anything => "any gains".into(),
+        }
+    }
+
+    /// `max ki`, as it is written.
+    pub fn objective_text(&self) -> String {
+        match &self.objective {
+            Objective::Greatest(i) => format!("max {}", self.gains[*i].name),
+            Objective::Least(i) => format!("min {}", self.gains[*i].name),
+            Objective::Level(level) if level.is_greatest_best() => format!("max {}", level.name()),
+            Objective::Level(level) => format!("min {}", level.name()),
+            Objective::Anything => "none".into(),
+        }
+    }
+}
+
+fn check_gains(gains: &[Gain]) -> Result<(), Error> {
+    let refused = |message: String, help: &str| Err(Diagnostic::error(Code::TuneFree, message).help(help).into());
+    if gains.is_empty() {
+        return refused("no gain is free".into(), "name the gains: --free K");
+    }
+    if gains.len() > MOST_GAINS {
+        let names: Vec<&str> = gains.iter().map(|gain| gain.name.as_str()).collect();
+        return refused(
+            format!("the gains {} are more than two", names.join(", ")),
+            "free two of them, the others keep their values: --set NAME=VALUE",
+        );
+    }
+    for (i, gain) in gains.iter().enumerate() {
+        if gains[..i].iter().any(|other| other.name == gain.name) {
+            return refused(format!("'{}' is free twice", gain.name), "name it once");
+        }
+        if let [Some(low), Some(high)] = &gain.bounds
+            && low >= high
+        {
+            let message = format!("the bounds of '{}' are no interval: {low} is not below {high}", gain.name);
+            return Err(Diagnostic::error(Code::TuneBounds, message).help("write the lower one first").into());
+        }
+    }
+    Ok(())
+}
+
+fn objective(model: &Model, gains: &[Gain], text: &str) -> Result<Objective, Error> {
+    let refused =
+        |message: String, help: String| -> Error { Diagnostic::error(Code::TuneObjective, message).help(help).into() };
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let (is_greatest, name) = match words[..] {
+        ["none"] => return Ok(Objective::Anything),
+        ["max", name] => (true, name),
+        ["min", name] => (false, name),
+        _ => {
+            return Err(refused(
+                format!("the objective '{text}' is not understood"),
+                "write 'max NAME' or 'min NAME', NAME a free gain or one of decay, radius, damping, gain_margin, phase_margin, modulus_margin, \
+                 complementary_peak, disk_margin; or 'none'"
+                    .into(),
+            ));
+        }
+    };
+    if let Some(i) = gains.iter().position(|gain| gain.name == name) {
+        return Ok(if is_greatest { Objective::Greatest(i) } else { Objective::Least(i) });
+    }
+    let Some(level) = Level::named(name) else {
+        let known = gains.iter().map(|gain| gain.name.as_str()).chain(Level::ALL.map(Level::name));
+        let known: Vec<&str> = known.collect();
+        let help = match nearest_name(name, known.iter().copied()) {
+            Some(near) => format!("did you mean '{near}'?"),
+            None => format!("known here: {}", known.join(", ")),
+        };
+        return Err(refused(format!("'{name}' is no free gain and no number of a loop that can be made best"), help));
+    };
+    if !level.fits(model.time()) {
+        let (kind, other) = match model.time() {
+            Time::Discrete => ("discrete", "radius"),
+            Time::Continuous => ("continuous", "decay"),
+        };
+        return Err(refused(format!("{name} is not asked of a {kind} loop"), format!("did you mean '{other}'?")));
+    }
+    if level.is_greatest_best() != is_greatest {
+        let word = if is_greatest { "min" } else { "max" };
+        return Err(refused(format!("'{text}' asks for the worst {name}"), format!("write '{word} {name}'")));
+    }
+    Ok(Objective::Level(level))
+}

@@ -1,0 +1,72 @@
+//! Which requirements and bounds exclude each other.
+
+use crate::answer::Outcome;
+use crate::asked::{Asked, Gain, Objective};
+use crate::lines::Lines;
+use crate::{one_gain, two_gains};
+use jurist_engine::error::Error;
+use jurist_engine::problem::Bound;
+use jurist_engine::show::layout::short;
+
+/// What may be left out.
+#[derive(Clone, Copy)]
+enum Part {
+    Requirement(usize),
+    Region,
+    Bound(usize, usize),
+}
+
+/// A set of requirements and bounds that exclude each other: without any one of them there are gains, or it is not known.
+///
+/// Cost: one question for each requirement and each bound.
+pub(crate) fn conflict(lines: &Lines<'_>) -> Result<Vec<String>, Error> {
+    let asked = lines.asked;
+    let mut parts: Vec<Part> = (0..asked.requirements.list.len()).map(Part::Requirement).collect();
+    parts.extend(asked.requirements.region.is_some().then_some(Part::Region));
+    for (gain, Gain { bounds, .. }) in asked.gains.iter().enumerate() {
+        parts.extend((0..2).filter(|side| bounds[*side].is_some()).map(|side| Part::Bound(gain, side)));
+    }
+    let mut kept = parts.clone();
+    for k in (0..parts.len()).rev() {
+        lines.budget.step("which requirements exclude each other");
+        let without: Vec<Part> = kept.iter().enumerate().filter(|(i, _)| *i != k).map(|(_, part)| *part).collect();
+        if is_infeasible(lines, &without)? {
+            kept = without;
+        }
+    }
+    let name = |part: &Part| match part {
+        Part::Requirement(k) => asked.requirements.list[*k].text(),
+        Part::Region => {
+            let regional = asked.requirements.regional.first();
+            let own = || match asked.requirements.region.as_ref().map(|region| (region.bound_name(), region.bound())) {
+                Some((name, Bound::Number(bound))) => format!("{name} {}", short(bound)),
+                _ => "the region".to_owned(),
+            };
+            regional.map_or_else(own, |(name, text)| format!("{name} {text}"))
+        }
+        Part::Bound(gain, side) => {
+            let Gain { name, bounds } = &asked.gains[*gain];
+            let bound = bounds[*side].as_ref().expect("a bound that is there");
+            format!("{name} {} {}", if *side == 0 { ">=" } else { "<=" }, short(bound))
+        }
+    };
+    Ok(kept.iter().map(name).collect())
+}
+
+/// Whether there are no gains with these parts of the question.
+fn is_infeasible(lines: &Lines<'_>, parts: &[Part]) -> Result<bool, Error> {
+    let mut asked = Asked { objective: Objective::Anything, ..lines.asked.clone() };
+    let whole = std::mem::take(&mut asked.requirements.list);
+    let region = asked.requirements.region.take();
+    let bounds: Vec<_> = asked.gains.iter_mut().map(|gain| std::mem::take(&mut gain.bounds)).collect();
+    for part in parts {
+        match part {
+            Part::Requirement(k) => asked.requirements.list.push(whole[*k].clone()),
+            Part::Region => asked.requirements.region.clone_from(&region),
+            Part::Bound(gain, side) => asked.gains[*gain].bounds[*side].clone_from(&bounds[*gain][*side]),
+        }
+    }
+    let lines = lines.with(&asked)?;
+    let found = if asked.gains.len() == 1 { one_gain::best(&lines)? } else { two_gains::best(&lines)? };
+    Ok(matches!(found, Outcome::Infeasible { .. }))
+}

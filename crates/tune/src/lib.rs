@@ -1,0 +1,28 @@
+//! The best gains of a loop: which values meet all requirements and make one number as good as it can be.
+//!
+//! | module | what it is |
+//! |---|---|
+//! | [`asked`] | which gains are free, within which bounds, and what is to be best |
+//! | [`answer`] | the answer: no gains at all, or the optimum and the gains that are typed in |
+//! | [`document`] | the answer as JSON |
+//! | [`decimals`] | the shortest decimal between two numbers |
+//!
+//! The engine says exactly which values of one or two parameters meet requirements. What is best is an end of such a set, or a *critical value*: between
+//! neighbouring critical values of a height, the points of the set above it change by continuity only, so whether there are any does not change.
+//! Critical values are roots of leading coefficients, discriminants and resultants of the boundary's polynomials
+//! ([Collins1975](jurist_algebra::bibliography#collins1975), [McCallum1998](jurist_algebra::bibliography#mccallum1998)). Where the boundary is not
+//! algebraic the optimum is enclosed between a value that some gain has and one that no gain has.
+
+#![warn(missing_docs)]
+
+pub mod answer;
+pub mod asked;
+mod conflict;
+mod critical;
+pub mod decimals;
+pub mod document;
+mod lines;
+mod one_gain;
+mod text;
+mod two_gains;
+mod typed;

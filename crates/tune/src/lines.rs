@@ -1,0 +1,167 @@
+//! Lines and planes of gains, and which points of them meet what is asked.
+
+use crate::asked::Asked;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::{Enclosure, Rational};
+use jurist_algebra::real::Real;
+use jurist_engine::answer::{Answer, PointVerdict, Verdict};
+use jurist_engine::error::Error;
+use jurist_engine::problem::{Bound, Problem, Question, Region};
+use jurist_engine::response::{Level, LevelAsked, RequiredSet, Requirement, RequirementMet};
+use jurist_stability::Range;
+use jurist_stability::plane::Strip;
+use std::sync::Arc;
+
+/// A question with everything set but the gains.
+pub(crate) struct Lines<'a> {
+    pub asked: &'a Asked,
+    /// The question; no gain is set or free.
+    base: Question,
+    /// The domains of the gains.
+    ranges: Vec<Range>,
+    region: Region,
+    pub budget: &'a Budget,
+}
+
+impl<'a> Lines<'a> {
+    pub fn new(question: &Question, asked: &'a Asked, budget: &'a Budget) -> Result<Lines<'a>, Error> {
+        let names = || asked.gains.iter().map(|gain| gain.name.as_str());
+        let base = names().fold(question.clone(), Question::without_value);
+        let whole = names().fold(base.clone(), |question, name| question.free(name)).problem()?;
+        let within = |gain: &crate::asked::Gain, range: &Range| {
+            let [low, high] = gain.bounds.clone();
+            Range::between(low.or(range.lower.clone()), high.or(range.upper.clone()))
+        };
+        let ranges = asked.gains.iter().zip(whole.free()).map(|(gain, free)| within(gain, &free.domain)).collect();
+        let region = asked.requirements.region.clone().unwrap_or_else(|| whole.region().clone());
+        Ok(Lines { asked, base, ranges, region, budget })
+    }
+
+    /// The same with other requirements and bounds.
+    pub fn with<'b>(&self, asked: &'b Asked) -> Result<Lines<'b>, Error>
+    where
+        'a: 'b,
+    {
+        Lines::new(&self.base.clone().within(Region::of(self.base.model().time())), asked, self.budget)
+    }
+
+    /// The domain of a gain.
+    pub fn range(&self, gain: usize) -> &Range {
+        &self.ranges[gain]
+    }
+
+    /// The bound of the region that is asked for in any case.
+    pub fn least_bound(&self) -> Option<&Rational> {
+        match self.region.bound() {
+            Bound::Number(bound) => Some(bound),
+            Bound::Free => None,
+        }
+    }
+
+    /// What is asked of a point, at a value of the level's scale.
+    fn asks(&self, scale: Option<&Rational>) -> Result<(Vec<Requirement>, Region), Error> {
+        let mut list = self.asked.requirements.list.clone();
+        let mut region = self.region.clone();
+        if let (Some(level), Some(scale)) = (self.asked.level(), scale) {
+            match level.asked(scale)? {
+                LevelAsked::Region(asked) => region = asked,
+                LevelAsked::Requirement(requirement) => list.push(requirement),
+            }
+        }
+        Ok((list, region))
+    }
+
+    fn free(&self, question: Question, gain: usize) -> Question {
+        let name = &self.asked.gains[gain].name;
+        question.free(name).domain(name, self.ranges[gain].clone())
+    }
+
+    /// All gains free.
+    pub fn problem(&self) -> Result<Arc<Problem>, Error> {
+        let question = (0..self.asked.gains.len()).fold(self.base.clone(), |question, gain| self.free(question, gain));
+        question.within(self.region.clone()).problem()
+    }
+
+    /// The values of a gain that meet what is asked, with a value for the other one.
+    pub fn set(
+        &self,
+        gain: usize,
+        other: Option<(usize, &Rational)>,
+        scale: Option<&Rational>,
+    ) -> Result<Answer<RequiredSet>, Error> {
+        let (list, region) = self.asks(scale)?;
+        let mut question = self.free(self.base.clone(), gain);
+        if let Some((other, value)) = other {
+            question = question.set(self.asked.gains[other].name.clone(), value.clone());
+        }
+        question.within(region).problem()?.required_set(&list, self.at(), self.budget)
+    }
+
+    /// The strips of two gains, the first one being the one that is named; what is asked is met in their stable cells.
+    pub fn strips(&self, first: usize, scale: Option<&Rational>) -> Result<Vec<Strip>, Error> {
+        /// Digits of what is not looked at.
+        const DIGITS: usize = 6;
+        let (list, region) = self.asks(scale)?;
+        let question = self.free(self.free(self.base.clone(), first), 1 - first);
+        let map = question.within(region).map(DIGITS, self.budget)?;
+        if list.is_empty() {
+            return Ok(map.into_value().decomposition.strips);
+        }
+        let map = map.with_requirements(&list, self.at(), self.budget)?.into_value();
+        let required = map.required.expect("requirements were asked for");
+        Ok(required.all().map.strips.clone())
+    }
+
+    /// What a point has of what is required, and its verdict.
+    pub fn point(
+        &self,
+        values: &[(String, Rational)],
+        scale: Option<&Rational>,
+    ) -> Result<(Answer<PointVerdict>, Vec<RequirementMet>), Error> {
+        let (list, region) = self.asks(scale)?;
+        let problem = self.base.clone().set_all(values.iter().cloned()).within(region).problem()?;
+        Ok((problem.verdict(self.budget)?, problem.requirements_met(&list, self.at(), self.budget)?))
+    }
+
+    /// Whether a point meets what is asked.
+    pub fn is_met(&self, values: &[(String, Rational)], scale: Option<&Rational>) -> Result<bool, Error> {
+        let (verdict, met) = self.point(values, scale)?;
+        Ok(verdict.value().verdict == Verdict::Stable && met.iter().all(|found| found.met))
+    }
+
+    /// Where margins are taken.
+    pub fn at(&self) -> Option<&str> {
+        self.asked.requirements.at.as_deref()
+    }
+
+    /// The margin that a point has, enclosed; `None` where it has no bound, and of levels that are no margins.
+    pub fn level_at(&self, values: &[(String, Rational)], level: Level) -> Result<Option<Enclosure>, Error> {
+        /// Bits of the margin.
+        const BITS: u64 = 64;
+        let problem = self.base.clone().set_all(values.iter().cloned()).within(self.region.clone()).problem()?;
+        match problem.level_at(level, self.at(), BITS, self.budget) {
+            // A gain of zero opens the loop: it has no margins.
+            Err(Error::Refused(_)) => Ok(None),
+            found => found,
+        }
+    }
+
+    /// The best bound of the region in which the roots of a point lie: its decay rate, or its radius.
+    pub fn bound_at(&self, values: &[(String, Rational)], level: Level) -> Result<Option<Real>, Error> {
+        let question = unbounded(self.base.clone()).set_all(values.iter().cloned()).free(level.name());
+        let set = question.stable_set(self.budget)?.into_value();
+        let interval = if level.is_rising() { set.intervals().first() } else { set.intervals().last() };
+        let end = interval.and_then(|i| if level.is_rising() { i.upper.as_ref() } else { i.lower.as_ref() });
+        Ok(end.map(|end| end.value.clone()))
+    }
+}
+
+/// The question without the region that was asked for.
+fn unbounded(question: Question) -> Question {
+    let names: Vec<String> = question.free_names().to_vec();
+    let mut out = question.model().ask();
+    for (name, value) in question.values_set() {
+        out = out.set(name.clone(), value.clone());
+    }
+    names.into_iter().fold(out, |out, name| out.free(name))
+}

@@ -1,0 +1,200 @@
+//! The answer for people.
+
+use crate::answer::{Best, Optimum, Outcome, Place, TuneAnswer};
+use crate::asked::Objective;
+use jurist_algebra::number::{Enclosure, Rational, to_decimal};
+use jurist_algebra::poly::{MultiPoly, RealAlgebraic};
+use jurist_algebra::real::Real;
+use jurist_engine::response::Level;
+use jurist_engine::show::intervals::heading;
+use jurist_engine::show::layout::short;
+use jurist_engine::show::real::{enclosed, rounded};
+use std::fmt::Write;
+
+/// What a text takes.
+const TAKES: &str = "a text takes all text";
+
+/// Digits of a share that is lost.
+const FEW: usize = 3;
+
+/// Digits of the level of the gains that are typed in.
+const MOST_OF_TYPED: usize = 12;
+
+/// Polynomials of a greater degree or with longer coefficients are not printed.
+const MOST_DEGREE: usize = 8;
+const MOST_BITS: u64 = 64;
+
+impl TuneAnswer {
+    /// The answer for people.
+    pub fn text(&self, digits: usize) -> String {
+        let mut out = format!("{}\n", heading(&self.problem));
+        let asked = &self.asked;
+        let names: Vec<&str> = asked.gains.iter().map(|gain| gain.name.as_str()).collect();
+        let required: Vec<String> = self.required();
+        let whole =
+            if required.is_empty() { "stability".to_owned() } else { format!("stability, {}", required.join(", ")) };
+        writeln!(out, "{} free, required: {whole}", names.join(", ")).expect(TAKES);
+        match &self.outcome {
+            Outcome::Infeasible { conflict } => self.conflict_text(&mut out, conflict),
+            Outcome::Optimum(optimum) => self.optimum_text(&mut out, optimum, digits),
+            Outcome::Open(_) => writeln!(out, "whether any gains meet this was not decided").expect(TAKES),
+        }
+        out
+    }
+
+    fn required(&self) -> Vec<String> {
+        let list = &self.asked.requirements;
+        let mut out: Vec<String> = list.regional.iter().map(|(name, text)| format!("{name} {text}")).collect();
+        out.extend(list.list.iter().map(jurist_engine::response::Requirement::text));
+        out
+    }
+
+    fn conflict_text(&self, out: &mut String, conflict: &[String]) {
+        writeln!(out, "no gains meet all of this").expect(TAKES);
+        match conflict {
+            [] => writeln!(out, "    not even stability is reached"),
+            [one] => writeln!(out, "    {one} alone cannot be met"),
+            _ => writeln!(out, "    these exclude each other: {}", conflict.join(", ")),
+        }
+        .expect(TAKES);
+    }
+
+    fn optimum_text(&self, out: &mut String, optimum: &Optimum, digits: usize) {
+        let asked = &self.asked;
+        let wanted = asked.wanted();
+        let level = asked.level();
+        match &optimum.value {
+            Best::Nothing => writeln!(out, "there are gains that meet all of this"),
+            Best::Unbounded => writeln!(out, "{wanted}: it has no bound"),
+            Best::Exact(value) => {
+                let reached = if optimum.attained { "" } else { ", which is not reached" };
+                writeln!(out, "{wanted}: {}{}{reached}", shown(level, value, digits), unit(level))
+            }
+            Best::Between([found, proved]) => {
+                let [low, high] = bracket(level, found, proved);
+                writeln!(out, "{wanted}: between {low} and {high}{}", unit(level))
+            }
+        }
+        .expect(TAKES);
+        if let Best::Exact(value) = &optimum.value
+            && let Some(polynomial) = level.is_none_or(is_its_own_scale).then(|| root_of(value)).flatten()
+        {
+            writeln!(out, "    exactly a root of {polynomial}").expect(TAKES);
+        }
+        if !matches!(asked.objective, Objective::Anything) {
+            let places = asked.gains.iter().zip(&optimum.at).enumerate();
+            let is_own = |i: usize| matches!(asked.objective, Objective::Greatest(k) | Objective::Least(k) if k == i);
+            let places = places.filter(|(i, _)| !is_own(*i)).map(|(_, (gain, place))| match place {
+                Place::Exact(x) if matches!(optimum.value, Best::Exact(_)) => {
+                    format!("{} = {}", gain.name, rounded(x, digits).decimal)
+                }
+                Place::Exact(x) => format!("{} = {}", gain.name, rounded(x, digits).decimal),
+                Place::Between([low, high]) => format!("{} {}", gain.name, common(low, high, digits)),
+                Place::Unbounded => format!("{} without end", gain.name),
+            });
+            let places: Vec<String> = places.collect();
+            if !places.is_empty() {
+                let word = if matches!(optimum.value, Best::Between(_)) { "found" } else { "at" };
+                writeln!(out, "    {word} {}", places.join(", ")).expect(TAKES);
+            }
+        }
+        if !optimum.binding.is_empty() {
+            writeln!(out, "    binds: {}", optimum.binding.join(", ")).expect(TAKES);
+        }
+        let values = |values: &[Rational]| -> String {
+            let named = asked.gains.iter().zip(values);
+            named.map(|(gain, x)| format!("{} = {}", gain.name, short(x))).collect::<Vec<_>>().join(", ")
+        };
+        match &optimum.typed {
+            Some(typed) => {
+                let mut line = format!("type in {}", values(&typed.values));
+                if let Some(value) = &typed.value {
+                    let is_gain = !matches!(asked.objective, Objective::Level(_));
+                    if !is_gain {
+                        let value = enclosed(digits.min(MOST_OF_TYPED), |_| Some(value.clone())).unwrap_or_default();
+                        line.push_str(&format!(": {} {value}{}", level.map_or("", Level::name), unit(level)));
+                    }
+                }
+                match self.lost(optimum) {
+                    Some(lost) => writeln!(out, "{line}, loss {lost} %"),
+                    None => writeln!(out, "{line}, loss at most {} %", percent(&typed.most_lost)),
+                }
+                .expect(TAKES);
+                for found in &typed.requirements {
+                    writeln!(out, "    {}", found.text(digits)).expect(TAKES);
+                }
+            }
+            None => writeln!(out, "for example {}", values(&optimum.found)).expect(TAKES),
+        }
+    }
+
+    /// What the gains that are typed in lose, in per cent; `None` where it is not a number.
+    pub(crate) fn lost(&self, optimum: &Optimum) -> Option<String> {
+        let value = optimum.typed.as_ref()?.value.as_ref()?.lower().clone();
+        let Best::Exact(best) = &optimum.value else { return None };
+        let (low, high) = best.refined_to_digits(20).enclosure();
+        let best = match self.asked.level() {
+            Some(level) => level.enclosure(&Enclosure::new(low, high), 64)?.lower().clone(),
+            None => low,
+        };
+        let lost = (&best - value).abs().checked_div(&best.abs())?;
+        Some(percent(&lost))
+    }
+}
+
+fn percent(share: &Rational) -> String {
+    to_decimal(&(share * &Rational::from(100)), FEW)
+}
+
+fn unit(level: Option<Level>) -> &'static str {
+    if level == Some(Level::PhaseMargin) { " degrees" } else { "" }
+}
+
+/// Whether a level is the same as its scale.
+pub(crate) fn is_its_own_scale(level: Level) -> bool {
+    !matches!(level, Level::PhaseMargin | Level::ComplementaryPeak | Level::DiskMargin)
+}
+
+/// A value of a level's scale, or a gain, as a decimal.
+pub(crate) fn shown(level: Option<Level>, value: &Real, digits: usize) -> String {
+    let Some(level) = level.filter(|level| !is_its_own_scale(*level)) else { return rounded(value, digits).decimal };
+    let enclose = |bits: u64| {
+        let (low, high) = value.refined_to_digits(bits as usize * 3 / 10 + 8).enclosure();
+        level.enclosure(&Enclosure::new(low, high), bits)
+    };
+    enclosed(digits, enclose).unwrap_or_else(|| "without end".to_owned())
+}
+
+/// A bracket, ascending, in so many digits that its ends differ.
+fn bracket(level: Option<Level>, found: &Rational, proved: &Rational) -> [String; 2] {
+    let text = |x: &Rational, digits: usize| shown(level, &Real::from(x.clone()), digits);
+    let digits = (4..20).find(|digits| text(found, *digits) != text(proved, *digits)).unwrap_or(20) + 1;
+    let mut ends = [text(found, digits), text(proved, digits)];
+    let is_rising = level.is_none_or(|level| level.is_greatest_best());
+    let is_sorted = match level {
+        Some(_) => is_rising,
+        None => found <= proved,
+    };
+    if !is_sorted {
+        ends.reverse();
+    }
+    ends
+}
+
+/// The digits that two numbers have in common, or both.
+fn common(low: &Rational, high: &Rational, digits: usize) -> String {
+    let same = (1..=digits).rev().find(|n| to_decimal(low, *n) == to_decimal(high, *n));
+    match same {
+        Some(n) if n > 2 => format!("= {}..", to_decimal(low, n)),
+        _ => format!("from {} to {}", to_decimal(low, 6), to_decimal(high, 6)),
+    }
+}
+
+/// The polynomial of an algebraic number, if it is short.
+fn root_of(value: &Real) -> Option<String> {
+    let number: &RealAlgebraic = value.algebraic()?;
+    let polynomial = number.polynomial();
+    let is_short =
+        polynomial.degree()? > 1 && polynomial.degree()? <= MOST_DEGREE && polynomial.height_bits() <= MOST_BITS;
+    is_short.then(|| MultiPoly::from_univariate(polynomial, 0).display(&["x"]).to_string())
+}

@@ -1,0 +1,154 @@
+//! The best value of one of two gains, or of a level over both.
+
+use crate::answer::{Best, Optimum, Outcome, Place};
+use crate::asked::Objective;
+use crate::lines::Lines;
+use crate::one_gain::{Search, is_closed, is_without_end, names, outer, point_inside, scale, toward, widest};
+use jurist_algebra::number::Rational;
+use jurist_engine::error::Error;
+use jurist_engine::response::Level;
+use jurist_stability::plane::Strip;
+
+/// The best of what is asked over two gains.
+///
+/// # Errors
+/// As `Lines::strips` and `Lines::set`.
+pub(crate) fn best(lines: &Lines<'_>) -> Result<Outcome, Error> {
+    match lines.asked.objective {
+        Objective::Greatest(gain) => best_gain(lines, gain, true),
+        Objective::Least(gain) => best_gain(lines, gain, false),
+        Objective::Level(level) => best_level(lines, level),
+        Objective::Anything => anything(lines),
+    }
+}
+
+/// A point of a cell in which what is asked is met; of all, the one in the middle of the list.
+fn met_point(strips: &[Strip]) -> Option<[Rational; 2]> {
+    let all: Vec<[Rational; 2]> = strips
+        .iter()
+        .flat_map(|strip| {
+            let met = strip.cells.iter().filter(|cell| cell.stable);
+            met.map(|cell| [strip.sample.clone(), cell.sample.clone()])
+        })
+        .collect();
+    all.get(all.len() / 2).cloned()
+}
+
+fn anything(lines: &Lines<'_>) -> Result<Outcome, Error> {
+    Ok(match met_point(&lines.strips(0, None)?) {
+        None => Outcome::Infeasible { conflict: Vec::new() },
+        Some(point) => Outcome::Optimum(Box::new(Optimum {
+            value: Best::Nothing,
+            at: Vec::new(),
+            attained: true,
+            binding: Vec::new(),
+            found: point.into(),
+            found_value: None,
+            typed: None,
+            stopped: None,
+        })),
+    })
+}
+
+/// So many digits of the best value are gone towards.
+const DIGITS: [usize; 2] = [6, 36];
+
+/// The last strip of the map, with the gain as its first axis, in which something is met: its outer end is the best value.
+fn best_gain(lines: &Lines<'_>, gain: usize, is_greatest: bool) -> Result<Outcome, Error> {
+    let strips = lines.strips(gain, None)?;
+    let is_met = |strip: &&Strip| strip.cells.iter().any(|cell| cell.stable);
+    let strip = if is_greatest { strips.iter().rfind(is_met) } else { strips.iter().find(is_met) };
+    let Some(strip) = strip else { return Ok(Outcome::Infeasible { conflict: Vec::new() }) };
+    let in_order =
+        |height: Rational, place: Rational| if gain == 0 { vec![height, place] } else { vec![place, height] };
+    let end = if is_greatest { &strip.x.upper } else { &strip.x.lower };
+    let Some(value) = end else {
+        let cell = strip.cells.iter().find(|cell| cell.stable).expect("it is met");
+        return Ok(Outcome::Optimum(Box::new(Optimum {
+            value: Best::Unbounded,
+            at: vec![Place::Unbounded, Place::Unbounded],
+            attained: false,
+            binding: Vec::new(),
+            found: in_order(strip.sample.clone(), cell.sample.clone()),
+            found_value: Some(strip.sample.clone()),
+            typed: None,
+            stopped: None,
+        })));
+    };
+    let mut near = None;
+    for digits in DIGITS {
+        lines.budget.step("gains near the best value");
+        let height = toward(value, &strip.sample, digits);
+        let set = lines.set(1 - gain, Some((gain, &height)), None)?.into_value();
+        let Some(interval) = widest(&set) else { break };
+        near = Some((height, interval.clone()));
+    }
+    let (height, interval) = near.expect("the strip is met");
+    let place = match outer(&interval) {
+        (Some(low), Some(high)) if low == high => Place::Exact(low.into()),
+        (Some(low), Some(high)) => Place::Between([low, high]),
+        _ => Place::Unbounded,
+    };
+    let ends: Vec<_> = [&interval.lower, &interval.upper].into_iter().flatten().collect();
+    let is_bound = {
+        let range = lines.range(gain);
+        let bound = if is_greatest { &range.upper } else { &range.lower };
+        bound.as_ref().is_some_and(|bound| value.compare_rational(bound).is_eq())
+    };
+    let mut binding: Vec<String> = match is_bound {
+        true => vec![format!("bound of {}", lines.asked.gains[gain].name)],
+        false => ends.iter().flat_map(|end| names(end)).collect(),
+    };
+    binding.sort();
+    binding.dedup();
+    let attained = match is_bound {
+        true => {
+            let bound = value.exact().expect("a bound is a number");
+            !lines.set(1 - gain, Some((gain, &bound)), None)?.value().intervals.is_empty()
+        }
+        false => !ends.is_empty() && ends.iter().all(|end| is_closed(end)),
+    };
+    let mut at = vec![Place::Exact(value.clone()), place];
+    if gain == 1 {
+        at.reverse();
+    }
+    Ok(Outcome::Optimum(Box::new(Optimum {
+        value: Best::Exact(value.clone()),
+        at,
+        attained,
+        binding,
+        found: in_order(height.clone(), point_inside(&interval)),
+        found_value: Some(height),
+        typed: None,
+        stopped: None,
+    })))
+}
+
+/// A bracket of a level, a map for each halving.
+fn best_level(lines: &Lines<'_>, level: Level) -> Result<Outcome, Error> {
+    if met_point(&lines.strips(0, None)?).is_none() {
+        return Ok(Outcome::Infeasible { conflict: Vec::new() });
+    }
+    let search =
+        Search { ends: scale(lines, level), is_rising: level.is_rising(), is_without_end: is_without_end(level) };
+    let met = |scale: &Rational| Ok(met_point(&lines.strips(0, Some(scale))?));
+    let found = search.bracket(lines, None, &met)?;
+    let Some((scale, point)) = found.met else {
+        return Ok(found.stopped.map_or(Outcome::Infeasible { conflict: Vec::new() }, Outcome::Open));
+    };
+    let value = match found.not {
+        Some(not) => Best::Between([scale.clone(), not]),
+        None => Best::Unbounded,
+    };
+    let at = point.iter().map(|x| Place::Exact(x.clone().into())).collect();
+    Ok(Outcome::Optimum(Box::new(Optimum {
+        value,
+        at,
+        attained: false,
+        binding: vec![level.name().to_owned()],
+        found: point.into(),
+        found_value: Some(scale),
+        typed: None,
+        stopped: found.stopped,
+    })))
+}

@@ -1,0 +1,225 @@
+//! The gains that are typed in: few digits, and what they cost.
+
+use crate::answer::{Best, Optimum, Place};
+use crate::asked::Objective;
+use crate::decimals::shortest;
+use crate::lines::Lines;
+use crate::one_gain::{outer, widest};
+use jurist_algebra::number::{Enclosure, Rational};
+use jurist_algebra::real::Real;
+use jurist_engine::error::Error;
+use jurist_engine::response::{Level, RequiredInterval, RequirementMet};
+
+/// Gains of few digits that meet all requirements.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Typed {
+    /// The gains, in the order in which they were asked for.
+    pub values: Vec<Rational>,
+    /// What they have of the level, or the gain itself, enclosed; `None` where that is not a number.
+    pub value: Option<Enclosure>,
+    /// How much of the best value is given up at most, as a share.
+    pub most_lost: Rational,
+    /// The requirements there.
+    pub requirements: Vec<RequirementMet>,
+}
+
+/// What is given up where nothing else is said: a hundredth.
+const LOSS: (i64, i64) = (1, 100);
+
+/// Short gains near an optimum; `None` where the optimum is no number.
+pub(crate) fn typed(lines: &Lines<'_>, optimum: &Optimum) -> Result<Option<Typed>, Error> {
+    let loss = lines.asked.loss.clone().unwrap_or_else(|| Rational::new(LOSS.0.into(), LOSS.1.into()));
+    let (Some(inside), Some(best)) = (&optimum.found_value, best_of(optimum)) else { return Ok(None) };
+    let values = match (&lines.asked.objective, lines.asked.gains.len()) {
+        (Objective::Greatest(gain) | Objective::Least(gain), count) => {
+            let given_up = &best - best.abs() * signed(&lines.asked.objective, &loss);
+            let (low, high) = sorted(given_up, inside.clone());
+            let Some(height) = shortest(&low, &high, inside) else { return Ok(None) };
+            match count {
+                1 => Some(vec![height]),
+                _ => beside(lines, *gain, &height, optimum)?,
+            }
+        }
+        (Objective::Level(level), count) => {
+            let scale = given_up(*level, inside, &best, &loss);
+            match count {
+                1 if matches!(optimum.value, Best::Exact(_)) => {
+                    let set = lines.set(0, None, Some(&scale))?;
+                    let near = middle(&optimum.at[0]).unwrap_or_else(|| optimum.found[0].clone());
+                    short_in(set.value().intervals.iter(), &near).map(|x| vec![x])
+                }
+                _ => by_trial(lines, &optimum.found, &scale)?,
+            }
+        }
+        (Objective::Anything, _) => None,
+    };
+    let Some(values) = values else { return Ok(None) };
+    let named = named(lines, &values);
+    if !lines.is_met(&named, None)? {
+        return Ok(None);
+    }
+    let (_, requirements) = lines.point(&named, None)?;
+    let value = match lines.asked.objective {
+        Objective::Greatest(gain) | Objective::Least(gain) => Some(Enclosure::from_rational(values[gain].clone())),
+        Objective::Level(level) => level_at(lines, level, &named)?,
+        Objective::Anything => None,
+    };
+    Ok(Some(Typed { values, value, most_lost: loss, requirements }))
+}
+
+pub(crate) fn named(lines: &Lines<'_>, values: &[Rational]) -> Vec<(String, Rational)> {
+    lines.asked.gains.iter().map(|gain| gain.name.clone()).zip(values.iter().cloned()).collect()
+}
+
+/// The best value as a number near to it.
+fn best_of(optimum: &Optimum) -> Option<Rational> {
+    match &optimum.value {
+        Best::Exact(value) => {
+            let (low, high) = value.refined_to_digits(20).enclosure();
+            Some((low + high) * Rational::new(1.into(), 2.into()))
+        }
+        Best::Between([found, _]) => Some(found.clone()),
+        Best::Unbounded | Best::Nothing => None,
+    }
+}
+
+fn signed(objective: &Objective, loss: &Rational) -> Rational {
+    if matches!(objective, Objective::Least(_)) { -loss } else { loss.clone() }
+}
+
+fn sorted(a: Rational, b: Rational) -> (Rational, Rational) {
+    if a <= b { (a, b) } else { (b, a) }
+}
+
+/// A value of the scale at which a share of the level is given up, or less; between one that is found and the worst end.
+fn given_up(level: Level, found: &Rational, best: &Rational, loss: &Rational) -> Rational {
+    /// Halvings, and bits of what is compared.
+    const HALVINGS: usize = 24;
+    const BITS: u64 = 64;
+    let shown = |scale: &Rational| level.enclosure(&Enclosure::from_rational(scale.clone()), BITS);
+    let Some(best) = shown(best) else { return found.clone() };
+    let share = if level.is_greatest_best() { Rational::ONE - loss } else { Rational::ONE + loss };
+    let wanted = best.mul(&Enclosure::from_rational(share), BITS);
+    let is_enough = |scale: &Rational| {
+        shown(scale).is_some_and(|x| match level.is_greatest_best() {
+            true => x.lower() >= wanted.upper(),
+            false => x.upper() <= wanted.lower(),
+        })
+    };
+    let [low, high] = level.scale();
+    let mut bad = if level.is_rising() { low } else { high };
+    let mut good = found.clone();
+    let half = Rational::new(1.into(), 2.into());
+    for _ in 0..HALVINGS {
+        let middle = (&bad + &good) * &half;
+        if is_enough(&middle) { good = middle } else { bad = middle }
+    }
+    good
+}
+
+/// The middle of where a gain is.
+fn middle(place: &Place) -> Option<Rational> {
+    let half = Rational::new(1.into(), 2.into());
+    match place {
+        Place::Exact(x) => {
+            let (low, high) = x.refined_to_digits(12).enclosure();
+            Some((low + high) * half)
+        }
+        Place::Between([low, high]) => Some((low + high) * half),
+        Place::Unbounded => None,
+    }
+}
+
+/// The shortest decimal in the interval that holds a number, or in the widest.
+fn short_in<'i>(intervals: impl Iterator<Item = &'i RequiredInterval>, near: &Rational) -> Option<Rational> {
+    let all: Vec<&RequiredInterval> = intervals.collect();
+    let interval = all.iter().find(|interval| interval.contains(near)).or(all.first())?;
+    let (low, high) = outer(interval);
+    // Strictly inside: an end of stability is not in the set.
+    let thousandth = Rational::new(1.into(), 1000.into());
+    let (low, high) = match (low, high) {
+        (Some(low), Some(high)) => {
+            let step = (&high - &low) * thousandth;
+            (low + &step, high - &step)
+        }
+        (Some(low), None) => (&low + low.abs() * &thousandth, near.abs() + &low.abs() + Rational::ONE),
+        (None, Some(high)) => (-(near.abs() + high.abs() + Rational::ONE), &high - high.abs() * &thousandth),
+        (None, None) => return Some(Rational::ZERO),
+    };
+    let near = near.clone().max(low.clone()).min(high.clone());
+    shortest(&low, &high, &near)
+}
+
+/// The other gain, short, for a value of the one that is best.
+fn beside(
+    lines: &Lines<'_>,
+    gain: usize,
+    height: &Rational,
+    optimum: &Optimum,
+) -> Result<Option<Vec<Rational>>, Error> {
+    let set = lines.set(1 - gain, Some((gain, height)), None)?;
+    let near = middle(&optimum.at[1 - gain]).unwrap_or_else(|| optimum.found[1 - gain].clone());
+    if widest(set.value()).is_none() {
+        return Ok(None);
+    }
+    let other = short_in(set.value().intervals.iter(), &near);
+    Ok(other.map(|other| if gain == 0 { vec![height.clone(), other] } else { vec![other, height.clone()] }))
+}
+
+/// The nearest points of few digits, until one meets all.
+fn by_trial(lines: &Lines<'_>, found: &[Rational], scale: &Rational) -> Result<Option<Vec<Rational>>, Error> {
+    /// Significant digits.
+    const DIGITS: std::ops::RangeInclusive<i64> = 1..=8;
+    for digits in DIGITS {
+        let near: Vec<Vec<Rational>> = found.iter().map(|x| rounded(x, digits)).collect();
+        let mut points: Vec<Vec<Rational>> = vec![Vec::new()];
+        for choices in &near {
+            let longer = points
+                .iter()
+                .flat_map(|point| choices.iter().map(|choice| point.iter().cloned().chain([choice.clone()]).collect()));
+            points = longer.collect();
+        }
+        for values in points {
+            if lines.is_met(&named(lines, &values), Some(scale))? {
+                return Ok(Some(values));
+            }
+        }
+    }
+    Ok(None)
+}
+
+/// The three decimals of so many digits that are nearest to a number.
+fn rounded(x: &Rational, digits: i64) -> Vec<Rational> {
+    if x.is_zero() {
+        return vec![Rational::ZERO];
+    }
+    let ten = Rational::from(10);
+    let power = |k: i64| ten.pow(k).expect("ten is not zero");
+    let mut first = 0_i64;
+    while power(first) <= x.abs() {
+        first += 1;
+    }
+    while power(first - 1) > x.abs() {
+        first -= 1;
+    }
+    let unit = power(first - digits);
+    let steps = x.checked_div(&unit).expect("a power is not zero");
+    let half = Rational::new(1.into(), 2.into());
+    let nearest = Rational::from((steps + half).floor());
+    [0, -1, 1].map(|k| (&nearest + &Rational::from(k)) * &unit).into()
+}
+
+/// The level of a point, where a number is known for it.
+fn level_at(lines: &Lines<'_>, level: Level, values: &[(String, Rational)]) -> Result<Option<Enclosure>, Error> {
+    match level {
+        Level::Decay | Level::Radius => {
+            let enclosed = |x: Real| {
+                let (low, high) = x.refined_to_digits(20).enclosure();
+                Enclosure::new(low, high)
+            };
+            Ok(lines.bound_at(values, level)?.map(enclosed))
+        }
+        _ => lines.level_at(values, level),
+    }
+}

@@ -1,0 +1,185 @@
+//! `jurist tune`: the best gains within what is required.
+
+use super::{Context, Runs, decided};
+use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions, RunOptions};
+use crate::cli::assignments::{bound, in_line, plain_number};
+use crate::cli::destinations::Files;
+use crate::cli::input::{known_names, load, question};
+use crate::cli::requirements::RequirementOptions;
+use crate::cli::status::{Error, Outcome, Status};
+use clap::Args;
+use jurist_algebra::number::{Rational, parse_number};
+use jurist_engine::error::{Code, Diagnostic, Diagnostics, Span};
+use jurist_engine::model::Model;
+use jurist_engine::show::documents;
+use jurist_tune::answer::TuneAnswer;
+use jurist_tune::asked::{Asked, Gain};
+use std::sync::Arc;
+
+/// Options of `jurist tune`.
+#[derive(Args, Debug)]
+pub(in crate::cli) struct Options {
+    #[command(flatten)]
+    pub model: ModelOptions,
+    #[command(flatten)]
+    pub region: RegionOptions,
+    #[command(flatten)]
+    pub require: RequirementOptions,
+    /// A gain whose best value is asked for, one or two [default: those of [tune]] [repeatable]
+    #[arg(long, value_name = "NAME")]
+    pub free: Vec<String>,
+    /// What is to be best: 'max NAME' or 'min NAME' of a free gain, 'max decay', 'min radius', 'max damping', 'max gain_margin',
+    /// 'max phase_margin', 'max modulus_margin', 'min complementary_peak', 'max disk_margin'; 'none': are there any gains?
+    /// [default: that of [tune], else none]
+    #[arg(long, value_name = "TEXT")]
+    pub objective: Option<String>,
+    /// The least and the greatest value of a free gain, both included [repeatable]
+    #[arg(long, value_name = "NAME=LO..HI")]
+    pub bound: Vec<String>,
+    /// A bracket is narrow enough where it is less than this share [default: 1e-3]
+    #[arg(long, value_name = "SHARE", allow_hyphen_values = true)]
+    pub gap: Option<String>,
+    /// What may be given up for gains of few digits: a share, or per cent such as 2% [default: 1%]
+    #[arg(long, value_name = "SHARE", allow_hyphen_values = true)]
+    pub loss: Option<String>,
+    #[command(flatten)]
+    pub output: OutputOptions,
+}
+
+impl Runs for Options {
+    fn run(&self, context: &Context) -> Outcome {
+        run(self, context)
+    }
+
+    fn run_options(&self) -> &RunOptions {
+        &self.output.run
+    }
+
+    fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
+        files.question(&self.model.model, &self.output.output);
+        Ok(())
+    }
+}
+
+/// Answers on standard output or in a file: 0 answered, 1 no gains meet what is required, 3 open.
+fn run(options: &Options, context: &Context) -> Outcome {
+    let output = &options.output;
+    context.check_output(output)?;
+    let model = load(options.model.model.as_ref(), &options.model.line, context)?;
+    known_names(context, &model, "--free", &options.free)?;
+    let gains = gains(options, &model, context)?;
+    let question = question(context, &model, &options.model, &options.region)?;
+    // What is required may not depend on what is free.
+    let free =
+        gains.iter().fold(question.clone(), |question, gain| question.without_value(&gain.name).free(&gain.name));
+    let (required, _) = options.require.asked(&model, free.clone(), &options.region, context)?;
+    let question = match required.region.clone() {
+        Some(region) => question.within(region),
+        None => question,
+    };
+    let written = model.tuning();
+    let placed = |place: Option<Span>, error: Error| in_model(&model, place, error);
+    let objective = match (&options.objective, written.and_then(|tuning| tuning.objective.as_ref())) {
+        (Some(text), _) => (text.as_str(), None),
+        (None, Some(name)) => (name.name.as_str(), Some(name.span)),
+        (None, None) => ("none", None),
+    };
+    let mut asked = Asked::of(&model, gains, objective.0, required).map_err(|error| placed(objective.1, error))?;
+    if let Some(text) = &options.gap {
+        asked.gap = share(context, "--gap", text)?;
+    } else if let Some(gap) = written.and_then(|tuning| tuning.gap.clone()) {
+        asked.gap = gap;
+    }
+    if let Some(text) = &options.loss {
+        asked.loss = Some(share(context, "--loss", text)?);
+    } else if let Some(loss) = written.and_then(|tuning| tuning.loss.as_ref()) {
+        let (number, is_percent) = percent(&loss.name);
+        let value = parse_number(number)
+            .ok()
+            .map(|value| if is_percent { value * Rational::new(1.into(), 100.into()) } else { value });
+        let Some(value) = value.filter(is_share) else {
+            let error = Diagnostic::error(Code::TuneObjective, "'loss' is a share above 0 and below 1, or per cent");
+            return Err(placed(Some(loss.span), Error::from(error.help("for example loss = \"1%\""))));
+        };
+        asked.loss = Some(value);
+    }
+    if !is_share(&asked.gap) {
+        let error = Diagnostic::error(Code::TuneObjective, "'gap' is a share above 0 and below 1");
+        return Err(placed(written.map(|tuning| tuning.span), Error::from(error.help("for example gap = 1e-3"))));
+    }
+    let digits = output.digits() as usize;
+    let answer = match decided(TuneAnswer::of(&question, asked, &context.budget))? {
+        Ok(answer) => answer,
+        Err(stopped) => {
+            let problem = free.problem()?;
+            let nothing =
+                || documents::Verdict::new(&problem, Err::<&jurist_engine::answer::PointVerdict, _>(&stopped));
+            return context.undecided(output, &stopped, || None, nothing);
+        }
+    };
+    context.warn(None, answer.problem.warnings());
+    if let Some(stopped) = answer.stopped() {
+        return context.undecided(output, stopped, || Some(answer.text(digits)), || answer.json(digits));
+    }
+    context.answer(output, || answer.text(digits), || answer.json(digits))?;
+    Ok(if answer.is_feasible() == Some(false) { Status::DoesNotHold } else { Status::Holds })
+}
+
+/// The error with its place in the model, where it has one.
+fn in_model(model: &Model, place: Option<Span>, error: Error) -> Error {
+    match (place, error) {
+        (Some(span), Error::Refused(found)) => {
+            let placed = found.diagnostics().iter().cloned().map(|diagnostic| diagnostic.at(span, ""));
+            Diagnostics::new(Some(Arc::clone(model.source())), placed.collect()).into()
+        }
+        (_, error) => error,
+    }
+}
+
+/// The free gains with their bounds: those of the command line, else those of the model.
+fn gains(options: &Options, model: &Model, context: &Context) -> Result<Vec<Gain>, Error> {
+    let written = model.tuning().filter(|_| options.free.is_empty());
+    let named = written.into_iter().flat_map(|tuning| tuning.free.iter().map(|name| &name.name));
+    let mut gains: Vec<Gain> = options.free.iter().chain(named).map(Gain::new).collect();
+    for (name, [low, high]) in model.tuning().into_iter().flat_map(|tuning| &tuning.bounds) {
+        if let Some(gain) = gains.iter_mut().find(|gain| gain.name == name.name) {
+            *gain = gain.clone().within([Some(low.clone()), Some(high.clone())]);
+        }
+    }
+    for text in &options.bound {
+        let (name, low, high) = bound(context.line, "--bound", text)?;
+        let Some(gain) = gains.iter_mut().find(|gain| gain.name == name) else {
+            let place = context.line.option_value("--bound", text);
+            let error = Diagnostic::error(Code::TuneBounds, format!("'{name}' is no free gain")).at(place.span, "");
+            return Err(in_line(context.line, vec![error.help(format!("add --free {name}"))]).into());
+        };
+        *gain = gain.clone().within([low, high]);
+    }
+    Ok(gains)
+}
+
+/// The number of a share, and whether it is one per cent.
+fn percent(text: &str) -> (&str, bool) {
+    match text.trim().strip_suffix('%') {
+        Some(number) => (number.trim(), true),
+        None => (text.trim(), false),
+    }
+}
+
+fn is_share(value: &Rational) -> bool {
+    value.sign().is_gt() && *value < Rational::ONE
+}
+
+/// A share above 0 and below 1: a number, or per cent.
+fn share(context: &Context, option: &str, text: &str) -> Result<Rational, Error> {
+    let (number, is_percent) = percent(text);
+    let value = plain_number(context.line, option, number)?;
+    let value = if is_percent { value * Rational::new(1.into(), 100.into()) } else { value };
+    if is_share(&value) {
+        return Ok(value);
+    }
+    let place = context.line.option_value(option, text);
+    let error =
+        Diagnostic::error(Code::OptionValue, format!("{option} is a share above 0 and below 1")).at(place.span, "");
+    Err(in_line(context.line, vec![error.help(format!("for example {option} 1%"))]).into())
+}
