@@ -64,6 +64,7 @@ if TYPE_CHECKING:
     from ._roots import Root, Roots
     from ._ship import Coefficient, Fewest, NumberFormat, Required, Ship, SignalRange
     from ._tolerance import Factor, Tolerance, Worst
+    from ._tune import Tune
     from ._rows import SweepResult
     from ._sweep import ray_executor, sweep, sweep_batches
     from ._sympy import from_sympy
@@ -78,6 +79,7 @@ _LATER = {
     **dict.fromkeys(("Root", "Roots"), "_roots"),
     **dict.fromkeys(("Coefficient", "Fewest", "NumberFormat", "Required", "Ship", "SignalRange"), "_ship"),
     **dict.fromkeys(("Factor", "Tolerance", "Worst"), "_tolerance"),
+    "Tune": "_tune",
     "from_control": "_control",
     "margins": "_control",
     "from_sympy": "_sympy",
@@ -140,6 +142,7 @@ __all__ = [
     "SweepResult",
     "Table",
     "Tolerance",
+    "Tune",
     "Undecided",
     "Verdict",
     "Worst",

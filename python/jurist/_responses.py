@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Unpack, cast
 
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from ._response import Bode, Nyquist
     from ._roots import Roots
     from ._ship import Ship
+    from ._tune import Tune
 
 
 class ResponseQuestions(Asker):
@@ -225,6 +226,70 @@ class ResponseQuestions(Asker):
         words += ["--fewest"] if fewest else []
         answer, rounded, every = asked_with_files(self._itself, words, ("--rounded", "--every"), asked)
         return Ship(answer, self._itself, tuple(words), tuple(shared[2:]), rounded, every)
+
+    def tune(
+        self,
+        objective: str | None = None,
+        free: Sequence[str] | str | None = None,
+        values: Mapping[str, Exact] | None = None,
+        *,
+        bounds: Mapping[str, Bounds] | None = None,
+        gap: Exact | None = None,
+        loss: Exact | None = None,
+        **question: Unpack[Asking],
+    ) -> Tune:
+        """The best gains within what is required, exactly or in a certified bracket; or that no gains meet it.
+
+        What is not given is as the model's ``[tune]`` says. Requirements are keywords, beside those of the model.
+
+        Parameters
+        ----------
+        objective : str, optional
+            ``"max NAME"`` or ``"min NAME"``: a free gain, or ``decay``, ``radius``, ``damping``, ``gain_margin``, ``phase_margin``,
+            ``modulus_margin``, ``complementary_peak``, ``disk_margin``; ``"none"`` asks whether there are any gains.
+        free : sequence of str, optional
+            One gain or two.
+        values : mapping, optional
+            Of parameters and constants.
+        bounds : mapping, optional
+            The least and the greatest value of a gain, both included; `None` is no bound.
+        gap : exact number, optional
+            A bracket is narrow enough where it is less than this share; 1e-3 where nothing says it.
+        loss : exact number, optional
+            What may be given up for gains of few digits, as a share; one per cent where nothing says it.
+        **question
+            What every question takes; see `intervals`.
+
+        Returns
+        -------
+        Tune
+
+        Raises
+        ------
+        QuestionError
+            For gains and objectives that are none.
+        Undecided
+            Where the time was not enough.
+
+        Examples
+        --------
+        >>> import jurist
+        >>> loop = jurist.Loop.from_line("K/(z*(z - 1/2))")
+        >>> loop.tune("min radius", ["K"]).value
+        Real('1/4')
+        """
+        from ._tune import Tune
+
+        asked = self._asked(values, **question)
+        words = self._words("tune", asked)
+        for name in [free] if isinstance(free, str) else free or []:
+            words += ["--free", name]
+        for name, (low, high) in (bounds or {}).items():
+            ends = ["" if end is None else text_of(end) for end in (low, high)]
+            words += ["--bound", f"{name}={ends[0]}..{ends[1]}"]
+        given = {"objective": objective, "gap": None if gap is None else text_of(gap), "loss": None if loss is None else text_of(loss)}
+        words += [f"--{name}={text}" for name, text in given.items() if text is not None]
+        return Tune(self._document(words, asked), self._itself, tuple(words))
 
     def bode(
         self,

@@ -93,6 +93,9 @@ impl TuneAnswer {
     /// # Errors
     /// As [`Problem::required_set`], and [`Answer::with_requirements`](jurist_engine::answer::Answer::with_requirements) for two gains.
     pub fn of(question: &Question, asked: Asked, budget: &Budget) -> Result<TuneAnswer, Error> {
+        let mut asked = asked;
+        let own = Lines::new(question, &asked, budget)?.own_region();
+        asked.requirements.region = asked.requirements.region.or(own);
         let lines = Lines::new(question, &asked, budget)?;
         let problem = lines.problem()?;
         let found = match asked.gains.len() {

@@ -102,9 +102,6 @@ impl TuneAnswer {
             let pairs = asked.gains.iter().map(|gain| gain.name.clone()).zip(values.iter().cloned());
             pairs.collect::<Vec<_>>().as_slice().into()
         };
-        let list = &asked.requirements;
-        let mut require: Vec<String> = list.regional.iter().map(|(name, text)| format!("{name} {text}")).collect();
-        require.extend(list.list.iter().map(jurist_engine::response::Requirement::text));
         let typed = optimum.and_then(|optimum| optimum.typed.as_ref());
         let level = asked.level();
         Tune {
@@ -112,7 +109,7 @@ impl TuneAnswer {
             question: PointQuestion::new(&self.problem),
             free: asked.gains.iter().map(|gain| gain.name.clone()).collect(),
             objective: asked.objective_text(),
-            require,
+            require: self.required(),
             feasible: self.is_feasible(),
             optimum: optimum.filter(|_| asked.objective != Objective::Anything).map(|o| self.optimum(o, digits)),
             found: optimum.map(|optimum| PointFound {

@@ -45,6 +45,12 @@ impl<'a> Lines<'a> {
         Lines::new(&self.base.clone().within(Region::of(self.base.model().time())), asked, self.budget)
     }
 
+    /// The region that is asked for, where it is smaller than that of plain stability.
+    pub fn own_region(&self) -> Option<Region> {
+        let plain = Region::of(self.base.model().time());
+        (self.region != plain).then(|| self.region.clone())
+    }
+
     /// The domain of a gain.
     pub fn range(&self, gain: usize) -> &Range {
         &self.ranges[gain]

@@ -5,6 +5,7 @@ use crate::asked::Objective;
 use jurist_algebra::number::{Enclosure, Rational, to_decimal};
 use jurist_algebra::poly::{MultiPoly, RealAlgebraic};
 use jurist_algebra::real::Real;
+use jurist_engine::problem::Bound;
 use jurist_engine::response::Level;
 use jurist_engine::show::intervals::heading;
 use jurist_engine::show::layout::short;
@@ -42,9 +43,16 @@ impl TuneAnswer {
         out
     }
 
-    fn required(&self) -> Vec<String> {
+    /// What is required, in words.
+    pub(crate) fn required(&self) -> Vec<String> {
         let list = &self.asked.requirements;
         let mut out: Vec<String> = list.regional.iter().map(|(name, text)| format!("{name} {text}")).collect();
+        if out.is_empty()
+            && let Some(region) = &list.region
+            && let Bound::Number(bound) = region.bound()
+        {
+            out.push(format!("{} {}", region.bound_name(), short(bound)));
+        }
         out.extend(list.list.iter().map(jurist_engine::response::Requirement::text));
         out
     }

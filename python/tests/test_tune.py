@@ -1,0 +1,59 @@
+"""The best gains, beside the program's text."""
+
+import pickle
+from fractions import Fraction
+
+import jurist
+import pytest
+
+PI = """
+time = "continuous"
+parameters = { k = { nominal = 0.5, min = 0 }, ki = { nominal = 0.2, min = 0 } }
+[loop]
+inputs = ["r"]
+outputs = ["y"]
+[[block]]
+name = "loop"
+input = "r - y"
+output = "y"
+transfer = "(k*s + ki)/(s*(s + 1)^3)"
+"""
+
+
+@pytest.fixture
+def loop() -> jurist.Loop:
+    return jurist.Loop.from_toml(PI)
+
+
+def test_the_largest_integral_gain_under_a_sensitivity(loop):
+    best = loop.tune("max ki", ["k", "ki"], bounds={"k": (0, 5), "ki": (0, 5)}, modulus_margin=Fraction(1, 2))
+    assert best.value.decimal(20) == "0.68519019419955363817"
+    low, high = best.at["k"]
+    assert low <= Fraction("1.22195903483199543") + Fraction(1, 10**17) and high - low < Fraction(1, 10**16)
+    assert (best.attained, best.binding, bool(best)) == (True, ("modulus_margin",), True)
+    assert loop.verdict(best.rounded).verdict == "stable"
+    assert all(required.met for required in best.requirements)
+    assert best.text().splitlines()[-1].startswith("    modulus_margin >= 1/2: met")
+    assert pickle.loads(pickle.dumps(best)) == best
+
+
+def test_gains_that_are_not_there(loop):
+    nothing = loop.tune(None, ["k", "ki"], bounds={"ki": (0.3254, 5), "k": (0, 5)}, modulus_margin="5/7")
+    assert (bool(nothing), nothing.found, nothing.conflict) == (False, None, ("modulus_margin >= 5/7", "ki >= 0.3254"))
+
+
+def test_a_bracket(loop):
+    best = loop.tune("max decay", "k", {"ki": "1/10"})
+    assert best.proved is None and best.value is not None
+    held = jurist.Loop.from_line("K/(s*(s + 1))", hold="1/10").tune("min radius", ["K"])
+    assert held.value is None
+    assert float(held.proved) < float(held.found_value)
+
+
+def test_what_cannot_be_asked(loop):
+    with pytest.raises(jurist.QuestionError, match="asks for the worst decay"):
+        loop.tune("min decay", "k")
+    with pytest.raises(jurist.QuestionError, match="no gain is free"):
+        loop.tune("max k")
+    with pytest.raises(jurist.Undecided):
+        loop.tune("max ki", ["k", "ki"], timeout=0)
