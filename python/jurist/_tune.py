@@ -136,7 +136,7 @@ class Tune(Document):
 
 
 def _real(found: Mapping[str, Any] | None) -> Real | None:
-    return None if found is None else Real._from_document(found, None)
+    return None if found is None else Real._from_document(dict(found), None)
 
 
 def _place(found: Mapping[str, Any] | None) -> Real | tuple[Fraction, Fraction] | None:
