@@ -84,12 +84,20 @@ fn no_run_of_the_processor_leaves_its_bounds() {
             let outputs = fixed.step(&mut states, std::slice::from_ref(&difference));
             let (nodes, exact_y) = unrounded.step(&(&unit * &Rational::from(r)));
             let moved = (Rational::from(y.clone()) * &unit - exact_y).abs();
-            assert!(moved <= ranges.moved[0].1, "{realisation} {round}: {moved} {}", ranges.moved[0].1);
-            for (node, value) in ranges.nodes.iter().zip(&nodes) {
+            assert!(
+                moved <= ranges.moved[0].by_signals,
+                "{realisation} {round}: {moved} {}",
+                ranges.moved[0].by_signals
+            );
+            // The first range is that of the input.
+            for (node, value) in ranges.nodes.iter().skip(1).zip(&nodes) {
                 let [_, high] = node.greatest.as_ref().unwrap();
                 assert!(value.abs() <= *high, "{realisation} {}", node.name);
             }
-            let output = &ranges.nodes[unrounded.output];
+            let [_, high] = ranges.nodes[0].greatest.as_ref().unwrap();
+            let taken = Rational::from(difference.clone()) * &unit;
+            assert!(taken.abs() <= high + &ranges.nodes[0].rounding, "{realisation}: u");
+            let output = &ranges.nodes[unrounded.output + 1];
             let [_, high] = output.greatest.as_ref().unwrap();
             let stored = Rational::from(outputs[0].clone()) * &unit;
             assert!(stored.abs() <= high + &output.rounding, "{realisation}");
@@ -109,7 +117,7 @@ fn long_runs_stay_within_their_bounds() {
         let answer = shipped(realisation, round);
         let ranges = answer.ranges.as_ref().unwrap().as_ref().unwrap();
         let fixed = answer.shipped.fixed_program().unwrap();
-        let output = &ranges.nodes[answer.shipped.realised.program.output_node(0).unwrap()];
+        let output = &ranges.nodes[answer.shipped.realised.program.output_node(0).unwrap() + 1];
         let bound = output.greatest.as_ref().unwrap()[1].clone() + &output.rounding;
         let bound = (bound / fixed.signal.unit()).floor();
         let found = ranges.problem.peak_to_peak("r", &output.output, 6, &budget).unwrap();
@@ -144,7 +152,10 @@ fn the_worst_input_comes_up_to_the_bound() {
             let mut unrounded = Unrounded::of(&answer);
             let mut last = Rational::ZERO;
             for sign in signs.iter().rev() {
-                last = unrounded.step(&Rational::from(i64::from(*sign) * BOUND)).0[at].clone();
+                let r = Rational::from(i64::from(*sign) * BOUND);
+                let (nodes, y) = unrounded.step(&r);
+                // The first range is that of the input.
+                last = if at == 0 { r - y } else { nodes[at - 1].clone() };
             }
             let [low, high] = node.greatest.as_ref().unwrap();
             let share = last.checked_div(high).unwrap();

@@ -71,13 +71,14 @@ fn the_rounding_of_the_output_moves_it_by_half_a_unit_times_the_l1_norm() {
     let (status, document) = ship(&format!("{PI}{section}"), &[]);
     assert_eq!(status, 0);
     // z (z - 0.9)/D has the l1 norm 8192, and half a unit is 2^-9.
-    assert_eq!(document["ranges"][0]["rounding"], "16");
-    assert_eq!(document["ranges"][0]["holds"], true);
+    assert_eq!((&document["ranges"][0]["node"], &document["ranges"][1]["node"]), (&"u".into(), &"y".into()));
+    assert_eq!(document["ranges"][1]["rounding"], "16");
+    assert_eq!(document["ranges"][1]["holds"], true);
     // A format that goes to 2 is too small for what |r| <= 2 does; one of 8 bits leaves the question open.
     let (status, document) = ship(&format!("{PI}{section}"), &["--signal", "Q1.20"]);
-    assert_eq!((status, &document["ranges"][0]["holds"]), (1, &Value::Bool(false)));
+    assert_eq!((status, &document["ranges"][1]["holds"]), (1, &Value::Bool(false)));
     let (status, document) = ship(&format!("{PI}{section}"), &["--signal", "Q3.8"]);
-    assert_eq!((status, &document["ranges"][0]["holds"]), (3, &Value::Null));
+    assert_eq!((status, &document["ranges"][1]["holds"]), (3, &Value::Null));
 }
 
 #[test]
@@ -245,4 +246,97 @@ fn the_drives_controllers_are_shipped_in_all_formats() {
         [&seen[1].1["integers"], &seen[3].1["integers"]],
         [&serde_json::json!([null, "20531", "-20429"]), &serde_json::json!([null, "16388", "-16380"])]
     );
+}
+
+/// Zeros that are not rational have a product that is: the section's numbers are those of the direct form, to the last bit.
+#[test]
+fn a_section_with_irrational_zeros_has_its_rational_coefficients() {
+    let model = "time = 'discrete'\n[parameters]\nK = { nominal = 1, min = 0 }\n[loop]\ninputs = ['r']\noutputs = ['y']\n\
+        [[block]]\nname = 'c'\ninput = 'r - y'\noutput = 'v'\ntransfer = '(z^2 + 2.5*z + 0.5)/z^2'\n\
+        [[block]]\nname = 'p'\ninput = 'K*v'\noutput = 'y'\ntransfer = '0.1/(z - 0.5)'\n";
+    let of = |realisation: &str| {
+        let options = ["--block", "c", "--format", "Q4.3", "--realisation", realisation, "--param", "K", "--fewest"];
+        let (_, document) = ship(model, &options);
+        (document["limits"]["rows"].clone(), document["fewest"]["nearest"].clone(), document["fewest"]["floor"].clone())
+    };
+    assert_eq!(of("sos"), of("df1"));
+    // With no bit behind the point 2.5 and 0.5 are stored as 3 and 1: stable up to 20/7.
+    let (_, document) = ship(model, &["--block", "c", "--format", "Q4.0", "--realisation", "sos", "--param", "K"]);
+    let row = document["limits"]["rows"].as_array().unwrap().iter().find(|row| row["fraction"] == 0).unwrap();
+    assert_eq!(row["stable"][0]["upper"]["exact"], "20/7");
+}
+
+/// The code takes its input in the format of signals: what does not fit there is no answer.
+#[test]
+fn the_range_of_the_input_counts() {
+    let model = "time = 'discrete'\n[loop]\ninputs = ['r']\noutputs = ['y']\n\
+        [[block]]\nname = 'c'\ninput = 'r - y'\noutput = 'v'\ntransfer = '0.01*z/(z - 0.5)'\n\
+        [[block]]\nname = 'p'\ninput = 'v'\noutput = 'y'\ntransfer = '0.1/(z - 0.9)'\n\
+        [ship]\nblock = 'c'\nformat = 'Q5.10'\nsignal = 'Q7.8'\ninputs = { r = 1000 }\n";
+    let (status, document) = ship(model, &[]);
+    assert_eq!(
+        (status, &document["ranges"][0]["holds"], &document["ranges"][1]["holds"]),
+        (1, &false.into(), &true.into())
+    );
+}
+
+/// A controller of gain 10 and a plant 0.1/(z - 1.5), whose only rounding is that of the input: its code cycles at |x| = 0.00243.
+#[test]
+fn a_limit_cycle_by_the_rounding_of_the_input_is_bounded() {
+    let model = "time = 'discrete'\n[loop]\ninputs = ['r']\noutputs = ['x']\n\
+        [[block]]\nname = 'c'\ninput = 'r - x'\noutput = 'v'\ngain = 10\n\
+        [[block]]\nname = 'p'\ninput = 'v'\noutput = 'x'\ntransfer = '0.1/(z - 1.5)'\n\
+        [ship]\nblock = 'c'\nformat = 'Q7.8'\nsignal = 'Q7.8'\n";
+    let (_, document) = ship(model, &[]);
+    let found = &document["limit_cycle"]["x"];
+    let bound = |key: &str| found[key].as_str().unwrap().parse::<Rational>().unwrap();
+    assert!(bound("bound") < number("0.00243") && bound("with_inputs") > number("0.00243"), "{found}");
+}
+
+#[test]
+fn a_parameter_keeps_the_domain_that_it_is_given() {
+    let section = "[parameters]\nK = 1\n";
+    let model = format!("{}{section}", PI.replace("'0.1/(z - 0.9)'", "'0.1*K/(z - 0.9)'"));
+    let (_, document) =
+        ship(&model, &["--block", "controller", "--format", "Q2.14", "--param", "K", "--domain", "K=0..1"]);
+    for row in document["limits"]["rows"].as_array().unwrap() {
+        for range in row["stable"].as_array().unwrap() {
+            assert!(number(range["upper"]["decimal"].as_str().unwrap()) <= Rational::ONE, "{row}");
+        }
+    }
+    assert_eq!(document["limits"]["exact"]["stable"][0]["upper"]["exact"], "1");
+    let refusal =
+        refused(&model.replace("0.5*z", "K*z"), &["--block", "controller", "--format", "Q2.14", "--param", "K"]);
+    assert!(refusal.contains("E-ship-block"), "{refusal}");
+}
+
+#[test]
+fn the_fewest_bits_do_not_depend_on_the_format_that_is_asked_for() {
+    let fewest = |bits: u32| {
+        let (_, document) = ship(PI, &["--block", "controller", "--format", &format!("Q2.{bits}"), "--fewest"]);
+        (document["fewest"]["every_rounding"].clone(), document["fewest"]["refuted"].clone())
+    };
+    for bits in [6, 10, 14, 20, 30] {
+        assert_eq!(fewest(bits), (14.into(), 13.into()), "{bits}");
+    }
+}
+
+#[test]
+fn a_stored_loop_that_is_not_well_posed_is_no_mistake_of_the_text() {
+    let model = "time = 'discrete'\n[loop]\ninputs = ['r']\noutputs = ['y']\n\
+        [[block]]\nname = 'c'\ninput = 'r - y'\noutput = 'u'\ngain = -0.4999\n\
+        [[block]]\nname = 'p'\ninput = 'u'\noutput = 'y'\ngain = 2\n";
+    let said = refused(model, &["--block", "c", "--format", "Q4.11"]);
+    assert!(said.contains("with the stored coefficients the loop is not well posed") && !said.contains("^"), "{said}");
+}
+
+#[test]
+fn initial_values_of_states_are_left_out_where_the_controller_gets_other_states() {
+    let model = PI
+        .replace("transfer = '(0.5*z - 0.4999)/(z - 1)'", "A = [[0.5]]\nB = [[0.2]]\n")
+        .replace("output = 'u'", "output = ['u']");
+    for initial in ["[simulation]\ninitial = { u = 1 }\n", "[simulation.initial]\nu = 1\n"] {
+        let (status, document) = ship(&format!("{model}{initial}"), &["--block", "controller", "--format", "Q2.13"]);
+        assert_eq!((status, &document["rounded"]["verdict"]), (0, &"stable".into()), "{document}");
+    }
 }

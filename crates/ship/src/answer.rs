@@ -5,13 +5,14 @@ use crate::fewest::Fewest;
 use crate::format::{Fixed, Format, Rounding};
 use crate::limits::LimitsByBits;
 use crate::ranges::{Ranges, WorstInput};
-use crate::shipped::Shipped;
+use crate::shipped::{Shipped, of_stored_loop};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, PointVerdict, ToleranceAnswer, Verdict};
 use jurist_engine::error::Error;
 use jurist_engine::problem::Problem;
 use jurist_engine::response::{Margins, RequirementMet, Requirements};
+use jurist_engine::stability::Range;
 use jurist_engine::stability::boxes::BoxDecision;
 use std::sync::Arc;
 
@@ -57,8 +58,8 @@ pub struct ShipAnswer {
 pub struct Beside {
     /// The fewest bits.
     pub fewest: bool,
-    /// The parameter whose limits are asked for with more and more bits.
-    pub limits_of: Option<String>,
+    /// The parameter whose limits are asked for with more and more bits, and its domain where it is not the model's.
+    pub limits_of: Option<(String, Option<Range>)>,
     /// The worst input.
     pub worst_input: bool,
 }
@@ -101,13 +102,18 @@ impl ShipAnswer {
             Ok(Point { verdict, margins, requirements })
         };
         budget.step("both loops");
-        let (exact, rounded) = (point(&shipped.exact)?, point(&shipped.rounded)?);
+        let (exact, rounded) = (point(&shipped.exact)?, point(&shipped.rounded).map_err(of_stored_loop)?);
         budget.step("every rounding");
         let list = &requirements.list;
         let every = shipped.every_rounding(list, requirements.at.as_deref(), budget);
         let every_rounding = every.transpose();
         let fewest = beside.fewest.then(|| shipped.fewest_of(every_rounding.as_ref(), requirements, budget)).flatten();
-        let limits = beside.limits_of.as_deref().map(|name| shipped.limits_by_bits(name, budget));
+        let limits_of = beside.limits_of.as_ref();
+        let limits = limits_of.map(|(name, domain)| shipped.limits_by_bits(name, domain.as_ref(), budget));
+        // What was asked for by its name is refused, and not left out.
+        if let Some(Err(error @ Error::Refused(_))) = &limits {
+            return Err(error.clone());
+        }
         budget.step("ranges of signals");
         let is_about_signals = shipped.asked.signal.is_some() || !shipped.asked.inputs.is_empty();
         let is_stable = rounded.verdict.value().verdict == Verdict::Stable;

@@ -183,7 +183,13 @@ fn step(shipping: &Shipping) -> Found<u32> {
 /// The format of coefficients, and whether its scale is to be found.
 fn coefficients(shipping: &Shipping, overrides: &Overrides) -> Found<(Format, bool)> {
     if let Some(word) = &overrides.format {
-        return Ok((word_format(word, None)?, false));
+        let mut format = word_format(word, None)?;
+        // How it is rounded is said by the model, or by --round.
+        let written = shipping.format.as_ref().and_then(|text| number_format(text).ok());
+        if let (Format::Fixed(fixed), Some((Format::Fixed(own), _))) = (&mut format, written) {
+            fixed.rounding = own.rounding;
+        }
+        return Ok((format, false));
     }
     match &shipping.format {
         Some(text) => number_format(text),
@@ -197,7 +203,15 @@ fn coefficients(shipping: &Shipping, overrides: &Overrides) -> Found<(Format, bo
 fn signal(shipping: &Shipping, overrides: &Overrides, coefficients: &Format) -> Found<Option<Fixed>> {
     let (format, span) = match (&overrides.signal, &shipping.signal) {
         (Some(word), _) => (word_format(word, None)?, None),
-        (None, Some(text)) => (number_format(text)?.0, Some(text.span)),
+        (None, Some(text)) => match number_format(text)? {
+            (format, false) => (format, Some(text.span)),
+            (_, true) => {
+                let error = Diagnostic::error(Code::ShipFormat, "signals have no automatic scale");
+                return fail(
+                    error.at(text.span, "scale = \"auto\"").help("write the scale, or more bits before the point"),
+                );
+            }
+        },
         (None, None) => return Ok(None),
     };
     match (format, coefficients) {
@@ -210,6 +224,7 @@ fn signal(shipping: &Shipping, overrides: &Overrides, coefficients: &Format) -> 
                 Code::ShipFormat,
                 "coefficients and signals are of one kind: both in fixed point, or both the same float",
             );
+            let error = error.help("write two fixed-point formats, or float32 or float64 for both");
             fail(match span {
                 Some(span) => error.at(span, "of another kind"),
                 None => error,
@@ -297,7 +312,17 @@ fn word_format(word: &str, span: Option<Span>) -> Found<Format> {
     let found = numbers.and_then(|(m, n)| fixed(1 + i64::from(m) + i64::from(n), i64::from(n), Rounding::Nearest));
     found.map(Format::Fixed).ok_or_else(|| {
         let error = Diagnostic::error(Code::ShipFormat, format!("unknown number format '{word}'"));
-        let error = error.help("Q2.13 is a sign, 2 bits before and 13 behind the point; else float32 or float64");
+        let digits = word.strip_prefix(['Q', 'q']).unwrap_or(word);
+        let error = match digits.parse::<u8>() {
+            Ok(bits) if bits >= 7 && digits.len() < word.len() => {
+                error.help(format!("for a sign and {bits} bits behind the point write Q0.{bits}"))
+            }
+            Ok(bits) if digits.len() == word.len() => error.help(format!(
+                "how many of {bits} bits stand behind the point? Q2.{} has a sign and 2 before it",
+                bits.saturating_sub(3)
+            )),
+            _ => error.help("Q2.13 is a sign, 2 bits before and 13 behind the point; else float32 or float64"),
+        };
         Box::new(match span {
             Some(span) => error.at(span, "not known"),
             None => error,

@@ -44,7 +44,7 @@ pub struct Ship {
     pub signal: Option<FormatFound>,
     /// What happens to signals that do not fit: `saturate` or `wrap`.
     pub overflow: String,
-    /// What is stored, in lists: `b` and `a` of a direct form by falling powers of z, or of the delta operator; `b_1`, `a_1` .. of sections; `A`, `B`, `C`
+    /// What is stored, in lists: `b` and `a` of a direct form by falling powers of z, or of the delta operator; `b_1`, `a_1` .. of several sections; `A`, `B`, `C`
     /// and `D` row by row.
     pub coefficients: Named<CoefficientsFound>,
     /// The loop as it is written.
@@ -149,14 +149,16 @@ pub struct LimitsOfBits {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RangeFound {
-    /// The signal.
+    /// The signal: `u`, the controller's input, or an inner one by its name in the code.
     pub node: String,
-    /// Its magnitude is at most this, rounding included; `null` without bounds of inputs.
+    /// Its magnitude is at most this, rounding of inputs and signals included; `null` without bounds of inputs.
     pub bound: Option<Exact>,
     /// Its greatest magnitude under all inputs within their bounds without rounding, between two numbers; `null` without bounds.
     pub greatest: Option<Enclosure>,
-    /// What the rounding of signals adds at most.
+    /// What the rounding of the controller's own signals adds at most.
     pub rounding: Exact,
+    /// The same with its inputs rounded to the format of signals as well.
+    pub rounding_with_inputs: Exact,
     /// The greatest number of its format; `null` without one.
     pub limit: Option<Exact>,
     /// Whether it stays within; `null` where that is not decided.
@@ -167,8 +169,10 @@ pub struct RangeFound {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct LimitCycle {
-    /// At most so much.
+    /// At most so much, the rounding of the controller's own signals alone.
     pub bound: Exact,
+    /// The same with its inputs rounded to the format of signals as well.
+    pub with_inputs: Exact,
 }
 
 /// A worst input.
@@ -260,7 +264,11 @@ impl ShipAnswer {
             limit_cycle: ranges
                 .iter()
                 .flat_map(|r| &r.moved)
-                .map(|(name, most)| (name.clone(), LimitCycle { bound: most.into() }))
+                .map(|moved| {
+                    let found =
+                        LimitCycle { bound: (&moved.by_signals).into(), with_inputs: (&moved.with_inputs).into() };
+                    (moved.output.clone(), found)
+                })
                 .collect(),
             worst_input: self.worst_input.as_ref().map(Into::into),
             undecided: self.stopped().map(Into::into),
@@ -339,9 +347,10 @@ impl From<&ranges::NodeRange> for RangeFound {
     fn from(node: &ranges::NodeRange) -> Self {
         RangeFound {
             node: node.name.clone(),
-            bound: node.greatest.as_ref().map(|[_, high]| (&(high + &node.rounding)).into()),
+            bound: node.greatest.as_ref().map(|[_, high]| (&(high + &node.with_inputs)).into()),
             greatest: node.greatest.as_ref().map(|[low, high]| [low.into(), high.into()]),
             rounding: (&node.rounding).into(),
+            rounding_with_inputs: (&node.with_inputs).into(),
             limit: node.limit.as_ref().map(Into::into),
             holds: node.holds,
         }

@@ -1,6 +1,7 @@
 //! Every rounding: the box of all numbers that a coefficient may be stored as.
 
-use crate::format::Format;
+use crate::asked::Asked;
+use crate::format::{Fixed, Format};
 use crate::program::Coefficient;
 use crate::realise::Entry;
 use crate::shipped::{Shipped, question_of};
@@ -10,6 +11,7 @@ use jurist_engine::answer::{Answer, ToleranceAnswer, ToleranceRequest};
 use jurist_engine::error::Error;
 use jurist_engine::model::{Model, Tolerance};
 use jurist_engine::response::Requirement;
+use jurist_engine::stability::boxes::BoxDecision;
 
 /// The relative width of the bracket of the largest factor.
 const GAP: i64 = 10_000;
@@ -48,6 +50,16 @@ impl Shipped {
         at: Option<&str>,
         budget: &Budget,
     ) -> Result<Option<Answer<ToleranceAnswer>>, Error> {
+        self.box_of_roundings(requirements, at, false, budget)
+    }
+
+    fn box_of_roundings(
+        &self,
+        requirements: &[Requirement],
+        at: Option<&str>,
+        is_box_alone: bool,
+        budget: &Budget,
+    ) -> Result<Option<Answer<ToleranceAnswer>>, Error> {
         if self.coefficients.is_empty() {
             return Ok(None);
         }
@@ -60,7 +72,30 @@ impl Shipped {
         let tolerances = names.into_iter().zip(self.realised.program.coefficients.iter().map(tolerance));
         let gap = Rational::new(1.into(), GAP.into());
         let request = ToleranceRequest::new(tolerances).gap(gap).require(requirements.to_vec(), at.map(str::to_owned));
+        let request = if is_box_alone { request.box_alone() } else { request };
         question.tolerance(&request, budget).map(Some)
+    }
+
+    /// Whether it is so with another number of bits behind the point; `None` where that is not decided.
+    ///
+    /// # Errors
+    /// As [`Shipped::every_rounding`].
+    pub(crate) fn every_rounding_with(
+        &self,
+        fixed: &Fixed,
+        bits: i64,
+        (requirements, at): (&[Requirement], Option<&str>),
+        budget: &Budget,
+    ) -> Result<Option<bool>, Error> {
+        let format = Format::Fixed(Fixed { bits: 64, fraction: bits as i32, ..*fixed });
+        let asked = Asked { format, ..self.asked.clone() };
+        let shipped = Shipped { asked, ..self.clone() };
+        let Some(answer) = shipped.box_of_roundings(requirements, at, true, budget)? else { return Ok(Some(true)) };
+        Ok(match answer.value().decision {
+            BoxDecision::Stable(_) => Some(true),
+            BoxDecision::NotStable { .. } => Some(false),
+            BoxDecision::Undecided { .. } => None,
+        })
     }
 }
 

@@ -6,7 +6,7 @@ use crate::shipped::{Shipped, with_controller};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::{ToleranceAnswer, Verdict};
-use jurist_engine::error::Error;
+use jurist_engine::error::{Code, Error};
 use jurist_engine::response::Requirement;
 
 /// With how many bits behind the point a loop is stable and meets its requirements, at the scale of the format; what the range asks for is another
@@ -26,6 +26,9 @@ pub struct Fewest {
     /// From this number on rounding down holds: each error is within half a unit of one bit less.
     pub floor_from: Option<i64>,
 }
+
+/// So many bits more than those that were asked for are tried.
+const MOST_MORE: i64 = 16;
 
 /// Numbers of bits that are tried below the proved one.
 const MOST_TRIED: i64 = 64;
@@ -51,10 +54,14 @@ impl Shipped {
         let has_box = fixed.rounding.error_in_halves() == (-1, 1);
         let factor = every.factor.as_ref().filter(|_| has_box);
         let fraction = i64::from(fixed.fraction);
-        let every_rounding = factor.and_then(|f| Some(fraction - floor_of_log2(&f.lower)?));
+        let proved = factor.and_then(|f| Some(fraction - floor_of_log2(&f.lower)?));
         let refuted = factor.and_then(|f| Some(fraction - ceiling_of_log2(f.upper.as_ref()?)?));
         let first = self.first_that_tells(&fixed);
-        let last = every_rounding.unwrap_or(fraction + 1).max(first);
+        let [refuted, every_rounding] = match has_box {
+            true => self.bracketed([refuted, proved], (&fixed, first), (requirements, at), budget)?,
+            false => [refuted, proved],
+        };
+        let last = every_rounding.unwrap_or(fraction + 1);
         let start = first.max(last - MOST_TRIED);
         let mut out = Fewest {
             every_rounding,
@@ -77,6 +84,59 @@ impl Shipped {
         Ok(Some(out))
     }
 
+    /// The greatest number of bits that is refuted and the least that is proved, from what the factor of one box says: each more bit makes the box
+    /// smaller, so halving finds them.
+    fn bracketed(
+        &self,
+        [mut refuted, mut proved]: [Option<i64>; 2],
+        (fixed, first): (&Fixed, i64),
+        asked: (&[Requirement], Option<&str>),
+        budget: &Budget,
+    ) -> Result<[Option<i64>; 2], Error> {
+        let decide = |bits: i64| {
+            budget.step(&format!("every rounding with {bits} bits behind the point"));
+            self.every_rounding_with(fixed, bits, asked, budget)
+        };
+        let mut more = 1;
+        while proved.is_none() && more <= MOST_MORE {
+            let bits = i64::from(fixed.fraction).max(first) + more;
+            if decide(bits)? == Some(true) {
+                proved = Some(bits);
+            }
+            more *= 2;
+        }
+        let Some(mut high) = proved else { return Ok([refuted, proved]) };
+        // Below the first bit that tells all coefficients may be 0.
+        let mut low = refuted.unwrap_or(first - 2);
+        while high - low > 1 {
+            let middle = (low + high) / 2;
+            match decide(middle)? {
+                Some(true) => high = middle,
+                Some(false) => {
+                    low = middle;
+                    refuted = Some(middle);
+                }
+                None => low = middle,
+            }
+        }
+        Ok([refuted, Some(high)])
+    }
+
+    /// The coefficients in a format, whatever its range is.
+    ///
+    /// # Errors
+    /// `E-ship-format` where an enclosure does not tell what is stored.
+    pub(crate) fn values_in(&self, fixed: &Fixed) -> Result<Vec<Entry>, Error> {
+        let value = |c: &crate::program::Coefficient| -> Result<Entry, Error> {
+            let integer = fixed.rounded(c.exact.lower());
+            if c.exact.lower() != c.exact.upper() && integer != fixed.rounded(c.exact.upper()) {
+                return Err(crate::shipped::not_told(&c.name).into());
+            }
+            Ok(Entry::Number(fixed.value(&integer)))
+        };
+        self.realised.program.coefficients.iter().map(value).collect()
+    }
+
     /// The least number of bits at which a coefficient may be other than zero.
     pub(crate) fn first_that_tells(&self, fixed: &Fixed) -> i64 {
         let size = |c: &crate::program::Coefficient| c.exact.lower().abs().max(c.exact.upper().abs());
@@ -92,9 +152,12 @@ impl Shipped {
         at: Option<&str>,
         budget: &Budget,
     ) -> Result<bool, Error> {
-        let value = |c: &crate::program::Coefficient| Entry::Number(fixed.value(&fixed.rounded(c.exact.lower())));
-        let values: Vec<Entry> = self.realised.program.coefficients.iter().map(value).collect();
-        let problem = with_controller(&self.exact, &self.asked.block, &self.realised.keys(&values))?.problem()?;
+        let values = self.values_in(fixed)?;
+        let problem = match with_controller(&self.exact, &self.asked.block, &self.realised.keys(&values)) {
+            // A loop that is not well posed does nothing.
+            Err(Error::Refused(found)) if found.code() == Code::AlgebraicLoop => return Ok(false),
+            question => question?.problem()?,
+        };
         if problem.verdict(budget)?.value().verdict != Verdict::Stable {
             return Ok(false);
         }

@@ -6,7 +6,7 @@ use crate::shipped::{Shipped, with_controller};
 use jurist_algebra::limits::Budget;
 use jurist_engine::answer::Answer;
 use jurist_engine::error::{Code, Diagnostic, Error};
-use jurist_engine::stability::StableSet;
+use jurist_engine::stability::{Range, StableSet};
 
 /// The stable sets of a parameter with the controller stored in more and more bits.
 #[derive(Clone, Debug)]
@@ -34,7 +34,12 @@ impl Shipped {
     ///
     /// # Errors
     /// `E-ship-block` for a parameter of the controller itself; as [`Question::stable_set`](jurist_engine::problem::Question::stable_set).
-    pub fn limits_by_bits(&self, parameter: &str, budget: &Budget) -> Result<LimitsByBits, Error> {
+    pub fn limits_by_bits(
+        &self,
+        parameter: &str,
+        domain: Option<&Range>,
+        budget: &Budget,
+    ) -> Result<LimitsByBits, Error> {
         let block = &self.asked.block;
         if self.exact.block_depends_on(block, parameter, budget)? {
             let message =
@@ -43,7 +48,11 @@ impl Shipped {
             return Err(error.help("ask for a parameter of the plant, or set another value with --set").into());
         }
         let free = |question: jurist_engine::problem::Question| {
-            question.without_value(parameter).free(parameter).stable_set(budget)
+            let question = question.without_value(parameter).free(parameter);
+            match domain {
+                Some(range) => question.domain(parameter, range.clone()).stable_set(budget),
+                None => question.stable_set(budget),
+            }
         };
         let written = self.exact.model().ask().set_all(self.exact.set().iter().cloned());
         let exact = free(written.within(self.exact.region().clone()))?;
@@ -59,9 +68,7 @@ impl Shipped {
                 for bits in first..=last {
                     budget.step(&format!("limits with {bits} bits behind the point"));
                     let fixed = Fixed { bits: 64, fraction: bits as i32, ..fixed };
-                    let value =
-                        |c: &crate::program::Coefficient| Entry::Number(fixed.value(&fixed.rounded(c.exact.lower())));
-                    rows.push((Some(bits), of(self.realised.program.coefficients.iter().map(value).collect())?));
+                    rows.push((Some(bits), of(self.values_in(&fixed)?)?));
                 }
             }
         }

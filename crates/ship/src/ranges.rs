@@ -1,5 +1,6 @@
 //! How large signals become inside of a controller, and what the rounding of signals adds.
 
+use crate::emit::numbered;
 use crate::program::{LinearSystem, Operand};
 use crate::realise::Entry;
 use crate::run::FixedProgram;
@@ -15,13 +16,24 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Ranges {
-    /// The inner signals, in the order of the operations.
+    /// The controller's inputs, then its inner signals in the order of the operations.
     pub nodes: Vec<NodeRange>,
-    /// By how much the rounding of signals can move each output of the loop, in the end and at any time: a bound of all limit cycles. None where
-    /// signals are not rounded.
-    pub moved: Vec<(String, Rational)>,
+    /// By how much rounding can move each output of the loop, in the end and at any time. None where signals are not rounded.
+    pub moved: Vec<Moved>,
     /// The loop in which each inner signal is an output, and each rounding error an input.
     pub problem: Arc<Problem>,
+}
+
+/// By how much rounding can move an output of the loop: a bound of all limit cycles.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Moved {
+    /// The output.
+    pub output: String,
+    /// By the rounding of the controller's own signals.
+    pub by_signals: Rational,
+    /// By that, and its inputs rounded to the format of signals as well: a controller in fixed point takes integers.
+    pub with_inputs: Rational,
 }
 
 /// The range of an inner signal.
@@ -34,8 +46,10 @@ pub struct NodeRange {
     pub output: String,
     /// Its greatest magnitude under all inputs within their bounds, between two numbers; `None` without bounds.
     pub greatest: Option<[Rational; 2]>,
-    /// What the rounding of signals adds at most.
+    /// What the rounding of the controller's own signals adds at most.
     pub rounding: Rational,
+    /// The same with its inputs rounded to the format of signals as well.
+    pub with_inputs: Rational,
     /// The greatest number of its format.
     pub limit: Option<Rational>,
     /// Whether it stays within; `None` where that is not said by these bounds.
@@ -67,7 +81,7 @@ impl Ranges {
     pub fn worst_input(&self, bounds: &[(String, Rational)], budget: &Budget) -> Result<Option<WorstInput>, Error> {
         let share = |node: &NodeRange| {
             let [_, high] = node.greatest.as_ref()?;
-            let all = high + &node.rounding;
+            let all = high + &node.with_inputs;
             Some(node.limit.as_ref().and_then(|limit| all.checked_div(limit)).unwrap_or(all))
         };
         let Some(node) = self.nodes.iter().filter(|node| node.greatest.is_some()).max_by_key(|node| share(node)) else {
@@ -147,24 +161,34 @@ impl Shipped {
         };
         let errors: Vec<(String, Rational)> =
             names.errors.iter().flatten().map(|name| (name.clone(), error.clone())).collect();
+        let input_errors: Vec<(String, Rational)> = match self.asked.signal {
+            Some(_) => names.input_errors.iter().map(|name| (name.clone(), error.clone())).collect(),
+            None => Vec::new(),
+        };
+        let all: Vec<(String, Rational)> = errors.iter().chain(&input_errors).cloned().collect();
         let mut nodes = Vec::new();
-        for (node, output) in self.realised.program.nodes.iter().zip(&names.nodes) {
+        let own = self.realised.program.nodes.iter().map(|node| node.name.clone());
+        let of_code = names.code_inputs.iter().cloned().chain(own);
+        for (name, output) in of_code.zip(names.inputs.iter().chain(&names.nodes)) {
             let greatest = sum(&self.asked.inputs, output)?;
             let Some([_, rounding]) = sum(&errors, output)? else { return Ok(None) };
+            let Some([_, with_inputs]) = sum(&all, output)? else { return Ok(None) };
             let greatest = greatest.filter(|_| !self.asked.inputs.is_empty());
             let limit = self.asked.signal.map(|signal| signal.value(&signal.integers().1));
             let holds = limit.as_ref().zip(greatest.as_ref()).and_then(|(limit, [low, high])| {
-                if high + &rounding <= *limit {
+                if high + &with_inputs <= *limit {
                     return Some(true);
                 }
-                (low - &rounding > *limit).then_some(false)
+                (low - &with_inputs > *limit).then_some(false)
             });
-            nodes.push(NodeRange { name: node.name.clone(), output: output.clone(), greatest, rounding, limit, holds });
+            nodes.push(NodeRange { name, output: output.clone(), greatest, rounding, with_inputs, limit, holds });
         }
         let mut moved = Vec::new();
-        for output in self.exact.model().outputs().iter().filter(|_| !errors.is_empty()) {
-            let Some([_, most]) = sum(&errors, &output.name.name)? else { return Ok(None) };
-            moved.push((output.name.name.clone(), most));
+        for output in self.exact.model().outputs().iter().filter(|_| !all.is_empty()) {
+            let output = output.name.name.clone();
+            let Some([_, by_signals]) = sum(&errors, &output)? else { return Ok(None) };
+            let Some([_, with_inputs]) = sum(&all, &output)? else { return Ok(None) };
+            moved.push(Moved { output, by_signals, with_inputs });
         }
         Ok(Some(Ranges { nodes, moved, problem }))
     }
@@ -185,10 +209,13 @@ impl Shipped {
         };
         let values: Vec<Rational> = self.coefficients.iter().map(|c| c.value.clone()).collect();
         let system = self.realised.program.system(&values);
-        let errors: Vec<&String> = names.errors.iter().flatten().collect();
-        let inputs: Vec<String> =
-            block.inputs.iter().map(ToString::to_string).chain(errors.iter().map(|e| (*e).clone())).collect();
-        let outputs: Vec<String> = self.asked.outputs.iter().chain(&names.nodes).cloned().collect();
+        let own_errors: Vec<&String> = names.errors.iter().flatten().collect();
+        let errors: Vec<&String> = names.input_errors.iter().chain(own_errors.iter().copied()).collect();
+        // What reaches the controller is its input and the error of rounding it.
+        let taken = block.inputs.iter().zip(&names.input_errors).map(|(input, error)| format!("{input} + {error}"));
+        let inputs: Vec<String> = taken.chain(own_errors.iter().map(|e| (*e).clone())).collect();
+        let outputs: Vec<String> =
+            self.asked.outputs.iter().chain(&names.inputs).chain(&names.nodes).cloned().collect();
         let mut keys = vec![("input", list(&inputs)), ("output", list(&outputs))];
         keys.extend(self.matrices(&system, names));
         let text = model.with_block(&self.asked.block, &keys).unwrap_or_default();
@@ -197,12 +224,12 @@ impl Shipped {
         let loop_outputs = model.outputs().iter().map(|output| output.name.name.clone()).collect();
         let ports = [
             ("inputs", all(loop_inputs, errors.into_iter().cloned().collect())),
-            ("outputs", all(loop_outputs, names.nodes.clone())),
+            ("outputs", all(loop_outputs, names.inputs.iter().chain(&names.nodes).cloned().collect())),
         ];
         Model::with_keys(&text, "loop", &ports)
     }
 
-    /// The keys of the block's matrices: outputs are those of the controller, then its nodes; inputs its own, then the errors.
+    /// The keys of the block's matrices: outputs are those of the controller, then its inputs and its nodes; inputs its own, then the errors.
     fn matrices(&self, system: &LinearSystem, names: &Names) -> Vec<(&'static str, String)> {
         let program = &self.realised.program;
         let is_kept = |column: usize| column < program.inputs || names.errors[column - program.inputs].is_some();
@@ -217,7 +244,8 @@ impl Shipped {
                     (0..width).map(|k| if own && k == *at { Rational::ONE } else { Rational::ZERO }).collect()
                 }
             };
-            program.outputs.iter().map(row).chain(rows.iter().cloned()).collect()
+            let inputs = (0..program.inputs).map(|at| row(&Operand::Input(at)));
+            program.outputs.iter().map(row).chain(inputs).chain(rows.iter().cloned()).collect()
         };
         let c = of_output(&system.c, system.a.len(), 0);
         let d: Vec<Vec<Rational>> =
@@ -248,6 +276,11 @@ fn list(texts: &[String]) -> String {
 
 /// Names of the signals that the loop gets.
 struct Names {
+    /// Of each input in the code.
+    code_inputs: Vec<String>,
+    /// Of each input as an output of the loop, and of the error of its rounding.
+    inputs: Vec<String>,
+    input_errors: Vec<String>,
     /// Of each node.
     nodes: Vec<String>,
     /// Of the error of each node that is rounded.
@@ -269,7 +302,11 @@ impl Names {
             None => vec![false; shipped.realised.program.nodes.len()],
         };
         let nodes = &shipped.realised.program.nodes;
+        let code_inputs = numbered("u", shipped.realised.program.inputs);
         Names {
+            inputs: code_inputs.iter().map(|name| unused(format!("ship_{name}"))).collect(),
+            input_errors: code_inputs.iter().map(|name| unused(format!("ship_error_{name}"))).collect(),
+            code_inputs,
             nodes: nodes.iter().map(|node| unused(format!("ship_{}", node.name))).collect(),
             errors: nodes
                 .iter()

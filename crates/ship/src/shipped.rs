@@ -16,6 +16,9 @@ use std::sync::Arc;
 /// Bits to which coefficients are known that are no rational numbers.
 const BITS: u64 = 512;
 
+/// An automatic scale divides or multiplies by no more than two to this power.
+const MOST_SCALE: i32 = 1024;
+
 /// A coefficient as it is stored.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
@@ -79,8 +82,9 @@ impl Shipped {
         let realised = realised(&before, &asked, budget)?;
         let coefficients = stored(&realised.program.coefficients, &mut asked)?;
         let values: Vec<Entry> = coefficients.iter().map(|c| Entry::Number(c.value.clone())).collect();
-        let rounded = with_controller(problem, &asked.block, &realised.keys(&values))?.problem()?;
-        let Some(after) = rounded.block(&asked.block, BITS, budget)? else {
+        let stored = with_controller(problem, &asked.block, &realised.keys(&values)).map_err(of_stored_loop)?;
+        let rounded = stored.problem()?;
+        let Some(after) = rounded.block(&asked.block, BITS, budget).map_err(of_stored_loop)? else {
             return Err(Error::Undefined("the stored controller".into()));
         };
         Ok(Shipped { exact: Arc::clone(problem), rounded, asked, realised, coefficients, before, after })
@@ -154,6 +158,20 @@ impl Shipped {
     }
 }
 
+/// An error about the loop with the stored controller, which is no mistake of the model's text.
+pub(crate) fn of_stored_loop(error: Error) -> Error {
+    let is_loop = |found: &Diagnostic| found.code == Code::AlgebraicLoop;
+    match error {
+        Error::Refused(found) if found.diagnostics().iter().any(is_loop) => {
+            let message = "with the stored coefficients the loop is not well posed: its gain without delay is 1";
+            Diagnostic::error(Code::AlgebraicLoop, message)
+                .help("take another format or rounding, or a delay in the loop")
+                .into()
+        }
+        error => error,
+    }
+}
+
 /// The question of a problem, of the model with another dynamic in the controller's place.
 pub(crate) fn with_controller(problem: &Problem, block: &str, keys: &[(&str, String)]) -> Result<Question, Error> {
     let text = problem.model().with_block(block, keys);
@@ -206,21 +224,22 @@ fn stored(coefficients: &[Coefficient], asked: &mut Asked) -> Result<Vec<Stored>
             .all(|c| [c.exact.lower(), c.exact.upper()].into_iter().all(|end| fixed.stored(end).is_some()))
     };
     if let (Format::Fixed(fixed), true) = (&mut asked.format, asked.is_scale_automatic && !coefficients.is_empty()) {
-        let scales = (-64..=64).map(|scale| Fixed { scale, ..*fixed });
+        let scales = (-MOST_SCALE..=MOST_SCALE).map(|scale| Fixed { scale, ..*fixed });
         *fixed = scales.into_iter().find(fits).unwrap_or(*fixed);
     }
     coefficients.iter().map(|c| one(c, &asked.format, coefficients)).collect()
 }
 
+/// The refusal of a coefficient whose enclosure holds the edge between two stored numbers.
+pub(crate) fn not_told(name: &str) -> Diagnostic {
+    let message = format!("{name} may lie between two stored numbers: {BITS} bits do not tell which is nearer");
+    Diagnostic::error(Code::ShipFormat, message)
+        .help("take one bit more, or a direct form, whose coefficients are exact")
+}
+
 fn one(coefficient: &Coefficient, format: &Format, all: &[Coefficient]) -> Result<Stored, Error> {
     let Coefficient { name, exact } = coefficient;
-    let value = format.nearest_of(exact).map_err(|_| {
-        let error = Diagnostic::error(
-            Code::ShipFormat,
-            format!("{name} may lie between two stored numbers: {BITS} bits do not tell which is nearer"),
-        );
-        error.help("take another format")
-    })?;
+    let value = format.nearest_of(exact).map_err(|_| not_told(name))?;
     let Some(value) = value else { return Err(out_of_range(coefficient, format, all)) };
     let integer = match format {
         Format::Fixed(fixed) => Some(fixed.rounded(exact.lower())),

@@ -4,13 +4,14 @@ use crate::answer::{Part, Point, ShipAnswer};
 use crate::fewest::Fewest;
 use crate::format::Format;
 use crate::limits::LimitsByBits;
-use crate::ranges::{NodeRange, Ranges};
+use crate::ranges::{Moved, NodeRange, Ranges};
 use crate::run::Overflow;
 use crate::shipped::Stored;
 use jurist_algebra::number::{Integer, Rational, enclosed_decimal, to_decimal};
 use jurist_algebra::real::Real;
-use jurist_engine::answer::ToleranceAnswer;
+use jurist_engine::answer::{ToleranceAnswer, Verdict};
 use jurist_engine::error::Error;
+use jurist_engine::model::Form;
 use jurist_engine::response::{DelayMargin, Margins, StableMargins};
 use jurist_engine::show::bounded::{at_least, at_most};
 use jurist_engine::show::intervals::{heading, nowhere, stable_lines};
@@ -80,16 +81,29 @@ impl ShipAnswer {
             let node = |node: &NodeRange| {
                 let [_, high] = node.greatest.as_ref()?;
                 let fits = if node.holds == Some(true) { ", which fits" } else { "" };
-                Some(format!("|{}| <= {}{fits}", node.name, at_most(&(high + &node.rounding), FEW)))
+                Some(format!("|{}| <= {}{fits}", node.name, at_most(&(high + &node.with_inputs), FEW)))
             };
             let nodes: Vec<String> = ranges.nodes.iter().filter_map(node).collect();
-            out.push(format!("From rest under {}: {}.", inputs.join(", "), nodes.join(", ")));
+            let held = if self.is_held() { ", held between samples" } else { "" };
+            out.push(format!("From rest under {}{held}: {}.", inputs.join(", "), nodes.join(", ")));
         }
-        let moved = |(name, most): &(String, Rational)| {
-            format!("The rounding of signals moves {name} by at most {}, limit cycles included.", at_most(most, FEW))
+        let moved = |moved: &Moved| {
+            let [own, all] = [&moved.by_signals, &moved.with_inputs].map(|most| at_most(most, FEW));
+            format!(
+                "The rounding of these signals moves {} by at most {own}, limit cycles included; with the inputs rounded as well by at most {all}.",
+                moved.output
+            )
         };
         out.extend(ranges.moved.iter().map(moved));
         out
+    }
+
+    /// Whether inputs may reach a plant behind a hold, between samples.
+    fn is_held(&self) -> bool {
+        match self.shipped.exact.model().form() {
+            Form::Blocks(diagram) => diagram.blocks.iter().any(|block| block.discretization.is_some()),
+            _ => false,
+        }
     }
 
     /// Margins of both loops side by side.
@@ -124,10 +138,23 @@ impl ShipAnswer {
     }
 
     fn every(&self) -> String {
-        match &self.every_rounding {
+        let mut out = match &self.every_rounding {
             None => "every rounding: nothing is rounded\n".into(),
             Some(every) => part("every rounding", every, |answer| self.every_text(answer.value())),
+        };
+        let model = self.shipped.exact.model();
+        let constants = model.constants().iter().filter(|c| c.tolerance.is_some()).map(|c| c.name.as_str());
+        let parameters = model.parameters().iter().filter(|p| p.tolerance.is_some()).map(|p| p.name.as_str());
+        let named: Vec<&str> = constants.chain(parameters).collect();
+        if !named.is_empty() && self.every_rounding.is_some() {
+            writeln!(
+                out,
+                "    tolerances of the model ({}) are not looked at here: 'jurist tolerance' of the model of --every looks at both",
+                named.join(", ")
+            )
+            .expect(TAKES);
         }
+        out
     }
 
     fn every_text(&self, answer: &ToleranceAnswer) -> String {
@@ -135,7 +162,13 @@ impl ShipAnswer {
             Format::Fixed(fixed) if fixed.rounding.error_in_halves() != (-1, 1) => "errors of that rounding",
             _ => "half a unit in the last place",
         };
-        let wanted = if answer.required.is_empty() { "stable" } else { "stable, all requirements met," };
+        let wanted = if answer.required.is_empty() { "stable" } else { "stable with all requirements met" };
+        let is_met = |point: &Point| {
+            point.verdict.value().verdict == Verdict::Stable && point.requirements.iter().all(|found| found.met)
+        };
+        if matches!(answer.decision, BoxDecision::NotStable { .. }) && !is_met(&self.exact) {
+            return format!("the loop is not {wanted} even as it is written");
+        }
         let mut out = match &answer.decision {
             BoxDecision::Stable(proof) => {
                 let cells = proof.cells();
@@ -150,12 +183,13 @@ impl ShipAnswer {
                     let values: Vec<(String, Rational)> = names.zip(witness.point.iter().cloned()).collect();
                     format!(": not at {}", named_values(&values))
                 });
-                format!("not {wanted} for all coefficients within {what}{}", point.unwrap_or_default())
+                format!("not for all coefficients within {what} {wanted}{}", point.unwrap_or_default())
             }
             BoxDecision::Undecided { why, .. } => format!("undecided for coefficients within {what}: {why}"),
         };
         if let Some(factor) = &answer.factor {
             let upper = factor.upper.as_ref().map(|upper| format!(", not {}", at_most(upper, FEW)));
+            let upper = upper.or_else(|| Some(" or more: larger ones were not looked for".to_owned()));
             write!(
                 out,
                 "\n    these errors may be {} times as large{}",
@@ -174,6 +208,9 @@ impl ShipAnswer {
             let bounds: Vec<String> =
                 asked.inputs.iter().map(|(name, bound)| format!("|{name}| <= {}", to_decimal(bound, FEW))).collect();
             write!(out, "from rest under {}", bounds.join(", ")).expect(TAKES);
+            if self.is_held() {
+                out.push_str(" held between samples");
+            }
             let others = self
                 .shipped
                 .exact
@@ -196,10 +233,10 @@ impl ShipAnswer {
                     }
                     (None, Some(limit)) => format!("not decided: its format goes to {}", at_least(limit, FEW)),
                 };
-                let rounding = if node.rounding.is_zero() {
+                let rounding = if node.with_inputs.is_zero() {
                     String::new()
                 } else {
-                    format!("and {} by rounding", at_most(&node.rounding, FEW))
+                    format!("and {} by rounding", at_most(&node.with_inputs, FEW))
                 };
                 columns.row([format!("|{}| <=", node.name), at_most(high, FEW), rounding, verdict]);
             }
@@ -210,11 +247,12 @@ impl ShipAnswer {
         if matches!(asked.format, Format::Binary(_)) {
             out.push_str("\n    what the rounding of signals in floating point adds is not counted");
         }
-        for (name, most) in &ranges.moved {
+        for moved in &ranges.moved {
+            let [own, all] = [&moved.by_signals, &moved.with_inputs].map(|most| at_most(most, FEW));
             write!(
                 out,
-                "\n    the rounding of signals moves {name} by at most {}, limit cycles included",
-                at_most(most, FEW)
+                "\n    the rounding of these signals moves {} by at most {own}, limit cycles included; with the inputs rounded as well by {all}",
+                moved.output
             )
             .expect(TAKES);
         }
@@ -239,14 +277,19 @@ fn fewest_text(fewest: &Fewest) -> String {
     let list = |bits: &[i64]| bits.iter().map(i64::to_string).collect::<Vec<_>>().join(", ");
     let mut out = match (fewest.every_rounding, fewest.refuted) {
         (Some(bits), Some(refuted)) => {
-            format!("{bits} behind the point for every rounding within half a unit, {refuted} are not enough")
+            format!("{bits} behind the point for every rounding within half a unit, {refuted} are not enough for that")
         }
         (Some(bits), None) => format!("{bits} behind the point for every rounding within half a unit"),
         (None, _) => "no number of bits was proved for every rounding".to_owned(),
     };
     let from = [(fewest.every_rounding, "nearest", &fewest.nearest), (fewest.floor_from, "down", &fewest.floor)];
     for (from, mode, also) in from {
-        let Some(from) = from else { continue };
+        let Some(from) = from else {
+            if !also.is_empty() {
+                write!(out, "\n    rounded {mode}: it holds with {}", list(also)).expect(TAKES);
+            }
+            continue;
+        };
         // Neighbours of the proved ones belong to them.
         let mut from = from;
         while also.contains(&(from - 1)) {
@@ -258,7 +301,8 @@ fn fewest_text(fewest: &Fewest) -> String {
         } else {
             format!(", and with {}, but not with all between", list(&rest))
         };
-        write!(out, "\n    rounded {mode}: it holds from {from} bits on{rest}").expect(TAKES);
+        let bits = if from == 1 { "bit" } else { "bits" };
+        write!(out, "\n    rounded {mode}: it holds from {from} {bits} on{rest}").expect(TAKES);
     }
     out
 }
@@ -274,7 +318,11 @@ fn limits_text(limits: &LimitsByBits, digits: usize) -> String {
         let name = bits.map_or("stored".to_owned(), |bits| bits.to_string());
         columns.row([name, row(answer.value())]);
     }
-    format!("stable {} with so many bits behind the point\n{}", limits.parameter, columns.to_string().trim_end())
+    format!(
+        "stable {} with so many bits behind the point; requirements are not looked at\n{}",
+        limits.parameter,
+        columns.to_string().trim_end()
+    )
 }
 
 /// The table of coefficients.

@@ -145,12 +145,10 @@ fn run(options: &Options, context: &Context) -> Outcome {
     let question = question(context, &model, &options.model, &options.region)?;
     let (asked, question) = options.require.asked(&model, question, &options.region, context)?;
     let shipping = Asked::of(&model, &overrides(options, context, model.inputs())?)?;
+    let domain_of = |name: &String| question.domains_set().get(name).cloned();
+    let limits_of = options.param.as_ref().map(|name| (name.clone(), domain_of(name)));
     let problem = question.problem()?;
-    let beside = Beside {
-        fewest: options.fewest,
-        limits_of: options.param.clone(),
-        worst_input: options.written.worst.is_some(),
-    };
+    let beside = Beside { fewest: options.fewest, limits_of, worst_input: options.written.worst.is_some() };
     let answer = match decided(ShipAnswer::of(&problem, shipping, &asked, &beside, &context.budget))? {
         Ok(answer) => answer,
         Err(stopped) => return context.undecided(output, &stopped, || None, || no_answer(&problem, &stopped)),
@@ -349,7 +347,7 @@ fn overrides(options: &Options, context: &Context, inputs: &[jurist_engine::mode
             return Err(in_line(context.line, vec![error.at(place(), "not known")]).into());
         }
         if given.value.is_negative() {
-            let error = Diagnostic::error(Code::Value, "the bound of an input is not negative");
+            let error = Diagnostic::error(Code::Value, "the bound of an input must not be negative");
             return Err(in_line(context.line, vec![error.at(place(), "negative")]).into());
         }
         bounds.push((given.name, given.value));

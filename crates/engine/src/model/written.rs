@@ -108,7 +108,7 @@ impl Model {
             let start = text[..start].rfind('[')?;
             out.replace_range(start..end_of(item), &format!("[[block]]\n{}", lines.join("\n")));
         }
-        Some(out)
+        Some(without_initial(out))
     }
 
     /// A text of a model in which a section has these keys, each with its value in TOML: in the place of those of the same name, else in addition.
@@ -124,6 +124,25 @@ impl Model {
     pub fn with_keys(text: &str, section: &str, keys: &[(&str, String)]) -> String {
         keys.iter().fold(text.to_owned(), |text, (key, value)| with_key(&text, section, key, value))
     }
+}
+
+/// The text without initial values of states, whose names another dynamic of a block does not have.
+fn without_initial(mut text: String) -> String {
+    let root = toml_reader::read(&text).ok();
+    let simulation = root.as_ref().and_then(|root| root.get("simulation"));
+    let initial = simulation.and_then(|value| match &value.kind {
+        Kind::Table(table) => table.get("initial"),
+        _ => None,
+    });
+    let Some(initial) = initial else { return text };
+    let (start, end) = (initial.span.start, initial.span.end);
+    if text[start..].starts_with('{') {
+        text.replace_range(start..end, "{}");
+    } else if let Some(header) = text[..start].rfind('[').filter(|at| text[*at..].starts_with("[simulation.initial]")) {
+        let end = end_of(initial);
+        text.replace_range(header..end, "");
+    }
+    text
 }
 
 /// The text with one key in a section.

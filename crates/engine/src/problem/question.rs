@@ -180,6 +180,11 @@ impl Question {
         &self.set
     }
 
+    /// The domains given so far.
+    pub fn domains_set(&self) -> &BTreeMap<String, Range> {
+        &self.domain
+    }
+
     /// The question with every name known and every value in its place.
     ///
     /// Domains end where the model has no meaning beyond: where the sample time of a hold would not be positive, or the frequency of

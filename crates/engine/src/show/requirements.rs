@@ -81,7 +81,9 @@ impl RequirementMet {
 
     /// `phase_margin >= 45 deg: met (57.07)`.
     pub fn text(&self, digits: usize) -> String {
-        let value = self.value(digits).map(|v| format!(" ({v})")).unwrap_or_default();
+        // A gain margin is found as a factor, whatever it was asked in.
+        let unit = if self.requirement.required().ends_with("dB") { " as a factor" } else { "" };
+        let value = self.value(digits).map(|v| format!(" ({v}{unit})")).unwrap_or_default();
         let verdict = if self.met { "met" } else { "not met" };
         format!("{}: {verdict}{value}", self.requirement.text())
     }

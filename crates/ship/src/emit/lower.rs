@@ -66,7 +66,7 @@ struct Walk<'p> {
 }
 
 /// A name for each of so many inputs or outputs.
-fn numbered(name: &str, count: usize) -> Vec<String> {
+pub(crate) fn numbered(name: &str, count: usize) -> Vec<String> {
     if count == 1 { vec![name.into()] } else { (1..=count).map(|k| format!("{name}_{k}")).collect() }
 }
 

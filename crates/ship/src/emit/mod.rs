@@ -17,6 +17,8 @@ mod statements;
 mod structured_text;
 mod syntax;
 
+pub(crate) use lower::numbered;
+
 use crate::program::Program;
 use crate::realise::Realisation;
 use crate::run::{FixedProgram, FloatProgram};

@@ -42,6 +42,7 @@ pub fn sections(
     assert!(!denominator.is_empty() && numerator.len() == denominator.len(), "a proper fraction");
     let Some((_, poles)) = factors(denominator, budget)? else { return Ok(None) };
     let Some((gain, zeros)) = factors(numerator, budget)? else { return Ok(None) };
+    let wholes = [numerator, denominator].map(whole);
     let chain = paired(grouped(poles), zeros);
     let mut slots = Slots::default();
     let mut program = Program {
@@ -57,8 +58,11 @@ pub fn sections(
     let mut fractions = Vec::new();
     for (at, (zeros, poles)) in chain.iter().enumerate() {
         let factor = if at == 0 { gain.clone() } else { exactly(Rational::ONE) };
-        let b: Vec<Enclosure> = polynomial(zeros, poles_degree(poles)).iter().map(|c| product(c, &factor)).collect();
-        let a = polynomial(poles, poles_degree(poles));
+        let of = |factors: &[Factor], whole: &Option<UniPoly>| {
+            rational_part(polynomial(factors, poles_degree(poles)), whole.as_ref())
+        };
+        let b: Vec<Enclosure> = of(zeros, &wholes[0]).iter().map(|c| product(c, &factor)).collect();
+        let a = of(poles, &wholes[1]);
         let mut row = |letter: &str, row: &[Enclosure]| -> Vec<Slot> {
             row.iter().enumerate().map(|(k, c)| slots.slot(format!("{letter}{k}_{}", at + 1), c)).collect()
         };
@@ -152,6 +156,27 @@ fn factor_of(disc: &RootDisc) -> Factor {
         vec![about(-x, r.clone())]
     };
     Factor { rest, near: (x.clone(), y.clone()) }
+}
+
+/// The polynomial with integer coefficients, without zeros in front; `None` where coefficients are enclosed only.
+fn whole(p: &[Enclosure]) -> Option<UniPoly> {
+    let is_exact = p.iter().all(|c| c.lower() == c.upper());
+    is_exact.then(|| cleared(p)).filter(|polynomial| !polynomial.is_zero())
+}
+
+/// Monic coefficients, zeros in front, as rational numbers, if the simplest ones in their enclosures divide the whole polynomial: roots that are not
+/// rational may have a product that is.
+fn rational_part(p: Vec<Enclosure>, whole: Option<&UniPoly>) -> Vec<Enclosure> {
+    let rational = |c: &Enclosure| match c.lower() == c.upper() {
+        true => Some(c.lower().clone()),
+        false => simplest_between(c.lower(), c.upper()),
+    };
+    let found = || {
+        let candidates: Vec<Enclosure> = p.iter().map(|c| rational(c).map(exactly)).collect::<Option<_>>()?;
+        whole?.div_exact(&cleared(&candidates))?;
+        Some(candidates)
+    };
+    found().unwrap_or(p)
 }
 
 /// The factor with the simplest numbers in its enclosures, if it divides the polynomial.

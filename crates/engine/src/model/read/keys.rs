@@ -159,7 +159,7 @@ pub(super) const NUMBER_FORMAT: [Key; 5] = [
     key(
         "scale",
         Shape::Number,
-        "numbers are divided by 2 to this power before they are stored; \"auto\" takes the least power that fits",
+        "numbers are divided by 2 to this power before they are stored; \"auto\", of coefficients, takes the least power that fits",
     ),
 ];
 

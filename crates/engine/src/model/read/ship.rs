@@ -17,7 +17,7 @@ pub(super) fn read(root: &Table, reader: &mut Reader) -> Option<Shipping> {
     let bound = |entry: &Entry, reader: &mut Reader| {
         let value = reader.number(&entry.value, &format!("the bound of '{}'", shorten(&entry.key)))?;
         if value.is_negative() {
-            let error = Diagnostic::error(Code::Value, "the bound of an input is not negative");
+            let error = Diagnostic::error(Code::Value, "the bound of an input must not be negative");
             reader.report(error.at(entry.value.span, "negative").help("write the bound of its magnitude"));
             return None;
         }
