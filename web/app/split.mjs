@@ -59,7 +59,7 @@ function firstScreens(ask) {
     program(drive, "intervals", "-", "--param", name, "--json", ...options(but(name)));
     program(drive, "locus", "-", "--param", name, "--json", "--quiet", ...options(but(name)));
   }
-  for (const [across, up] of [[x, y], [y, x]]) ask({ ask: "map", model: drive, set: [], x: across, y: up });
+  for (const [across, up] of [[x, y], [y, x]]) ask({ ask: "map", model: drive, set: [], x: across, y: up, method: "auto", undecided: "1/20", work: 1e9 });
   for (const command of ["margins", "bode"]) program(drive, command, "-", "--json", ...options(set));
   ask({ ask: "describe", model: drive.replace(`${y} = {`, "K = {") });
   program(null, "new", "--list");

@@ -13,6 +13,8 @@ export interface Model {
   outputs: string[];
   blocks: [string, string, string, string][];
   tolerances: boolean;
+  /** Where the loop is cut at first, where the program does not choose: the block that compares, else a signal that comes back. */
+  cut: string | null;
 }
 
 /** The same with its numbers as people write them: `0.0001` for `1/10000`. */
@@ -26,7 +28,7 @@ export function withDecimals(model: Model): Model {
 }
 
 /** Where the loop may be cut: signals and parameters. */
-export function signals({ blocks, parameters }: Model): string[] {
+export function signals({ blocks, parameters, cut }: Model): string[] {
   const names = parameters.map((p) => p.name);
-  return [...new Set([...blocks.flatMap((b) => b[2].split(", ")), ...names])].filter((n) => n !== "" && n !== "u" && n !== "y" || names.includes(n));
+  return [...new Set([...(cut === null ? [] : [cut]), ...blocks.flatMap((b) => b[2].split(", ")), ...names])].filter((n) => n !== "" && n !== "u" && n !== "y" || names.includes(n));
 }

@@ -7,6 +7,13 @@ export function isNumber(text: string): boolean {
   return NUMBER.test(text) && text.length < 4000;
 }
 
+/** What is wrong with a text that is no number. */
+export function hint(text: string): string {
+  const [, whole, part] = /^\s*([+-]?\d*),(\d+)\s*$/.exec(text) ?? [];
+  if (part !== undefined) return `a decimal point, not a comma: ${whole || "0"}.${part}`;
+  return "a number such as 110, 1e-4 or 1/3";
+}
+
 /** About. `p/q` of any length: both sides are scaled by their lengths. */
 export function float(text: string | null | undefined): number {
   if (text === null || text === undefined) return NaN;

@@ -4,7 +4,7 @@ import { h, s, table } from "./dom.js";
 import { type Scale, label, short } from "./numbers.js";
 import { type Box, Figure, around, axes, equal, path } from "./plot.js";
 import { ABOVE, BELOW, type Reads, Zoom, waiting, whole } from "./plots.js";
-import { documentOf, no } from "./reply.js";
+import { documentOf, instead, no } from "./reply.js";
 
 export class OpenLoopPlot {
   readonly figure: Figure;
@@ -28,9 +28,9 @@ export class OpenLoopPlot {
   }
 
   /** Where the loop may be cut. */
-  offer(signals: string[], cut: string): void {
+  offer(signals: string[], cut: string, automatic: boolean): void {
     const option = (value: string, text: string) => h("option", { value, selected: value === cut }, text);
-    this.cut.replaceChildren(option("", "cut: automatic"), ...signals.map((n) => option(n, `cut at ${n}`)));
+    this.cut.replaceChildren(...(automatic ? [option("", "cut: automatic")] : []), ...signals.map((n) => option(n, `cut at ${n}`)));
   }
 
   /** The curve, or why there is none. */
@@ -61,7 +61,7 @@ export class OpenLoopPlot {
   /** Why there is nothing; where the menu has an answer to that, so is this one. */
   private why(reply: any): string | undefined {
     const open = reply?.refused?.diagnostics?.some((d: any) => d.code === "E-cut");
-    return open && this.cut.options.length > 1 ? `${no(reply)}: choose it above` : no(reply);
+    return open && this.cut.options.length > 1 ? `${no(reply)}: choose it above` : instead(reply);
   }
 
   private paintBode(svg: SVGSVGElement, width: number, height: number, data: any): void {
@@ -120,10 +120,10 @@ export class OpenLoopPlot {
     this.figure.wait((curve.late && this.data?.frequency) || (margins.late && this.margins?.at));
     const message = this.why(this.data) ?? this.why(this.margins);
     const found = this.margins;
-    if (message || !found?.at) {
-      this.figure.say(message ?? "");
-      this.figure.tabulate(() => []);
-    } else if (!found.stable) {
+    const waits = !(curve.reply && margins.reply);
+    if (message && !waits && this.data?.frequency) this.figure.say(message);
+    else if (message || !found?.at) this.figure.nothing(message ?? "", waits);
+    else if (!found.stable) {
       this.figure.say(`Cut at ${found.at}. The loop is ${found.verdict}: it has no margins.`);
       this.figure.tabulate(() => [this.table()]);
     } else {

@@ -102,6 +102,7 @@ export class Figure {
   readonly controls: HTMLElement;
   private readonly waits = h("span", { class: "waits", hidden: true }, "computing …; this is of the values before");
   private readonly table: HTMLDetailsElement;
+  private readonly summary: HTMLElement;
   private size = { width: 0, height: 0 };
   private pending: "" | "some" | "all" = "";
   private seen = true;
@@ -119,7 +120,8 @@ export class Figure {
     this.sentence = h("p", { id: `${id}-sentence`, class: "sentence" });
     this.extra = h("div", { class: "table", tabindex: 0, role: "region", "aria-label": `${tableTitle} (${title})` });
     this.controls = h("div", { class: "controls" });
-    this.table = h("details", { toggle: () => this.fill() }, h("summary", {}, tableTitle), this.extra);
+    this.summary = h("summary", {}, tableTitle);
+    this.table = h("details", { toggle: () => this.fill() }, this.summary, this.extra);
     this.element = h(
       "section",
       { class: "figure", id, "aria-labelledby": `${id}-title` },
@@ -182,6 +184,24 @@ export class Figure {
 
   say(text: string): void {
     if (this.sentence.textContent !== text) this.sentence.textContent = text;
+    this.empty(false);
+  }
+
+  /** Why there is nothing: said once, with no empty picture above it. What is being computed keeps its place. */
+  nothing(text: string, waits: boolean): void {
+    this.say(text);
+    this.empty(!waits && text !== "");
+    this.tabulate(() => []);
+  }
+
+  private empty(is: boolean): void {
+    this.svg.parentElement!.hidden = is;
+    this.table.hidden = is;
+  }
+
+  /** What the table is about, where that depends on the answer. */
+  head(title: string): void {
+    if (this.summary.textContent !== title) this.summary.textContent = title;
   }
 
   /** What the table holds, made once somebody opens it. */

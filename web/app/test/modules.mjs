@@ -7,6 +7,8 @@ import { withoutPlaceholders } from "../placeholders.mjs";
 import { random } from "./models.mjs";
 
 const numbers = await moduleOf("numbers.ts");
+const replies = await moduleOf("reply.ts");
+const about = await moduleOf("about.ts");
 const copy = await moduleOf("copy.ts");
 const overModule = await moduleOf("over.ts");
 const paste = await moduleOf("paste.ts");
@@ -49,6 +51,27 @@ test("what an end is a zero of is said in words", () => {
 test("numbers are told from what is none", () => {
   for (const text of ["110", "1e-4", " 1/3 ", "-.5", "+2.", "1.5e3/2.5"]) assert.ok(numbers.isNumber(text), text);
   for (const text of ["", "e5", "1/", "--1", "1 2", "0x1", "inf", "1/2/3", "1,5"]) assert.ok(!numbers.isNumber(text), text);
+});
+
+test("a decimal comma is told from other mistakes", () => {
+  assert.equal(numbers.hint("12,5"), "a decimal point, not a comma: 12.5");
+  assert.equal(numbers.hint(" -,5"), "a decimal point, not a comma: -.5");
+  for (const text of ["", "x", "1,2,3", "1/2,5", "12,"]) assert.equal(numbers.hint(text), "a number such as 110, 1e-4 or 1/3", text);
+});
+
+test("where there is no answer, it is said once and with what can be asked instead", () => {
+  const refused = (message, help) => ({ refused: { diagnostics: [{ code: "E-dead-time", message, help }] } });
+  assert.equal(replies.instead(refused("this cannot be asked", "what can be asked: verdict")), "This cannot be asked. What can be asked: verdict.");
+  assert.equal(replies.instead(refused("this cannot be asked", null)), "this cannot be asked");
+  assert.equal(replies.instead({ stopped: "cancelled" }), "undecided: cancelled");
+  assert.equal(replies.instead({ output: "{}" }), undefined);
+});
+
+test("roots are counted in words, with dead time too", () => {
+  assert.equal(about.counted({ time: "discrete", degree: 6, inside: 5, on: 0, outside: 1, infinite: 0 }), "5 of 6 roots inside the unit circle, 1 outside");
+  const delayed = (on, outside) => about.counted({ time: "continuous", degree: 2, inside: null, on, outside, infinite: null });
+  assert.equal(delayed(0, 0), "no roots in the right half plane, of infinitely many");
+  assert.equal(delayed(2, 1), "1 root in the right half plane, 2 on the axis, of infinitely many");
 });
 
 test("the neighbour of an end is the next decimal on the side that is asked for", () => {

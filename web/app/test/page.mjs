@@ -165,6 +165,80 @@ test("a map is cancelled in its middle, and the next answer comes from a new wor
   await page.open(fromFile);
 });
 
+test("a loop with dead time has all its panels, and its map is by boxes", async () => {
+  const text = readFileSync(join(root, "examples/dead-time-pi.toml"), "utf8");
+  await page.open(fromFile);
+  await page.take(text);
+  const said = (id) => page.value(`document.getElementById("${id}-sentence").textContent`);
+  const count = (what) => page.value(`document.querySelectorAll(${JSON.stringify(what)}).length`);
+  assert.equal(await page.value('document.getElementById("verdict-roots").textContent'), "no roots in the right half plane, of infinitely many");
+  assert.match(await said("map"), /^K_c and T_i by boxes: [\d.]+ % of the window is proved stable, [\d.]+ % unstable, 0.\d+ % is undecided \(hatched\). There is no exact map of such a loop. The point is at K_c = 1, T_i = 8, stable.$/);
+  assert.match(await page.value('document.querySelector("#map svg").textContent'), /by boxes, 0.\d+ % undecided/);
+  assert.deepEqual([await count("#map .region"), await count("#map path.open"), await count("#map .outside")], [1, 1, 1]);
+  assert.match(await said("locus"), /^The 10 rightmost of infinitely many roots, a pair counted once: all others are left of Re s = −1.5, proved./);
+  assert.equal(await count("#locus .root"), 19);
+  assert.match(await said("response"), /^y \(unit step of r\): largest/);
+  assert.match(await said("open-loop"), /^Cut at controller: gain margin 8.0\d* dB.* phase margin/);
+  assert.equal(await count("#open-loop .line"), 2);
+  assert.equal(await page.value('[...document.querySelectorAll(".canvas")].filter((e) => !e.offsetParent).length'), 0);
+  await overflow("dead time");
+  await shot("dead-time");
+  // What a box is proved to be is what the program says of its points.
+  const next = random(7);
+  const boxes = await page.value('jurist.page.known("finer map").reply');
+  for (const kind of ["stable", "unstable"]) {
+    for (let k = 0; k < 10; k++) {
+      const [u, v, r, t] = boxes.boxes[kind][Math.floor(next() * boxes.boxes[kind].length)];
+      const at = ({ lower, upper }, a, b) => String(lower + (upper - lower) * (a + (b - a) * (0.1 + 0.8 * next())));
+      const [K, T] = [at(boxes.x, u, r), at(boxes.y, v, t)];
+      const { verdict } = program(text, "verdict", "--json", "--set", `K_c=${K}`, "--set", `T_i=${T}`);
+      assert.equal(verdict === "stable", kind === "stable", `${kind} at K_c = ${K}, T_i = ${T}: ${verdict}`);
+    }
+  }
+  await page.value('jurist.page.entered("K_c", "3", true)');
+  await page.settled();
+  assert.equal(await page.value('document.getElementById("verdict-roots").textContent'), "2 roots in the right half plane, of infinitely many");
+  assert.match(await said("locus"), /The root farthest right is 0\.\d+ \+ 0\.\d+i/);
+  assert.deepEqual(page.complaints(), []);
+});
+
+test("smaller boxes are cancelled and the larger ones stay; an exact map can be waited for", async () => {
+  await page.open(fromFile);
+  await page.take(readFileSync(join(root, "examples/drive-hold.toml"), "utf8"), { map: false });
+  const said = () => page.value('document.getElementById("map-sentence").textContent');
+  await page.until('jurist.engine.busy === "finer map" || jurist.page.known("finer map").now');
+  await page.value("jurist.engine.cancel(true)");
+  await page.settled();
+  assert.match(await said(), /^K_pwm and T by boxes: .* % is undecided \(hatched\).* There is no exact map of such a loop. (Smaller boxes: undecided: cancelled. )?The point is at K_pwm = 110, T = 0.0001, stable/);
+  assert.equal(await page.value('document.querySelectorAll("#map path.open").length'), 1);
+  // Where the loop is cut: at the error, which the program does not choose of two loops.
+  assert.equal(await page.value('document.querySelector("#open-loop select").value'), "speed controller");
+  assert.match(await page.value('document.getElementById("open-loop-sentence").textContent'), /^Cut at speed controller: gain margin/);
+  await overflow("behind a hold");
+  await shot("hold");
+  await page.take(drive.replace(/^/, "# the same once more\n"));
+  const exact = 'document.querySelector("#map .controls button")';
+  assert.equal(await page.value(`${exact}.hidden`), true);
+  await page.value(`(() => {
+    const { page } = jurist;
+    const known = page.questions.known.bind(page.questions);
+    const reply = { ...known("map").reply, long: true };
+    page.questions.known = (lane) => (lane === "map" ? { ...known(lane), reply } : known(lane));
+    page.map.show();
+  })()`);
+  assert.equal(await page.value(`${exact}.hidden`), false);
+  await page.value(`${exact}.click()`);
+  assert.equal(await page.value('jurist.page.questions.lanes().find((q) => q.lane === "map").request.work'), undefined);
+  await page.open(fromFile);
+});
+
+test("a decimal comma is answered with the point", async () => {
+  await page.open(fromFile);
+  await page.value('(() => { const box = document.querySelector(".parameter input"); box.value = "12,5"; box.dispatchEvent(new Event("input", { bubbles: true })); })()');
+  assert.equal(await page.value('document.querySelector(".parameter .wrong").textContent'), "a decimal point, not a comma: 12.5");
+  assert.equal(await page.value('jurist.page.values.get("K_pwm")'), "110");
+});
+
 test("a defect takes its worker with it and not the page", async () => {
   await page.open(fromFile);
   // What a trap looks like from outside: the worker says so and is thrown away.
