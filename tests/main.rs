@@ -103,6 +103,7 @@ mod certificates {
     mod attacks;
     mod blocks;
     mod boxes;
+    mod boxes_held;
     mod check;
     mod coq;
     mod dead_time;
@@ -131,6 +132,7 @@ mod expectations {
 mod ship {
     mod bounds;
     mod cases;
+    mod dsverifier;
     mod roundings;
 }
 

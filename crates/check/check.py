@@ -662,10 +662,10 @@ BELOW_PI = Fraction(31415926535897932384626433832795028, 10 ** 34)
 class Loop:
     """Equations of signals and states, and everything that is divided by."""
 
-    def __init__(self, model, variables, values=None, symbols=None):
+    def __init__(self, model, variables, values=None, symbols=None, boxed=0):
         self.z, self.taken, root = model.z, model.taken, model.root
         self.values, self.symbols, self.sample_time = values, symbols, root.get("sample_time")
-        self.first = 2 + len(values or [])  # symbols are the variables from here on
+        self.first = 2 + len(values or []) + boxed  # symbols are the variables from here on
         self.moving = symbols if isinstance(symbols, Moving) else None
         if self.moving:
             self.moving.is_continuous = self.z == "s"
@@ -999,7 +999,9 @@ def product_of(m, k, bits):
             corners = [a * b for a in x for b in y]
             out = added(out, (min(corners), max(corners)))
         return floor_shift(out, bits)
-    spend(len(m) ** 3, bits, bits)
+    of_m, of_k = (size(end for row in matrix for x in row for end in x) for matrix in (m, k))  # large arguments make long numbers
+    hold(2 * len(m) ** 2, of_m + of_k)
+    spend(len(m) ** 3, max(of_m, bits), max(of_k, bits))
     return [[entry(row, column) for column in zip(*k)] for row in m]
 
 def solutions(monic, t, bits):
@@ -1200,6 +1202,13 @@ class Table:
 
     def enclosures(self, p):
         """The coefficients of the powers of the parameter, enclosed."""
+        out = [(0, 0)] * (p.degree(1) + 1 if p else 0)
+        for e, c in self.beside(p, 2).items():
+            out[e >> FIELD] = c
+        return out
+
+    def beside(self, p, first):
+        """The coefficients of the monomials in the variables before the symbols, enclosed."""
         if self.values is None:
             self.values = []
             for kind, *of in self.symbols:
@@ -1213,9 +1222,9 @@ class Table:
                     ends = [Fraction(s << self.bits, c) for s in sine for c in cosine]
                     value = min(ends) // 1, -(-max(ends) // 1)
                 self.values.append(value)
-        one, out, known = (1 << self.bits,) * 2, [(0, 0)] * (p.degree(1) + 1 if p else 0), {}
+        one, out, known = (1 << self.bits,) * 2, {}, {}
         for e, c in p.items():
-            k, e = e >> FIELD & MASK, e >> 2 * FIELD
+            k, e = e & (1 << FIELD * first) - 1, e >> FIELD * first
             if e not in known:
                 product, rest = one, e
                 for x in self.values:
@@ -1224,7 +1233,7 @@ class Table:
                     rest >>= FIELD
                 need(not rest, "a polynomial has a variable that is no symbol")
                 known[e] = product
-            out[k] = added(out[k], scaled_by(known[e], c))
+            out[k] = added(out.get(k, (0, 0)), scaled_by(known[e], c))
         return out
 
 def square_root(q):
@@ -1342,7 +1351,7 @@ def loop_of(text, kept, values, boxed=(), symbols=None):
     values = list(values.values())
     if isinstance(symbols, Moving):
         symbols.next = 2 + len(values) + len(boxed)  # behind all others
-    return model, Loop(model, variables, values, Table() if symbols is None else symbols), values
+    return model, Loop(model, variables, values, Table() if symbols is None else symbols, len(boxed)), values
 
 def characteristic_polynomial(text, kept, values, symbols=None):
     """Whether time is discrete, the degree, the coefficients of z^0, z^1, ... (none if undefined), the poles."""
@@ -1627,51 +1636,73 @@ def half_size_pair(d, discrete):
 # ---------------------------------------------------------------- boxes of tolerances
 
 class Tensor:
-    """Bernstein coefficients of polynomials over a box, each polynomial times a positive number; the last axis is the frequency and
-    runs fastest."""
+    """Bernstein coefficients of polynomials over a box, each polynomial times a positive number, and by how much they may be off at most; the
+    last axis is the frequency and runs fastest."""
 
-    def __init__(self, counts, planes):
-        self.counts, self.planes = counts, planes
+    def __init__(self, counts, planes, slack=(0, 0)):
+        self.counts, self.planes, self.slack = counts, planes, slack
 
     @staticmethod
-    def of(lists, sides):
-        """Of lists of polynomials in the variables from 2 on, each list for the powers of the frequency."""
+    def of(lists, sides, ring, scales=None):
+        """Of lists of polynomials in the variables from 2 on, each list for the powers of the frequency, which count times these numbers."""
         counts = [1 + max(p.degree(2 + i) for p in sum(lists, [])) for i in range(len(sides))] + [len(lists[0])]
         need(prod(counts) <= 1 << 17, "a box has too many coefficients")
-        planes = []
-        for powers in lists:
-            plane = [0] * prod(counts)
-            for j, p in enumerate(powers):
-                for e, c in p.items():
-                    place, e = 0, e >> 2 * FIELD
+        planes, slack = [], []
+        for powers, factors in zip(lists, scales or [[1] * len(lists[0])]):
+            plane, off = [0] * prod(counts), 0
+            for j, (p, factor) in enumerate(zip(powers, factors)):
+                known = ring.known(p)
+                for e, (c, _) in known.items():
+                    place = 0
                     for count in counts[:-1]:
                         place, e = place * count + (e & MASK), e >> FIELD
                     plane[place * len(powers) + j] = c
+                off = max(off, factor * Tensor.loose({e: radius for e, (_, radius) in known.items() if radius}, sides, counts))
             planes.append(plane)
-        tensor = Tensor(counts, planes)
+            slack.append(-(-off // 1))
+        tensor = Tensor(counts, planes, slack)
         for i, side in enumerate(sides):
             if counts[i] > 1:
                 tensor.change_basis(i, *side)
         return tensor
 
     @staticmethod
-    def of_pair(p, sides, v0, weight):
+    def loose(radii, sides, counts):
+        """By how much Bernstein coefficients are off at most, times what a change of basis makes of them: those of a power of a parameter are means
+        of products of its ends."""
+        if not radii:
+            return 0
+        bits = sum((count - 1) * (2 * size(x for end in side for x in end.as_integer_ratio()) + 4) for side, count in zip(sides, counts))
+        hold(1, bits + size(radii.values()))
+        spend(len(radii) + len(sides), bits, bits)
+        total = Fraction(0)
+        for e, radius in radii.items():
+            for side in sides:
+                radius, e = radius * max(map(abs, side)) ** (e & MASK), e >> FIELD
+            total += radius
+        return total * prod(lcm(*(end.denominator for end in side)) ** (count - 1) * lcm(*(comb(count - 1, e) for e in range(count)))
+                            for side, count in zip(sides, counts) if count > 1)
+
+    @staticmethod
+    def of_pair(p, sides, v0, weight, ring):
         """Of (1 - t)^k E and weight (1 - t)^k O, v = v0 t/(1 - t), p(i w) = E(v) + i w O(v), v = w^2."""
         k = (len(p) - 1) // 2
         p = [c * number((-1) ** (j // 2)) for j, c in enumerate(p + [ZERO])]
-        tensor = Tensor.of([p[0:2 * k + 1:2], p[1:2 * k + 2:2]], sides)
-        scale_bits = k * (2 + size(v0.as_integer_ratio()))
-        hold(len(tensor.planes[0]), size(c for plane in tensor.planes for c in plane) + scale_bits)
-        spend(4 * k, scale_bits, k)
         ways = [comb(k, j) for j in range(k + 1)]
         top, bottom, common = v0.numerator, v0.denominator, lcm(*ways)
-        for plane, w in zip(tensor.planes, (weight.denominator, weight.numerator)):
-            scales = [w * top ** j * bottom ** (k - j) * common // ways[j] for j in range(k + 1)]
-            spend(len(plane), size(plane), size(scales))
-            for j, scale in enumerate(scales):
+        scale_bits = k * (2 + size(v0.as_integer_ratio()))
+        hold(k + 1, scale_bits)
+        spend(4 * k, scale_bits, k)
+        scales = [[w * top ** j * bottom ** (k - j) * common // ways[j] for j in range(k + 1)]
+                  for w in (weight.denominator, weight.numerator)]
+        tensor = Tensor.of([p[0:2 * k + 1:2], p[1:2 * k + 2:2]], sides, ring, scales)
+        hold(len(tensor.planes[0]), size(c for plane in tensor.planes for c in plane) + scale_bits)
+        for plane, factors in zip(tensor.planes, scales):
+            spend(len(plane), size(plane), size(factors))
+            for j, scale in enumerate(factors):
                 plane[j::k + 1] = [c * scale for c in plane[j::k + 1]]
-        common = gcd(*(c for plane in tensor.planes for c in plane)) or 1
-        return Tensor(tensor.counts, [[c // common for c in plane] for plane in tensor.planes])
+        common = 1 if any(tensor.slack) else gcd(*(c for plane in tensor.planes for c in plane)) or 1
+        return Tensor(tensor.counts, [[c // common for c in plane] for plane in tensor.planes], tensor.slack)
 
     def slices(self, plane, axis):
         """The coefficients with each index along an axis."""
@@ -1728,7 +1759,8 @@ class Tensor:
                 level = [list(map(int.__add__, a, b)) for a, b in zip(level, level[1:])]
             low.append(self.joined(lower, axis))
             high.append(self.joined(upper, axis))
-        return Tensor(self.counts, low), Tensor(self.counts, high)
+        slack = [off << last for off in self.slack]
+        return Tensor(self.counts, low, slack), Tensor(self.counts, high, slack)
 
     def combined(self, a, b):
         spend(2 * len(self.planes[0]), size(self.planes[0]), size([a, b]))
@@ -1743,15 +1775,15 @@ class Tensor:
                             for j, (below, here) in enumerate(zip([none, *parts], [*parts, none]))], axis)
 
     def affine(self, axes, vectors):
-        """Of the product with a vector that is affine along axes."""
-        total = None
+        """Of the product with a vector that is affine along axes, and by how much it may be off."""
+        total, off = None, sum(abs(a) * self.slack[0] + abs(b) * self.slack[1] for a, b in vectors)
         for k, (a, b) in enumerate(vectors):
             term, shape = self.combined(a, b), Tensor(self.counts[:], [])
             for i, axis in enumerate(axes):
                 term = shape.raised(term, axis, k == i + 1)
                 shape.counts[axis] += 1
             total = term if total is None else list(map(int.__add__, total, term))
-        return total
+        return total, off * prod(self.counts[axis] for axis in axes)  # with one degree more the weights add up to that
 
 NODE = re.compile(r"x|s([0-9]{1,6}),|l(-?[0-9]+,-?[0-9]+);|a((?:[0-9]{1,6},|x,)*(?:[0-9]{1,6}|x)):([-0-9,]+);|[+-]")
 
@@ -1773,7 +1805,7 @@ def follow(tree, whole):
             stack += cell.halves(axis)[::-1]
         elif letter in "+-":
             need(not pair, "a sign where a vector must be")
-            need(all(c > 0 if letter == "+" else c < 0 for c in cell.planes[0]), "a leaf has not its sign")
+            need(all((c if letter == "+" else -c) > cell.slack[0] for c in cell.planes[0]), "a leaf has not its sign")
         else:
             need(pair, "a vector where a sign must be")
             axes = [last if axis == "x" else int(axis) for axis in node[3].split(",")] if letter == "a" else []
@@ -1781,15 +1813,17 @@ def follow(tree, whole):
             need("x" in (node[3] or "") or last not in axes, "a leaf has an axis that is not there")
             numbers = [integer(c) for c in (node[2] or node[4]).split(",")]
             need(len(numbers) == 2 * len(axes) + 2, "a leaf has not one vector for each axis and one more")
-            need(all(c > 0 for c in cell.affine(axes, list(zip(numbers[::2], numbers[1::2])))), "a leaf is not on one side")
+            product, off = cell.affine(axes, list(zip(numbers[::2], numbers[1::2])))
+            need(all(c > off for c in product), "a leaf is not on one side")
     need(at == len(tree), "something follows a tree")
 
 def over_box(text, names, values, symbols=None):
     """The coefficients in the parameters of a box, which are the variables from 2 on, and lists of polynomials at whose common zeros
     the loop is undefined."""
     model, loop, values = loop_of(text, None, values, names, symbols)
-    if symbols:
-        symbols.given(values)
+    moving = loop.moving
+    if moving:
+        moving.given(values)
     divisors = [cleared(divisor.at(values).coefficients(0)) for divisor in loop.scope.divisors]
 
     def system(equations, unknowns):
@@ -1808,23 +1842,70 @@ def over_box(text, names, values, symbols=None):
         divisors.append([own.lead(0) if own.degree(0) == len(states) else ZERO])
     if "characteristic" not in model.root["loop"]:
         divisors.append([d.lead(0) if d.degree(0) == loop.degree else ZERO])
-        if symbols:
-            symbols.has_lead_last = True
+        if moving:
+            moving.has_lead_last = True
     return model.discrete, d.coefficients(0) + [ZERO] * (loop.degree - d.degree(0)), divisors
 
-def vanishes_only_with(p, factors):
-    """Whether nothing but a number is left of a polynomial when what it has in common with the factors is divided out."""
-    p = p.primitive()
-    for f in factors:  # most often enough, and cheap beside common divisors
-        while any(p) and (quotient := p / f) is not None:
-            p = quotient
-    for f in factors:
-        while any(p) and any(common := p.common(f)):
-            p = p / common
-    return bool(p) and not any(p)
+class InBox:
+    """Polynomials in the parameters of a box, with integers or with polynomials in the symbols of a table for coefficients."""
+
+    def __init__(self, parameters, table=None):
+        self.table, self.parameters = table, parameters
+        self.read = boxed(parameters + (len(table.symbols) if table else 0))
+
+    def has_parameters(self, p):
+        return any(e & (1 << FIELD * (2 + self.parameters)) - 1 for e in p)
+
+    def known(self, p):
+        """What stands with the exponents of the parameters, and by how much that may be off, all times one positive number."""
+        if not self.table:
+            return {e >> 2 * FIELD: (c, 0) for e, c in p.items()}
+        return {e >> 2 * FIELD: (lo + hi, hi - lo) for e, (lo, hi) in self.table.beside(p, 2 + self.parameters).items()}
+
+    def vanishes_only_with(self, p, factors):
+        """Whether nothing but a number other than zero is left of a polynomial when what it has in common with the factors is divided out."""
+        p = p.primitive()
+        for f in factors:  # most often enough, and cheap beside common divisors
+            while self.has_parameters(p) and (quotient := p / f) is not None:
+                p = quotient
+        for f in factors:
+            while self.has_parameters(p) and self.may_share(p, f) and any(common := p.common(f)):
+                p = p / common
+        return bool(p) and not self.has_parameters(p) and all(abs(about) > off for about, off in self.known(p).values())
+
+    def may_share(self, p, f):
+        """Whether there may be a common factor with a parameter in it, as images in one variable tell."""
+        shared = [v for v in range(2, 2 + self.parameters) if p.degree(v) and f.degree(v)]
+        return any(len(common_image(image(p, v, POINTS[0]), image(f, v, POINTS[0]))) != 1 for v in shared)
+
+    def at(self, polynomials, point):
+        """Polynomials in symbols, together times a positive number."""
+        return cleared([p.at(point) for p in polynomials])
+
+    def is_stable(self, d, point, discrete):
+        if not self.table:
+            d, n = at_point(d, point), len(d) - 1
+            return len(d) == n + 1 and places(d, discrete) == (n, 0, 0)
+        d = [(self.table.enclosures(c) or [(0, 0)])[0] for c in self.at(d, point)]
+        return OverSymbols(self.table).inside(d, True) == len(d) - 1
+
+    def vanish(self, polynomials, point):
+        """Whether all vanish there; that one does not is to be certain."""
+        at = [c for c in self.at(polynomials, point) if c]
+        need(not at or not self.table or any(map(OverSymbols(self.table).is_nonzero, at)), "a divisor is not shown to be other than zero")
+        return not at
+
+    def places(self, d, point, discrete):
+        if not self.table:
+            d = at_point(d, point)
+            return places(d, discrete) if d else (0, 0, 0)
+        d = self.at(d, point)
+        while d and not d[-1]:
+            d.pop()
+        return OverSymbols(self.table).places(d, []) if d else (0, 0, 0)
 
 def boxed(parameters):
-    """A reader of polynomials in so many parameters of a box, which are the variables from 2 on."""
+    """A reader of polynomials in so many parameters of a box (and symbols behind them), which are the variables from 2 on."""
     def read(json_value):
         out = {}
         for c, *exponents in items(json_value, lambda term: items(term, lambda item: item)):
@@ -1862,8 +1943,9 @@ def beside(given, own):
     return common
 
 def check_tolerance(model, document, statement, values, discrete, extent):
+    symbols, further = table_of(document)
     names = ["schema", "statement", "characteristic", "factors", "pair"]
-    _, _, given, factors, pair = parts(document, names, ["model"])
+    _, _, given, factors, pair, *_ = parts(document, names + further, ["model"])
     keys = ["kind", "time", "set", "region", "tolerances", "factor", "limit", "beyond"]
     *_, tolerances, factor, limit, beyond = parts(statement, keys)
     need(extent != "parameter", "the region has no parameter here")
@@ -1881,26 +1963,25 @@ def check_tolerance(model, document, statement, values, discrete, extent):
         factors = [of_limit if of_limit is not None and limit in (None, name) else factor for name in names]
         return [[x + factor * (end - x) for end in ends] for factor, x, ends in zip(factors, nominal, between)]
 
-    is_discrete, own, divisors = over_box(model, names, values)
-    need(is_discrete == discrete, "the model's time is another")
-    read = boxed(len(names))
-    own, given = in_region(own, discrete, extent), items(given, read)
+    is_discrete, own, divisors = over_box(model, names, values, symbols)
+    need(is_discrete == discrete and (discrete or not symbols), "the model's time is another")
+    ring = InBox(len(names), symbols)
+    own, given = in_region(own, discrete, extent), items(given, ring.read)
     common, given = beside(given, own), cleared(given)
     n, p = len(given) - 1, in_half_plane(given) if discrete else given
     sides, known = at_factor(factor), []
     for item in items(factors, lambda item: parts(item, ["polynomial", "tree"])):
-        f = read(item[0]).primitive()
-        need(any(f), "factors: one is constant")
-        follow(item[1], Tensor.of([[f]], sides))
+        f = ring.read(item[0]).primitive()
+        need(ring.has_parameters(f), "factors: one is constant")
+        follow(item[1], Tensor.of([[f]], sides, ring))
         known.append(f)
     for ways in [[common], [p[0]], [p[n]], *divisors]:
-        need(any(vanishes_only_with(way, known) for way in ways), "factors: what must not vanish is not a product of them")
+        need(any(ring.vanishes_only_with(way, known) for way in ways), "factors: what must not vanish is not a product of them")
     v0, weight, tree = parts(pair, ["v0", "weight", "tree"])
     v0, weight = rational(v0), rational(weight)
     need(v0 > 0 and weight > 0, "pair: a scale is not positive")
-    follow(tree, Tensor.of_pair(p, sides, v0, weight))
-    d = at_point(given, nominal)
-    need(len(d) == n + 1 and places(d, discrete) == (n, 0, 0), "stable: the nominal point is not")
+    follow(tree, Tensor.of_pair(p, sides, v0, weight, ring))
+    need(ring.is_stable(given, nominal, discrete), "stable: the nominal point is not")
     sentence = "For all " + ", ".join("{} from {} to {}".format(name, *inward(*side)) for name, side in zip(names, sides))
     sentence += f"{and_with(values)}, the loop is stable{within(discrete, extent)}; these are the tolerances times {exact(factor)}."
     keys = ["factor", "point", "degree", "inside", "on", "outside", "infinite"]
@@ -1909,8 +1990,8 @@ def check_tolerance(model, document, statement, values, discrete, extent):
         need(own_factor >= 0 and len(point) == len(names), "beyond: there is no point")
         box = at_factor(factor, own_factor)
         need(all(low <= x <= high for x, (low, high) in zip(point, box)), "beyond: the point is not in its box")
-        undefined, d = any(not at_point(ways, point) for ways in divisors), at_point(own, point)
-        found = places(d, discrete) if d and not undefined else (0, 0, 0)
+        undefined = any(ring.vanish(ways, point) for ways in divisors)
+        found = (0, 0, 0) if undefined else ring.places(own, point, discrete)
         found = [n, *found, 0 if undefined else n - sum(found)]
         need([*map(count, counts)] == found, f"beyond: the counts are {found}")
         need(undefined or found[1] < n, "beyond: the point is stable")
@@ -2055,7 +2136,7 @@ def check_map(model, document, statement, values, discrete, extent):
     factors = [f.primitive() for f in items(factors, ring.read)]
     need(all(map(any, factors)), "factors: one is constant")
     for ways in divisors + [[p] for p in (common, *certain, *([identity["value"]] if identity else []))]:
-        need(any(vanishes_only_with(way, factors) for way in ways), "factors: a boundary polynomial is not a product of them")
+        need(any(InBox(2).vanishes_only_with(way, factors) for way in ways), "factors: a boundary polynomial is not a product of them")
     curves = [curve(f) for f in factors]
     with_y = [f for f in curves if len(f) > 1]
     # The values of x where curves may meet, turn, leave or end.
@@ -3708,13 +3789,13 @@ def read(certificate):
     need(isinstance(document, dict) and document.get("schema") in SCHEMAS, "unknown schema")
     return document
 
-SCHEMAS = [f"jurist/certificate/{version}" for version in range(1, 8)]
-RATIONAL, WITH_SYMBOLS, WITH_DEAD_TIME, OF_BOXES, OF_MAPS, OF_CELLS, OF_MAPS_BY_BOXES = SCHEMAS
+SCHEMAS = [f"jurist/certificate/{version}" for version in range(1, 9)]
+RATIONAL, WITH_SYMBOLS, WITH_DEAD_TIME, OF_BOXES, OF_MAPS, OF_CELLS, OF_MAPS_BY_BOXES, OF_BOXES_WITH_SYMBOLS = SCHEMAS
 FURTHER = ["bits", "symbols", "modes"]
 
 def table_of(document):
     """The symbols, if the certificate has any; and the keys for them."""
-    if document["schema"] == RATIONAL:
+    if document["schema"] not in (WITH_SYMBOLS, OF_BOXES_WITH_SYMBOLS):
         return None, []
     return Table(*(document[key] for key in FURTHER)), FURTHER
 
@@ -3725,7 +3806,8 @@ def check(model, certificate):
     document = read(certificate)
     statement = document["statement"]
     kind, time, values, region = (statement[key] for key in ("kind", "time", "set", "region"))
-    kinds = {OF_BOXES: ["tolerance"], OF_MAPS: ["map"], OF_CELLS: ["cells", "verdict"], OF_MAPS_BY_BOXES: ["boxes"]}
+    kinds = {OF_BOXES: ["tolerance"], OF_MAPS: ["map"], OF_CELLS: ["cells", "verdict"], OF_MAPS_BY_BOXES: ["boxes"],
+             OF_BOXES_WITH_SYMBOLS: ["tolerance"]}
     need(kind in kinds.get(document["schema"], ["intervals", "verdict"]), "unknown kind of statement")
     need(time in ("discrete", "continuous"), "unknown time")
     discrete = time == "discrete"

@@ -62,6 +62,7 @@ if TYPE_CHECKING:
     from ._report import Report
     from ._response import Bode, FrequencyResponse, Nyquist
     from ._roots import Root, Roots
+    from ._ship import Coefficient, Fewest, NumberFormat, Required, Ship, SignalRange
     from ._tolerance import Factor, Tolerance, Worst
     from ._rows import SweepResult
     from ._sweep import ray_executor, sweep, sweep_batches
@@ -75,6 +76,7 @@ _LATER = {
     **dict.fromkeys(("Bode", "FrequencyResponse", "Nyquist"), "_response"),
     "Report": "_report",
     **dict.fromkeys(("Root", "Roots"), "_roots"),
+    **dict.fromkeys(("Coefficient", "Fewest", "NumberFormat", "Required", "Ship", "SignalRange"), "_ship"),
     **dict.fromkeys(("Factor", "Tolerance", "Worst"), "_tolerance"),
     "from_control": "_control",
     "margins": "_control",
@@ -92,6 +94,7 @@ __all__ = [
     "Body",
     "Cause",
     "CertificateRejected",
+    "Coefficient",
     "Condition",
     "DelayMargin",
     "Diagnostic",
@@ -99,6 +102,7 @@ __all__ = [
     "Document",
     "End",
     "Factor",
+    "Fewest",
     "FrequencyResponse",
     "GainCrossing",
     "InternalError",
@@ -113,6 +117,7 @@ __all__ = [
     "Margins",
     "ModelError",
     "Norm",
+    "NumberFormat",
     "Nyquist",
     "Parameter",
     "Peak",
@@ -125,8 +130,11 @@ __all__ = [
     "QuestionError",
     "Real",
     "Report",
+    "Required",
     "Root",
     "Roots",
+    "Ship",
+    "SignalRange",
     "Simulation",
     "StableSet",
     "SweepResult",

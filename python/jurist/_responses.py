@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Unpack, cast
 from ._asking import Asker
 from ._curves import Locus, Simulation
 from ._exact import Exact, fraction, text_of
-from ._question import Bounds, Waiting
+from ._question import Asking, Bounds, Waiting
 
 if TYPE_CHECKING:
     from ._loop import Loop
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from ._report import Report
     from ._response import Bode, Nyquist
     from ._roots import Roots
+    from ._ship import Ship
 
 
 class ResponseQuestions(Asker):
@@ -146,6 +147,84 @@ class ResponseQuestions(Asker):
         words = self._words("roots", asked)
         words += [] if rightmost is None else [f"--rightmost={rightmost}"]
         return roots_of(self._document(words, asked))
+
+    def ship(
+        self,
+        block: str | None = None,
+        values: Mapping[str, Exact] | None = None,
+        *,
+        format: str | None = None,
+        signal: str | None = None,
+        inputs: Mapping[str, Exact] | None = None,
+        realisation: str | None = None,
+        round: str | None = None,
+        fewest: bool = False,
+        param: str | None = None,
+        **question: Unpack[Asking],
+    ) -> Ship:
+        """The controller as it is stored and run: rounded coefficients, every rounding, fewest bits, ranges of signals.
+
+        What is not given is as the model's ``[ship]`` says.
+
+        Parameters
+        ----------
+        block : str, optional
+            The block that is the controller.
+        values : mapping, optional
+            Of parameters and constants.
+        format : str, optional
+            How coefficients are stored: ``"Q2.13"`` (sign, 2 bits before and 13 behind the point), ``"float32"`` or ``"float64"``.
+        signal : str, optional
+            How signals are stored, such as ``"Q5.10"``.
+        inputs : mapping, optional
+            The greatest magnitudes of inputs of the loop, for ranges of signals.
+        realisation : str, optional
+            The order of operations: ``"df1"``, which is meant where nothing says it, ``"df2"``, ``"df2t"``, ``"sos"``, ``"parallel"``,
+            ``"delta"`` or ``"state"``.
+        round : str, optional
+            How coefficients are rounded: ``"nearest"``, ``"even"``, ``"half-up"``, ``"floor"``, ``"ceil"`` or ``"zero"``.
+        fewest : bool
+            Also says how many bits behind the point are enough.
+        param : str, optional
+            Also gives the stable sets of this parameter with more and more bits.
+        **question
+            What every question takes; see `intervals`.
+
+        Returns
+        -------
+        Ship
+
+        Raises
+        ------
+        QuestionError
+            Where no block is named, and for a format that is none.
+        Undecided
+            Where the time was not enough for a part; its ``document`` has the others.
+
+        Examples
+        --------
+        >>> import jurist
+        >>> b = jurist.LoopBuilder("discrete").block("controller", "r - y", "u", "(7/10*z - 3/5)/(z - 1)")
+        >>> loop = b.block("plant", "u", "y", "1/5/(z - 4/5)").build(inputs=["r"], outputs=["y"])
+        >>> ship = loop.ship("controller", format="Q1.6", signal="Q3.12", inputs={"r": 1}, fewest=True)
+        >>> ship.stable, ship.holds, [c.integer for c in ship.coefficients["b"]]
+        (True, True, [45, -38])
+        >>> ship.every_rounding.holds, ship.every_rounding.factor.decimal, ship.fewest.every_rounding
+        (True, '6.39950561523', 4)
+        >>> [(r.node, round(float(r.bound), 5), r.holds) for r in ship.ranges]
+        [('y', 1.00112, True)]
+        """
+        from ._ship import Ship, asked_with_files
+
+        asked = self._asked(values, **question)
+        shared = self._words("ship", asked)
+        given = {"block": block, "realisation": realisation, "format": format, "signal": signal, "round": round, "param": param}
+        words = [*shared, *(f"--{name}={text}" for name, text in given.items() if text is not None)]
+        for name, most in (inputs or {}).items():
+            words += ["--input", f"{name}={text_of(most)}"]
+        words += ["--fewest"] if fewest else []
+        answer, rounded, every = asked_with_files(self._itself, words, ("--rounded", "--every"), asked)
+        return Ship(answer, self._itself, tuple(words), tuple(shared[2:]), rounded, every)
 
     def bode(
         self,

@@ -60,7 +60,7 @@ def test_everything_public_is_documented():
 def test_documentation_of_the_main_questions_follows_numpydoc():
     from numpydoc.docscrape import NumpyDocString
 
-    for thing in (jurist.Loop.intervals, jurist.Loop.margins, jurist.Loop.tolerance, jurist.margins, jurist.exact, jurist.sweep, jurist.from_control, jurist.from_sympy, jurist.verify):
+    for thing in (jurist.Loop.intervals, jurist.Loop.margins, jurist.Loop.tolerance, jurist.Loop.ship, jurist.margins, jurist.exact, jurist.sweep, jurist.from_control, jurist.from_sympy, jurist.verify):
         sections = NumpyDocString(inspect.getdoc(thing))
         documented = {p.name for entry in sections["Parameters"] for p in [entry]}
         names = {n.lstrip("*") for joined in documented for n in joined.split(", ")}

@@ -67,6 +67,10 @@ def questions(name, text, whole):
         yield ["map", *axes, "--json", "--certificate", "OUT.json"]
         yield ["map", *axes, "-o", "OUT.svg"]
         yield ["map", "-x", free[1], "-y", free[0]]
+    blocks = tomllib.loads(text).get("block", [])
+    if blocks and "name" in blocks[0]:
+        yield ["ship", "--block", blocks[0]["name"], "--format", "Q15.16", "--signal", "Q15.16", "--fewest"]
+        yield ["ship", "--block", blocks[0]["name"], "--format", "float32", "--realisation", "df2t", "--json", "--c", "OUT.h"]
     tolerances = ["--tol", ",".join(free[:3]) + "=10%"] if free else []
     yield ["tolerance", *tolerances]
     yield ["tolerance", *tolerances, "--json", "--certificate", "OUT.json"]

@@ -15,3 +15,4 @@ pub mod program;
 pub mod random;
 pub mod required;
 pub mod schema;
+pub mod schur;

@@ -3,6 +3,7 @@
 use crate::helpers::program::{json, jurist, jurist_with_input, refused};
 use crate::helpers::schema::fits;
 use serde_json::Value;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The names that `jurist new --list` prints.
 fn templates() -> Vec<String> {
@@ -80,9 +81,16 @@ fn a_program_without_the_page_says_what_makes_it() {
     std::fs::remove_dir_all(folder).unwrap();
 }
 
+/// Tests run side by side: each has a folder of its own.
+static COUNT: AtomicUsize = AtomicUsize::new(0);
+
 /// A new folder of this process.
 fn tempfile() -> std::path::PathBuf {
-    let folder = std::env::temp_dir().join(format!("jurist-beginning-{}", std::process::id()));
+    let folder = std::env::temp_dir().join(format!(
+        "jurist-beginning-{}-{}",
+        std::process::id(),
+        COUNT.fetch_add(1, Ordering::Relaxed)
+    ));
     std::fs::create_dir_all(&folder).unwrap();
     folder
 }

@@ -1,7 +1,12 @@
 //! `jurist ship` on controllers whose answers are known by hand.
 
 use crate::helpers::folder::Folder;
+use crate::helpers::model::read;
+use crate::helpers::number::number;
 use crate::helpers::schema::fits;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::{BinaryFormat, Rational, to_decimal, to_scientific};
+use jurist_engine::model::Model;
 use serde_json::Value;
 
 /// A PI controller and a lag; `D(1) = 0.1 (b0 + b1)`.
@@ -178,4 +183,44 @@ fn other_notations_of_blocks_and_sections_are_rewritten() {
         ship(nested, &["--block", "controller", "--format", "Q2.20", "--signal", "Q8.14", "--input", "r=1"]);
     assert_eq!((status, &document["every_rounding"]["verdict"]), (0, &"stable".into()));
     assert_eq!(document["coefficients"]["b"]["exact"][0][0], "10001/20000");
+}
+
+/// Rounding the coefficients of the paper's own characteristic polynomial, which is affine in K_pwm: what twelve digits, floats and doubles make
+/// of the limits.
+#[test]
+fn the_digits_of_the_papers_polynomial_move_its_limits() {
+    let problem = Model::drive().ask().free("K_pwm").problem().unwrap();
+    let polynomial = problem.algebra(&Budget::unlimited()).unwrap().polynomial().unwrap();
+    let parts: Vec<[Rational; 2]> = polynomial
+        .coefficients
+        .iter()
+        .map(|c| {
+            let at = |k: i64| c.substitute(0, &k.into()).unwrap().as_constant().unwrap();
+            let (zero, one) = (at(0), at(1));
+            [zero.clone(), one - zero]
+        })
+        .collect();
+    let limits = |rounded: &dyn Fn(&Rational) -> Rational| -> Vec<String> {
+        let term = |(k, [a, b]): (usize, &[Rational; 2])| format!("(({}) + ({})*K_pwm)*z^{k}", rounded(a), rounded(b));
+        let sum: Vec<String> = parts.iter().enumerate().map(term).collect();
+        let text = format!(
+            "time = 'discrete'\n[parameters]\nK_pwm = {{ nominal = 110, min = 0 }}\n[loop]\ncharacteristic = '{}'\n",
+            sum.join(" + ")
+        );
+        let answer = read(&text).ask().free("K_pwm").stable_set(&Budget::unlimited()).unwrap();
+        let ends = answer.value().intervals().iter().flat_map(|i| [&i.lower, &i.upper]);
+        ends.map(|end| end.as_ref().unwrap().value.decimal(22)).collect()
+    };
+    let exact = limits(&|x| x.clone());
+    assert_eq!(exact[0][..12], *"0.0381005333");
+    let float = |format: BinaryFormat| move |x: &Rational| format.nearest(x).unwrap();
+    assert_eq!(limits(&float(BinaryFormat::Single)), [""; 0], "no K_pwm is stable");
+    assert_eq!(limits(&float(BinaryFormat::Double)), ["0.03826276953448258142787", "550.9411666866746036192"]);
+    // Significant decimals, 10 to 16: twelve give the published limit, none gives the exact one. The table stands in docs/how-to/ship.md.
+    let decimal = |digits: usize| move |x: &Rational| number(&to_scientific(x, digits));
+    let lower: Vec<String> =
+        (10..=16).map(|digits| limits(&decimal(digits)).first().cloned().unwrap_or_default()).collect();
+    let shown: Vec<String> = lower.iter().map(|text| to_decimal(&number(text), 6)).collect();
+    let expected = ["173.160", "0.930950", "2.98532", "0.223982", "0.0224007", "0.00149341", "0.000112006"];
+    assert_eq!(shown, expected);
 }

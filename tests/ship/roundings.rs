@@ -1,9 +1,10 @@
-//! Rounded controllers of random loops against a criterion of Schur and Cohn in rationals that shares nothing with the engine.
+//! Rounded controllers of random loops against a criterion of Schur and Cohn in rationals.
 
 use crate::helpers::certificates::checkers::accept;
 use crate::helpers::model::read;
 use crate::helpers::number::ratio;
 use crate::helpers::random::Random;
+use crate::helpers::schur::{closed, is_schur};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::Verdict;
@@ -11,42 +12,6 @@ use jurist_engine::response::Requirements;
 use jurist_engine::stability::boxes::BoxDecision;
 use jurist_ship::answer::{Beside, ShipAnswer};
 use jurist_ship::asked::{Asked, Overrides};
-
-/// Whether all roots of a polynomial, highest power first, are inside of the unit circle: degree by degree.
-fn is_schur(polynomial: &[Rational]) -> bool {
-    let leading = polynomial.iter().position(|c| !c.is_zero());
-    let Some(leading) = leading else { return false };
-    // A degree that is lost is a root at infinity.
-    if leading > 0 {
-        return false;
-    }
-    let mut p = polynomial.to_vec();
-    while p.len() > 1 {
-        let (first, last) = (p[0].clone(), p[p.len() - 1].clone());
-        if last.abs() >= first.abs() {
-            return false;
-        }
-        let n = p.len() - 1;
-        p = (0..n).map(|k| &(&first * &p[k]) - &(&last * &p[n - k])).collect();
-    }
-    true
-}
-
-fn product(a: &[Rational], b: &[Rational]) -> Vec<Rational> {
-    let mut out = vec![Rational::ZERO; a.len() + b.len() - 1];
-    for (i, x) in a.iter().enumerate() {
-        for (j, y) in b.iter().enumerate() {
-            out[i + j] = &out[i + j] + &(x * y);
-        }
-    }
-    out
-}
-
-/// `a_c a_p + b_c b_p`, for fractions with as many coefficients above as below.
-fn closed(controller: &[Vec<Rational>; 2], plant: &[Vec<Rational>; 2]) -> Vec<Rational> {
-    let [above, below] = [0, 1].map(|k| product(&controller[k], &plant[k]));
-    above.iter().zip(&below).map(|(x, y)| x + y).collect()
-}
 
 /// Whether all roots are inside of the circle of radius 7/8.
 fn is_far_inside(polynomial: &[Rational]) -> bool {

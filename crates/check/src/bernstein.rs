@@ -1,5 +1,6 @@
 //! Bernstein coefficients over a box, exactly, and trees that halve it until each cell shows what is claimed.
 
+use super::boxes::Ground;
 use super::clock::Clock;
 use super::multivariate::Multi;
 use super::number::{MAX_DIGITS, Q, Z, integer, shorten};
@@ -10,72 +11,101 @@ use num_traits::{One, Signed, Zero};
 /// More coefficients of a polynomial are refused.
 const MAX_COEFFICIENTS: usize = 1 << 17;
 
+/// A polynomial in the parameters of a box as far as its coefficients are known: exponents, about what stands there, and by how much that may
+/// be off at most; all times one positive number.
+pub(super) struct Known(pub Vec<(Vec<u32>, Z, Z)>);
+
 /// The Bernstein coefficients of polynomials over a box, each polynomial times a positive number; the last axis is the frequency and
 /// runs fastest.
 #[derive(Clone)]
 pub(super) struct Tensor {
     counts: Vec<usize>,
     planes: Vec<Vec<Z>>,
+    /// By how much the true coefficients of each polynomial may be off at most.
+    slack: Vec<Z>,
 }
 
 impl Tensor {
     /// Of one polynomial over a box of its parameters.
-    pub fn of_one(p: &Multi, sides: &[[Q; 2]], clock: &Clock) -> Result<Tensor, String> {
-        Tensor::new(&[vec![p.clone()]], sides, clock)
+    pub fn of_one(p: &Multi, sides: &[[Q; 2]], ground: &Ground, clock: &Clock) -> Result<Tensor, String> {
+        Tensor::new(&[vec![ground.known(p, clock)?]], sides, &[vec![Z::one()]], clock)
     }
 
     /// Of `(1 - t)^k E` and `weight (1 - t)^k O` for `v = v0 t/(1 - t)`, where `E(v) + i w O(v)`, `v = w^2`, is the polynomial
     /// with these coefficients at `s = i w`.
-    pub fn of_pair(p: &[Multi], sides: &[[Q; 2]], v0: &Q, weight: &Q, clock: &Clock) -> Result<Tensor, String> {
+    pub fn of_pair(
+        p: &[Multi],
+        sides: &[[Q; 2]],
+        [v0, weight]: [&Q; 2],
+        ground: &Ground,
+        clock: &Clock,
+    ) -> Result<Tensor, String> {
         let k = (p.len() - 1) / 2;
-        let part = |odd: usize| -> Vec<Multi> {
+        let part = |odd: usize| -> Result<Vec<Known>, String> {
             let at = |j: usize| p.get(2 * j + odd).cloned().unwrap_or_default();
-            (0..=k).map(|j| at(j).scaled(&Z::from(if j % 2 == 1 { -1 } else { 1 }))).collect()
+            (0..=k).map(|j| ground.known(&at(j).scaled(&Z::from(if j % 2 == 1 { -1 } else { 1 })), clock)).collect()
         };
-        let mut tensor = Tensor::new(&[part(0), part(1)], sides, clock)?;
         let ways = binomials(k);
         let common = common_multiple(&ways, clock)?;
         let (top, bottom) = (v0.numer(), v0.denom());
-        clock.hold(tensor.len(), tensor.longest() + (k as u64) * (2 + top.bits() + bottom.bits()))?;
+        clock.hold(k + 1, (k as u64) * (2 + top.bits() + bottom.bits()))?;
         clock.spend(4 * k, (k as u64) * (top.bits() + bottom.bits()), k as u64)?;
-        let scales: Vec<Z> =
-            (0..=k).map(|j| top.pow(j as u32) * bottom.pow((k - j) as u32) * (&common / &ways[j])).collect();
-        for (plane, weight) in tensor.planes.iter_mut().zip([weight.denom(), weight.numer()]) {
-            let longest = scales.iter().map(Z::bits).max().unwrap_or(0) + weight.bits();
-            clock.spend(plane.len(), longest, plane.iter().map(Z::bits).max().unwrap_or(0))?;
-            for (c, scale) in plane.iter_mut().zip(scales.iter().cycle()) {
-                *c *= scale * weight;
+        let scales = [weight.denom(), weight.numer()].map(|weight| -> Vec<Z> {
+            let at = |j: usize| top.pow(j as u32) * bottom.pow((k - j) as u32) * (&common / &ways[j]) * weight;
+            (0..=k).map(at).collect()
+        });
+        Tensor::new(&[part(0)?, part(1)?], sides, &scales, clock)
+    }
+
+    /// Of lists of polynomials in the parameters, each list for the powers of the frequency, times a positive number each.
+    fn new(lists: &[Vec<Known>], sides: &[[Q; 2]], scales: &[Vec<Z>], clock: &Clock) -> Result<Tensor, String> {
+        let of = |(e, _, _): &(Vec<u32>, Z, Z), i: usize| e.get(FIRST + i).copied().unwrap_or(0) as usize;
+        let terms = || lists.iter().flatten().flat_map(|p| &p.0);
+        let degree = |i: usize| terms().map(|term| of(term, i)).max().unwrap_or(0);
+        let mut counts: Vec<usize> = (0..sides.len()).map(|i| degree(i) + 1).collect();
+        counts.push(lists[0].len());
+        let size = counts.iter().try_fold(1usize, |n, &c| n.checked_mul(c)).filter(|&n| n <= MAX_COEFFICIENTS);
+        let size = size.ok_or_else(|| format!("there are more than {MAX_COEFFICIENTS} coefficients"))?;
+        let of_parts = |part: fn(&(Vec<u32>, Z, Z)) -> &Z| -> Tensor {
+            let mut planes = vec![vec![Z::zero(); size]; lists.len()];
+            for (plane, list) in planes.iter_mut().zip(lists) {
+                for (j, p) in list.iter().enumerate() {
+                    for term in &p.0 {
+                        let place = (0..sides.len()).fold(0, |place, i| place * counts[i] + of(term, i));
+                        plane[place * list.len() + j] = part(term).clone();
+                    }
+                }
             }
+            Tensor { counts: counts.clone(), planes, slack: vec![Z::zero(); lists.len()] }
+        };
+        let mut tensor = of_parts(|(_, about, _)| about);
+        tensor.change_all(sides, scales, false, clock)?;
+        if terms().any(|(_, _, off)| !off.is_zero()) {
+            let mut off = of_parts(|(_, _, off)| off);
+            off.change_all(sides, scales, true, clock)?;
+            tensor.slack = off.planes.into_iter().map(|plane| plane.into_iter().max().unwrap_or_default()).collect();
         }
         tensor.reduce(clock)?;
         Ok(tensor)
     }
 
-    /// Of lists of polynomials in the parameters, each list for the powers of the frequency.
-    fn new(lists: &[Vec<Multi>], sides: &[[Q; 2]], clock: &Clock) -> Result<Tensor, String> {
-        let degree = |i: usize| lists.iter().flatten().map(|p| p.degree(FIRST + i)).max().unwrap_or(0);
-        let mut counts: Vec<usize> = (0..sides.len()).map(|i| degree(i) + 1).collect();
-        counts.push(lists[0].len());
-        let size = counts.iter().try_fold(1usize, |n, &c| n.checked_mul(c)).filter(|&n| n <= MAX_COEFFICIENTS);
-        let size = size.ok_or_else(|| format!("there are more than {MAX_COEFFICIENTS} coefficients"))?;
-        let mut planes = vec![vec![Z::zero(); size]; lists.len()];
-        for (plane, list) in planes.iter_mut().zip(lists) {
-            for (j, p) in list.iter().enumerate() {
-                for (e, c) in &p.0 {
-                    let exponent = |i: usize| e.get(FIRST + i).copied().unwrap_or(0) as usize;
-                    let place = (0..sides.len()).fold(0, |place, i| place * counts[i] + exponent(i));
-                    plane[place * list.len() + j] = c.clone();
-                }
-            }
-        }
-        let mut tensor = Tensor { counts, planes };
+    /// From powers to Bernstein's polynomials along all axes, the frequency's coefficients times these numbers. Of bounds the coefficients
+    /// become bounds again.
+    fn change_all(&mut self, sides: &[[Q; 2]], scales: &[Vec<Z>], bounds: bool, clock: &Clock) -> Result<(), String> {
         for (i, side) in sides.iter().enumerate() {
-            if tensor.counts[i] > 1 {
-                tensor.change_basis(i, side, clock)?;
+            if self.counts[i] > 1 {
+                self.change_basis(i, side, bounds, clock)?;
             }
         }
-        tensor.reduce(clock)?;
-        Ok(tensor)
+        let longest = scales.iter().flatten().map(Z::bits).max().unwrap_or(0);
+        clock.hold(self.planes.len() * self.len(), self.longest() + longest)?;
+        clock.spend(self.planes.len() * self.len(), longest, self.longest())?;
+        for (plane, scales) in self.planes.iter_mut().zip(scales) {
+            for (c, scale) in plane.iter_mut().zip(scales.iter().cycle()) {
+                *c *= scale;
+            }
+        }
+        Ok(())
     }
 
     fn len(&self) -> usize {
@@ -90,8 +120,11 @@ impl Tensor {
         self.planes.iter().flatten().map(Z::bits).max().unwrap_or(0)
     }
 
-    /// Without integers common to all: a positive factor does not matter.
+    /// Without integers common to all: a positive factor does not matter. Beside what may be off these mean nothing.
     fn reduce(&mut self, clock: &Clock) -> Result<(), String> {
+        if self.slack.iter().any(|off| !off.is_zero()) {
+            return Ok(());
+        }
         let common = gcd_of(self.planes.iter().flatten(), clock)?;
         if !common.is_zero() && !common.is_one() {
             clock.spend(self.planes.len() * self.len(), self.longest(), common.bits())?;
@@ -101,9 +134,13 @@ impl Tensor {
     }
 
     /// From the powers of a parameter to Bernstein's polynomials over an interval, along an axis.
-    fn change_basis(&mut self, axis: usize, side: &[Q; 2], clock: &Clock) -> Result<(), String> {
+    fn change_basis(&mut self, axis: usize, side: &[Q; 2], bounds: bool, clock: &Clock) -> Result<(), String> {
         let (stride, count) = (self.stride(axis), self.counts[axis]);
-        let basis = Basis::new(count - 1, side, clock)?;
+        let mut basis = Basis::new(count - 1, side, clock)?;
+        if bounds {
+            // All else in it is positive: what is off adds up.
+            basis.a = basis.a.abs();
+        }
         let bits = self.longest() + basis.bits();
         clock.hold(self.planes.len() * self.len(), bits)?;
         for plane in &mut self.planes {
@@ -144,20 +181,30 @@ impl Tensor {
             low.push(left);
             high.push(right);
         }
-        let make = |planes| Tensor { counts: self.counts.clone(), planes };
+        let slack: Vec<Z> = self.slack.iter().map(|s| s << (count - 1)).collect();
+        let make = |planes| Tensor { counts: self.counts.clone(), planes, slack: slack.clone() };
         Ok([make(low), make(high)])
     }
 
     /// Whether all coefficients of `a` times the first and `b` times the second polynomial are positive.
     fn is_separated(&self, a: &Z, b: &Z, clock: &Clock) -> Result<bool, String> {
         clock.spend(2 * self.len(), self.longest(), a.bits().max(b.bits()))?;
-        Ok(self.planes[0].iter().zip(&self.planes[1]).all(|(x, y)| (x * a + y * b).is_positive()))
+        let off = self.off(a, b);
+        Ok(self.planes[0].iter().zip(&self.planes[1]).all(|(x, y)| x * a + y * b > off))
+    }
+
+    /// By how much `a` times the first and `b` times the second polynomial may be off.
+    fn off(&self, a: &Z, b: &Z) -> Z {
+        &self.slack[0] * a.abs() + &self.slack[1] * b.abs()
     }
 
     /// The same for a vector `(a, b)` plus `(a_k, b_k) (2 u_k - 1)` for some axes, `u_k` from 0 to 1 along each: the product has one degree
     /// more along these axes.
     fn is_separated_affinely(&self, axes: &[usize], vectors: &[[Z; 2]], clock: &Clock) -> Result<bool, String> {
         let mut sum: Vec<Z> = Vec::new();
+        // Each axis that is raised makes weights that add up to the number of coefficients along it.
+        let weight: Z = axes.iter().map(|axis| Z::from(self.counts[*axis])).product();
+        let off: Z = vectors.iter().map(|[a, b]| self.off(a, b)).sum::<Z>() * weight;
         for (n, [a, b]) in vectors.iter().enumerate() {
             clock.spend(4 * self.len() * (axes.len() + 1), self.longest(), a.bits().max(b.bits()))?;
             let mut term: Vec<Z> = self.planes[0].iter().zip(&self.planes[1]).map(|(x, y)| x * a + y * b).collect();
@@ -171,11 +218,12 @@ impl Tensor {
                 false => sum.iter_mut().zip(term).for_each(|(s, t)| *s += t),
             }
         }
-        Ok(sum.iter().all(Z::is_positive))
+        Ok(sum.iter().all(|c| *c > off))
     }
 
     fn has_sign(&self, positive: bool) -> bool {
-        self.planes[0].iter().all(|c| if positive { c.is_positive() } else { c.is_negative() })
+        let off = &self.slack[0];
+        self.planes[0].iter().all(|c| c.magnitude() > off.magnitude() && c.is_positive() == positive)
     }
 }
 
@@ -375,7 +423,7 @@ mod tests {
     fn corners_are_values_and_halves_are_those_of_the_halves() {
         let clock = Clock::new(Duration::MAX);
         let sides = [[q(-1, 3), q(5, 2)], [q(1, 7), q(3, 1)]];
-        let whole = Tensor::of_one(&example(), &sides, &clock).unwrap();
+        let whole = Tensor::of_one(&example(), &sides, &Ground::integers(2), &clock).unwrap();
         let corners = |t: &Tensor, sides: &[[Q; 2]; 2]| {
             let all = &t.planes[0];
             let ratio = value(&sides[0][0], &sides[1][0]) / Q::from(all[0].clone());
@@ -391,7 +439,7 @@ mod tests {
         for (mut half, sides) in [(low, lower), (high, upper)] {
             corners(&half, &sides);
             half.reduce(&clock).unwrap();
-            assert_eq!(half.planes, Tensor::of_one(&example(), &sides, &clock).unwrap().planes);
+            assert_eq!(half.planes, Tensor::of_one(&example(), &sides, &Ground::integers(2), &clock).unwrap().planes);
         }
     }
 
@@ -407,7 +455,7 @@ mod tests {
     fn a_tree_shows_what_its_leaves_show() {
         let clock = Clock::new(Duration::MAX);
         let sides = [[q(0, 1), q(1, 1)], [q(0, 1), q(1, 1)]];
-        let one = || Tensor::of_one(&example(), &sides, &clock).unwrap();
+        let one = || Tensor::of_one(&example(), &sides, &Ground::integers(2), &clock).unwrap();
         for (tree, is_right) in [
             ("+", true),
             ("s0,++", true),
@@ -430,7 +478,7 @@ mod tests {
         let variable = |k: usize| Multi::variable(FIRST + k);
         let p = [variable(1), variable(0), Multi::one()];
         let sides = [[q(1, 1), q(2, 1)], [q(1, 1), q(2, 1)]];
-        let pair = || Tensor::of_pair(&p, &sides, &q(4, 1), &q(1, 2), &clock).unwrap();
+        let pair = || Tensor::of_pair(&p, &sides, [&q(4, 1), &q(1, 2)], &Ground::integers(2), &clock).unwrap();
         for (tree, is_right) in [
             ("l-1,5;", true),
             ("xl0,1;l-1,5;", true),

@@ -53,8 +53,10 @@ enum Rule {
 /// What the parameters and symbols are, beside which exponentials are taken.
 #[derive(Clone, Copy)]
 pub(super) struct Values<'v> {
-    /// The values of the variables; the symbols follow.
+    /// The values of the variables from 2 on; those of a box follow, then the symbols.
     pub numbers: &'v [Q],
+    /// The variable of the first symbol.
+    pub first: usize,
     pub table: &'v Table,
     /// The base of all dead times.
     pub base: Option<Base<'v>>,

@@ -1,16 +1,21 @@
 //! Boxes of tolerances that are stable at every point, and points beyond that are not.
 
+mod ground;
+
+pub(super) use ground::Ground;
+
 use super::bernstein::{Claim, Tensor, walk};
 use super::clock::Clock;
 use super::multivariate::Multi;
 use super::number::{Q, Z, integer};
-use super::over_box::{FIRST, OverBox, common_factor, in_half_plane, in_region, over_box, vanishes_only_with};
+use super::over_box::{FIRST, OverBox, common_factor, in_half_plane, in_region, over_box};
 use super::over_symbols::{primitive, substituted};
-use super::roots::{Places, is_hurwitz, is_schur, places_by_axis, places_by_circle};
+use super::roots::Places;
 use super::statement::{Extent, count, fixed_extent, identifier, list, number, object, text, values};
+use super::symbols::Table;
 use super::univariate::Uni;
 use super::words::{exact, inward};
-use super::{Proved, Rejection, Step, is_discrete, verdict};
+use super::{Proved, Rejection, Step, further_keys, is_discrete, table, verdict};
 use crate::format::Json;
 use num_traits::{Signed, Zero};
 use std::collections::BTreeMap;
@@ -142,15 +147,22 @@ impl Statement {
 }
 
 pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -> Result<Proved, Rejection> {
+    let table = table(json)?;
     let keys = ["schema", "statement", "characteristic", "factors", "pair"];
-    let [_, _, characteristic, factors, pair] = Step::Format.of(object(json, "the certificate", keys, &["model"]))?;
+    let [_, _, characteristic, factors, pair] =
+        Step::Format.of(object(json, "the certificate", keys, further_keys(table.as_ref())))?;
     let s = Step::Statement.of(Statement::read(statement))?;
-    let own = Step::Model.of(over_box(model, &s.names, &s.set, clock))?;
+    let none = Table::empty();
+    let own = Step::Model.of(over_box(model, &s.names, &s.set, table.as_deref().unwrap_or(&none), clock))?;
     if own.discrete != s.discrete {
         return Err(Rejection { step: Step::Model, reason: "the model's time is not that of the statement".into() });
     }
+    if table.is_some() && !s.discrete {
+        return Err(Rejection { step: Step::Model, reason: "only sampled loops have symbols".into() });
+    }
+    let ground = Ground::new(s.names.len(), table);
     let in_this_region = Step::Model.of(in_region(&own.coefficients, s.discrete, &s.extent, clock))?;
-    let read = |json: &Json| polynomial(json, s.names.len());
+    let read = |json: &Json| polynomial(json, ground.variables());
     let (given, common) = Step::Characteristic.of((|| {
         let given = list(characteristic, "'characteristic'")?.iter().map(read).collect::<Result<Vec<_>, _>>()?;
         let common = common_factor(&given, &in_this_region, clock)?;
@@ -163,17 +175,17 @@ pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -
         for factor in list(factors, "'factors'")? {
             let [polynomial, tree] = object(factor, "a factor", ["polynomial", "tree"], &[])?;
             let f = primitive(vec![read(polynomial)?], clock)?.swap_remove(0);
-            if f.is_constant() {
+            if !ground.is_in_parameters(&f) {
                 return Err("a factor is constant".to_owned());
             }
-            walk(text(tree, "'tree'")?, Tensor::of_one(&f, &sides, clock)?, Claim::Sign, clock)?;
+            walk(text(tree, "'tree'")?, Tensor::of_one(&f, &sides, &ground, clock)?, Claim::Sign, clock)?;
             known.push(f);
         }
         let ends = [&common, &p[0], &p[p.len() - 1]].map(|p| vec![p.clone()]);
         for parts in own.divisors.iter().chain(&ends) {
             let mut is_known = false;
             for part in parts {
-                is_known = is_known || vanishes_only_with(part, &known, clock)?;
+                is_known = is_known || ground.vanishes_only_with(part, &known, clock)?;
             }
             if !is_known {
                 return Err("what must not vanish is not a product of the factors".to_owned());
@@ -187,24 +199,29 @@ pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -
         if !v0.is_positive() || !weight.is_positive() {
             return Err("'v0' or 'weight' is not positive".to_owned());
         }
-        let whole = Tensor::of_pair(&p, &sides, &v0, &weight, clock)?;
+        let whole = Tensor::of_pair(&p, &sides, [&v0, &weight], &ground, clock)?;
         walk(text(tree, "'tree'")?, whole, Claim::Pair, clock)
     })())?;
     Step::Stable.of((|| {
         let nominal: Vec<Q> = s.sides.iter().map(|side| side.nominal.clone()).collect();
-        let at = at(&given, &nominal, clock)?;
-        let is_stable = if s.discrete { is_schur(&at, clock)? } else { is_hurwitz(&at, clock)? };
-        if at.0.len() != given.len() || !is_stable {
+        if !ground.is_stable(&given, &nominal, s.discrete, clock)? {
             return Err("the nominal point is not stable".to_owned());
         }
-        s.beyond.iter().try_for_each(|beyond| s.is_beyond(beyond, &own, &in_this_region, clock))
+        s.beyond.iter().try_for_each(|beyond| s.is_beyond(beyond, &own, &in_this_region, &ground, clock))
     })())?;
     Ok(Proved { statement: s.in_words(), kind: "tolerance" })
 }
 
 impl Statement {
     /// Whether the point is in its box, has these counts, and is not stable.
-    fn is_beyond(&self, beyond: &Beyond, own: &OverBox, d: &[Multi], clock: &Clock) -> Result<(), String> {
+    fn is_beyond(
+        &self,
+        beyond: &Beyond,
+        own: &OverBox,
+        d: &[Multi],
+        ground: &Ground,
+        clock: &Clock,
+    ) -> Result<(), String> {
         let sides = self.around(beyond);
         let is_inside = |(x, [low, high]): (&Q, &[Q; 2])| low <= x && x <= high;
         if beyond.factor.is_negative()
@@ -216,16 +233,11 @@ impl Statement {
         let n = d.len() - 1;
         let mut is_undefined = false;
         for parts in &own.divisors {
-            is_undefined = is_undefined || at(parts, &beyond.point, clock)?.is_zero();
+            is_undefined = is_undefined || ground.vanish_at(parts, &beyond.point, clock)?;
         }
-        let polynomial = at(d, &beyond.point, clock)?;
-        let (places, infinite) = match (is_undefined, polynomial.is_zero()) {
-            (true, _) => (Places::default(), 0),
-            (false, true) => (Places::default(), n),
-            (false, false) => {
-                let places = if self.discrete { places_by_circle } else { places_by_axis };
-                (places(&polynomial, clock)?, n - polynomial.degree())
-            }
+        let (places, infinite) = match is_undefined {
+            true => (Places::default(), 0),
+            false => ground.places(d, &beyond.point, self.discrete, clock)?,
         };
         let Places { inside, on, outside } = places;
         if beyond.counts != [n, inside, on, outside, infinite] {
@@ -240,22 +252,27 @@ impl Statement {
     }
 }
 
-/// Polynomials at a point, together times a positive number, as coefficients of one polynomial.
-pub(super) fn at(list: &[Multi], point: &[Q], clock: &Clock) -> Result<Uni, String> {
+/// Polynomials at a point, together times a positive number; symbols become the variables from [`FIRST`] on.
+fn values_at(list: &[Multi], point: &[Q], clock: &Clock) -> Result<Vec<Multi>, String> {
     // Variables 0 and 1 are not there.
     let values: Vec<Q> = (0..FIRST).map(|_| Q::zero()).chain(point.iter().cloned()).collect();
-    let constant = |p: Multi| p.0.into_values().next().unwrap_or_default();
-    Ok(Uni::new(substituted(list, &values, clock)?.into_iter().map(constant).collect()))
+    substituted(list, &values, clock)
 }
 
-/// Reads a list of terms: each its coefficient and the exponents of the parameters of the box.
-pub(super) fn polynomial(json: &Json, parameters: usize) -> Result<Multi, String> {
+/// The same without symbols, as coefficients of one polynomial.
+pub(super) fn at(list: &[Multi], point: &[Q], clock: &Clock) -> Result<Uni, String> {
+    let constant = |p: Multi| p.0.into_values().next().unwrap_or_default();
+    Ok(Uni::new(values_at(list, point, clock)?.into_iter().map(constant).collect()))
+}
+
+/// Reads a list of terms: each its coefficient and the exponents of the parameters of the box, and of the symbols.
+pub(super) fn polynomial(json: &Json, variables: usize) -> Result<Multi, String> {
     let mut terms: BTreeMap<Vec<u32>, Z> = BTreeMap::new();
     for term in list(json, "a polynomial")? {
         let [c, exponents @ ..] = list(term, "a term")? else { return Err("a term is empty".into()) };
         let c = integer(text(c, "a coefficient")?)?;
         let exponents = exponents.iter().map(|e| count(e, "an exponent")).collect::<Result<Vec<_>, _>>()?;
-        if c.is_zero() || exponents.last() == Some(&0) || exponents.len() > parameters {
+        if c.is_zero() || exponents.last() == Some(&0) || exponents.len() > variables {
             return Err("a term is not in its shortest form".into());
         }
         if exponents.iter().any(|e| *e > MAX_EXPONENT) {

@@ -27,6 +27,9 @@ pub const SCHEMA_OF_CELLS: &str = "jurist/certificate/6";
 /// The schema of certificates of maps by boxes.
 pub const SCHEMA_OF_MAPS_BY_BOXES: &str = "jurist/certificate/7";
 
+/// The schema of certificates of boxes of tolerances over symbols.
+pub const SCHEMA_OF_BOXES_WITH_SYMBOLS: &str = "jurist/certificate/8";
+
 /// Texts longer than this many bytes are refused unread.
 pub const MAX_TEXT: usize = 64 << 20;
 

@@ -121,7 +121,10 @@ type Matrix = Vec<Vec<Interval>>;
 
 fn product(a: &Matrix, b: &Matrix, bits: usize, clock: &Clock) -> Result<Matrix, String> {
     let n = a.len();
-    clock.spend(n * n * n, bits as u64, bits as u64)?;
+    // Large arguments make long numbers.
+    let [of_a, of_b] = [a, b].map(|m| m.iter().flatten().map(|x| x.lo.bits().max(x.hi.bits())).max().unwrap_or(0));
+    clock.hold(2 * n * n, of_a + of_b)?;
+    clock.spend(n * n * n, of_a.max(bits as u64), of_b.max(bits as u64))?;
     let entry = |i: usize, j: usize| (0..n).fold(Interval::zero(), |sum, k| sum.plus(&a[i][k].full(&b[k][j])));
     Ok((0..n).map(|i| (0..n).map(|j| entry(i, j).narrowed(bits)).collect()).collect())
 }

@@ -62,8 +62,8 @@ pub use report::{Names, report};
 
 use clock::{Clock, out_of_time};
 use format::{
-    Json, SCHEMA, SCHEMA_OF_BOXES, SCHEMA_OF_CELLS, SCHEMA_OF_MAPS, SCHEMA_OF_MAPS_BY_BOXES, SCHEMA_WITH_DEAD_TIME,
-    SCHEMA_WITH_SYMBOLS,
+    Json, SCHEMA, SCHEMA_OF_BOXES, SCHEMA_OF_BOXES_WITH_SYMBOLS, SCHEMA_OF_CELLS, SCHEMA_OF_MAPS,
+    SCHEMA_OF_MAPS_BY_BOXES, SCHEMA_WITH_DEAD_TIME, SCHEMA_WITH_SYMBOLS,
 };
 use num_traits::Zero;
 use number::{Q, shorten};
@@ -308,6 +308,7 @@ fn by_kind(model: &str, certificate: &str, clock: Clock) -> Result<Proved, Rejec
         SCHEMA_OF_MAPS,
         SCHEMA_OF_CELLS,
         SCHEMA_OF_MAPS_BY_BOXES,
+        SCHEMA_OF_BOXES_WITH_SYMBOLS,
     ];
     if !known.contains(&schema) {
         let [rest @ .., last] = known.map(|name| format!("'{name}'"));
@@ -320,7 +321,9 @@ fn by_kind(model: &str, certificate: &str, clock: Clock) -> Result<Proved, Rejec
     match Step::Statement.of(text(kind, "'kind'"))? {
         "boxes" if schema == SCHEMA_OF_MAPS_BY_BOXES => map_boxes::check(model, &json, clock),
         "map" if schema == SCHEMA_OF_MAPS => map::check(model, &json, statement, &clock),
-        "tolerance" if schema == SCHEMA_OF_BOXES => boxes::check(model, &json, statement, &clock),
+        "tolerance" if [SCHEMA_OF_BOXES, SCHEMA_OF_BOXES_WITH_SYMBOLS].contains(&schema) => {
+            boxes::check(model, &json, statement, &clock)
+        }
         "cells" if schema == SCHEMA_OF_CELLS => gain::check(model, &json, statement, &clock),
         "verdict" if schema == SCHEMA_OF_CELLS => gain::check_verdict(model, &json, statement, &clock),
         "intervals" if schema == SCHEMA_WITH_DEAD_TIME => dead_time::check(model, &json, statement, &clock),
@@ -347,7 +350,10 @@ fn is_discrete(json: &Json) -> Result<bool, String> {
 /// The table of symbols of a certificate that has one.
 fn table(json: &Json) -> Result<Option<Rc<Table>>, Rejection> {
     let part = |key: &str| json.get(key).ok_or_else(|| format!("the certificate has no '{key}'"));
-    if json.get("schema") != Some(&SCHEMA_WITH_SYMBOLS.into()) {
+    if ![SCHEMA_WITH_SYMBOLS, SCHEMA_OF_BOXES_WITH_SYMBOLS]
+        .map(|s| Some(s.into()))
+        .contains(&json.get("schema").cloned())
+    {
         return Ok(None);
     }
     let [bits, symbols, modes] = ["bits", "symbols", "modes"].map(part);

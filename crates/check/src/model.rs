@@ -56,16 +56,27 @@ pub(super) fn asked(
     read_for((kept, &[], false), text, values, table, base, clock)
 }
 
-/// Reads the model for a question about a box of parameters, which are the variables behind those with a value; functions and holds are
-/// further variables if they are to be read.
+/// What the functions of a loop with a box of parameters are.
+#[derive(Clone, Copy)]
+pub(super) enum Functions<'t> {
+    /// Of numbers: over the symbols of a table, which follow the parameters of the box.
+    OfNumbers(&'t Table),
+    /// Of parameters: further variables.
+    Moving,
+}
+
+/// Reads the model for a question about a box of parameters, which are the variables behind those with a value.
 pub(super) fn asked_over_box(
     text: &str,
     boxed: &[String],
     values: &[(String, Q)],
-    is_moving: bool,
+    functions: Functions<'_>,
     clock: &Clock,
 ) -> Result<Asked, String> {
-    read_for((None, boxed, is_moving), text, values, &Table::empty(), None, clock)
+    match functions {
+        Functions::OfNumbers(table) => read_for((None, boxed, false), text, values, table, None, clock),
+        Functions::Moving => read_for((None, boxed, true), text, values, &Table::empty(), None, clock),
+    }
 }
 
 fn read_for(
@@ -86,7 +97,7 @@ fn read_for(
             let is_moving = is_moving || base.is_some();
             evaluated(&root, &declared, (&declared.as_written(), is_moving), None, clock)?;
         }
-        let of = Values { numbers: &meaning.values, table, base };
+        let of = Values { numbers: &meaning.values, first: meaning.values.len() + boxed.len(), table, base };
         let (form, divisors, moving) = evaluated(&root, &declared, (&meaning, is_moving), Some(of), clock)?;
         Ok(Asked { discrete: declared.discrete, form, divisors, values: meaning.values, moving })
     })

@@ -2,17 +2,19 @@
 
 mod common;
 
+use common::may_share;
 pub(super) use common::separated;
 
 use super::blocks::cleared;
 use super::characteristic::{Form, product};
 use super::clock::Clock;
-use super::model;
+use super::model::{self, Functions};
 use super::moving::Sources;
 use super::multivariate::{Fraction, Multi};
 use super::number::{Q, Z};
 use super::over_symbols::{determinant, primitive, substituted};
 use super::statement::Extent;
+use super::symbols::Table;
 use num_traits::One;
 
 /// Of this variable on, polynomials are in the parameters of the box.
@@ -30,9 +32,15 @@ pub(super) struct OverBox {
     pub has_lead_last: bool,
 }
 
-/// Reads the model; `set` has the values of all parameters but those of the box.
-pub(super) fn over_box(text: &str, names: &[String], set: &[(String, Q)], clock: &Clock) -> Result<OverBox, String> {
-    with_sources(text, names, set, false, clock).map(|(found, _)| found)
+/// Reads the model; `set` has the values of all parameters but those of the box. The symbols of a table are the variables behind them.
+pub(super) fn over_box(
+    text: &str,
+    names: &[String],
+    set: &[(String, Q)],
+    table: &Table,
+    clock: &Clock,
+) -> Result<OverBox, String> {
+    with_sources(text, names, set, Functions::OfNumbers(table), clock).map(|(found, _)| found)
 }
 
 /// The same with functions and holds as further variables, if they are to be read, and what these are.
@@ -40,10 +48,10 @@ pub(super) fn with_sources(
     text: &str,
     names: &[String],
     set: &[(String, Q)],
-    is_moving: bool,
+    functions: Functions<'_>,
     clock: &Clock,
 ) -> Result<(OverBox, Sources), String> {
-    let asked = model::asked_over_box(text, names, set, is_moving, clock)?;
+    let asked = model::asked_over_box(text, names, set, functions, clock)?;
     clock.reading(|| {
         let values = &asked.values;
         let mut divisors = Vec::with_capacity(asked.divisors.len());
@@ -180,20 +188,21 @@ fn not_that(k: usize) -> String {
     format!("coefficient {k} is not that of the model")
 }
 
-/// Whether a polynomial has zeros only where one of the factors has: what it has in common with them is divided out, as often as
-/// there is anything, and a number other than zero is left.
-pub(super) fn vanishes_only_with(p: &Multi, factors: &[Multi], clock: &Clock) -> Result<bool, String> {
-    let Some(mut p) = primitive(vec![p.clone()], clock)?.pop().filter(|p| !p.is_zero()) else { return Ok(false) };
+/// What is left of a polynomial when what it has in common with the factors is divided out, as often as there is anything, until none of
+/// the parameters, of which there are so many, occurs in it.
+pub(super) fn beside_factors(p: &Multi, factors: &[Multi], parameters: usize, clock: &Clock) -> Result<Multi, String> {
+    let mut p = primitive(vec![p.clone()], clock)?.swap_remove(0);
+    let is_done = |p: &Multi| p.is_zero() || (FIRST..FIRST + parameters).all(|v| p.degree(v) == 0);
     // Divisions that leave nothing are most often enough, and cheap beside common divisors.
     for f in factors {
-        while !p.is_constant()
+        while !is_done(&p)
             && let Some(quotient) = p.divided(f, clock)?
         {
             p = quotient;
         }
     }
     for f in factors {
-        while !p.is_constant() {
+        while !is_done(&p) && may_share(&p, f, FIRST..FIRST + parameters, clock)? {
             let common = p.gcd(f, clock)?;
             if common.is_constant() {
                 break;
@@ -201,5 +210,5 @@ pub(super) fn vanishes_only_with(p: &Multi, factors: &[Multi], clock: &Clock) ->
             p = p.divided(&common, clock)?.ok_or("internal: a gcd does not divide")?;
         }
     }
-    Ok(p.is_constant())
+    Ok(p)
 }

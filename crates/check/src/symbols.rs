@@ -149,13 +149,27 @@ impl Table {
 
     /// The coefficients of the powers of the parameter in a polynomial over symbols, enclosed.
     pub fn enclosed(&self, p: &Multi, clock: &Clock) -> Result<Vec<Interval>, String> {
+        let mut out = vec![Interval::zero(); if p.is_zero() { 0 } else { p.degree(1) + 1 }];
+        for (e, c) in self.enclosed_beside(p, 2, clock)? {
+            out[e.get(1).copied().unwrap_or(0) as usize] = c;
+        }
+        Ok(out)
+    }
+
+    /// The coefficients of the monomials in other variables, enclosed. Symbols are the variables from `first` on.
+    pub fn enclosed_beside(
+        &self,
+        p: &Multi,
+        first: usize,
+        clock: &Clock,
+    ) -> Result<BTreeMap<Vec<u32>, Interval>, String> {
         let values = self.values(clock)?;
         let mut powers: Vec<Vec<Interval>> = vec![vec![Interval::integer(&Z::one(), self.bits)]; values.len()];
-        let mut out = vec![Interval::zero(); if p.is_zero() { 0 } else { p.degree(1) + 1 }];
+        let mut out: BTreeMap<Vec<u32>, Interval> = BTreeMap::new();
         let mut known: BTreeMap<&[u32], Interval> = BTreeMap::new();
         for (e, c) in &p.0 {
             clock.spend(1 + values.len(), self.bits as u64, self.bits as u64)?;
-            let of_symbols = e.get(2..).unwrap_or(&[]);
+            let of_symbols = e.get(first..).unwrap_or(&[]);
             if of_symbols.len() > values.len() || e.first().is_some_and(|k| *k > 0) {
                 return Err("a polynomial has a variable that is no symbol".into());
             }
@@ -173,8 +187,10 @@ impl Table {
                 }
                 known.insert(of_symbols, product);
             }
-            let k = e.get(1).copied().unwrap_or(0) as usize;
-            out[k] = out[k].plus(&known[of_symbols].scaled(c));
+            let beside = &e[..first.min(e.len())];
+            let end = beside.iter().rposition(|k| *k > 0).map_or(0, |last| last + 1);
+            let sum = out.entry(beside[..end].to_vec()).or_insert_with(Interval::zero);
+            *sum = sum.plus(&known[of_symbols].scaled(c));
         }
         Ok(out)
     }

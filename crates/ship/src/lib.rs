@@ -9,6 +9,7 @@
 //! | [`limits`] | how a limit moves with the number of bits |
 //! | [`ranges`] | how large signals become, and what their rounding adds |
 //! | [`document`] | the answer as JSON |
+//! | [`dsverifier`] | loops of DSVerifier as models |
 //! | [`mod@format`] | number formats of processors, exact rounding |
 //! | [`program`] | a realisation as a list of sums: run exactly, read as a linear system, printed as code |
 //! | [`realise`] | from a transfer function to programs: direct forms, second-order sections, delta operator, state space |
@@ -24,6 +25,7 @@
 pub mod answer;
 pub mod asked;
 pub mod document;
+pub mod dsverifier;
 pub mod emit;
 mod every;
 pub mod fewest;

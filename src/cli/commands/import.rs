@@ -1,9 +1,10 @@
-//! `jurist import`: a model file from a state-space system of another program.
+//! `jurist import`: a model file from a state-space system of another program, or from a loop of DSVerifier.
 
 use super::{Context, Runs};
 use crate::cli::arguments::RunOptions;
 use crate::cli::assignments::{in_line, plain_number};
 use crate::cli::destinations::Files;
+use crate::cli::import::dsverifier::{self, ReadingWord};
 use crate::cli::import::{Form, Time, assemble, in_file, model, read};
 use crate::cli::input::{Wanted, read_bytes};
 use crate::cli::output::{finish_answer, note};
@@ -18,7 +19,7 @@ use std::path::Path;
 #[derive(Args, Debug)]
 pub(in crate::cli) struct Options {
     /// A file with the matrices A, B, C, D: .mat (MATLAB up to -v7, SciPy), .npz (NumPy), .json, .csv, or .mo (OpenModelica's
-    /// linearize); '-' for standard input
+    /// linearize); or .c, a loop of DSVerifier; '-' for standard input
     #[arg(value_name = "FILE")]
     pub file: OsString,
     /// The sample time of the matrices, 0 for continuous time; left out: that of the file. Nothing is made discrete by it
@@ -30,6 +31,10 @@ pub(in crate::cli) struct Options {
     /// Gives each entry that is no integer half a unit in its last place as a tolerance, for 'jurist tolerance'
     #[arg(long)]
     pub last_place: bool,
+    /// How the lists of a .c file are read: falling powers of z (the last entry is the constant), or powers of 1/z (the first
+    /// is) [default: z]
+    #[arg(long, value_enum, value_name = "POWERS")]
+    pub reading: Option<ReadingWord>,
     /// Writes the model to a file
     #[arg(short, long, value_name = "MODEL")]
     pub output: Option<OsString>,
@@ -40,7 +45,7 @@ pub(in crate::cli) struct Options {
 /// What is said where the file cannot be read.
 const SYSTEM: Wanted = Wanted {
     noun: "system",
-    help: "FILE is a .mat, .npz, .json, .csv or .mo file with the matrices A, B, C, D, or '-' for standard input",
+    help: "FILE is a .mat, .npz, .json, .csv or .mo file with the matrices A, B, C, D, a .c file of DSVerifier, or '-' for standard input",
 };
 
 impl Runs for Options {
@@ -64,6 +69,13 @@ fn run(options: &Options, context: &Context) -> Outcome {
     let time = options.sample_time.as_ref().map(|text| sample_time(text, context)).transpose()?;
     let (name, bytes) = read_bytes(&options.file, &SYSTEM, context)?;
     context.budget.step("reading the system");
+    if dsverifier::is_named(&name, &bytes) {
+        return of_dsverifier(options, &name, &bytes, context);
+    }
+    if options.reading.is_some() {
+        let error = Diagnostic::error(Code::Usage, "--reading goes with a .c file of DSVerifier, not with matrices");
+        return Err(error.help("leave it out").into());
+    }
     let (variables, source) = read(&name, &bytes)?;
     let system = assemble(variables, time).map_err(|error| match source {
         Some(source) => Diagnostics::from(error).in_source(&source),
@@ -76,6 +88,27 @@ fn run(options: &Options, context: &Context) -> Outcome {
     }
     context.reporter.finish();
     finish_answer(&text, options.output.as_ref())?;
+    Ok(Status::Holds)
+}
+
+/// Writes the model of a loop of DSVerifier, which is closed and has its sample time.
+fn of_dsverifier(options: &Options, name: &str, bytes: &[u8], context: &Context) -> Outcome {
+    let given = [
+        ("--sample-time", options.sample_time.is_some()),
+        ("--open", options.open),
+        ("--last-place", options.last_place),
+    ];
+    if let Some((option, _)) = given.iter().find(|(_, is_given)| *is_given) {
+        let error =
+            Diagnostic::error(Code::Usage, format!("{option} goes with matrices, not with a .c file of DSVerifier"));
+        return Err(error.help("leave it out").into());
+    }
+    let found = dsverifier::read(name, bytes, options.reading)?;
+    for remark in found.remarks.iter().filter(|_| !context.quiet) {
+        note(&format!("note: {remark}"));
+    }
+    context.reporter.finish();
+    finish_answer(&found.model, options.output.as_ref())?;
     Ok(Status::Holds)
 }
 

@@ -4,7 +4,8 @@ use super::{Context, Runs, decided};
 use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions, RunOptions};
 use crate::cli::assignments::{assignments, in_line};
 use crate::cli::destinations::Files;
-use crate::cli::input::{known_names, load, question};
+use crate::cli::import::dsverifier::{self, ReadingWord};
+use crate::cli::input::{Wanted, known_names, load, question, read_bytes};
 use crate::cli::output::{ending, note, write_answer};
 use crate::cli::picture::{Kind, Picture, deliver};
 use crate::cli::requirements::RequirementOptions;
@@ -16,7 +17,8 @@ use jurist_algebra::number::Rational;
 use jurist_check::sha256;
 use jurist_draw::figures::ranges_figure;
 use jurist_engine::answer::PointVerdict;
-use jurist_engine::error::{Code, Diagnostic};
+use jurist_engine::error::{Code, Diagnostic, Source};
+use jurist_engine::model::Model;
 use jurist_engine::problem::Problem;
 use jurist_engine::show::documents;
 use jurist_engine::show::layout::short;
@@ -64,6 +66,13 @@ pub(in crate::cli) struct Options {
     /// Also gives the limits of this parameter with more and more bits; with -o FILE.svg, .png or .pdf as a picture
     #[arg(long, value_name = "NAME")]
     pub param: Option<String>,
+    /// A loop of DSVerifier, a file in C, in the place of MODEL
+    #[arg(long, value_name = "FILE.c", conflicts_with = "model")]
+    pub from: Option<OsString>,
+    /// How the lists of --from are read: falling powers of z (the last entry is the constant), or powers of 1/z (the first is)
+    /// [default: z]
+    #[arg(long, value_enum, value_name = "POWERS")]
+    pub reading: Option<ReadingWord>,
     #[command(flatten)]
     pub written: Box<Written>,
     #[command(flatten)]
@@ -110,6 +119,7 @@ impl Runs for Options {
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
         files.question(&self.model.model, &self.output.output);
+        files.inputs.extend(self.from.iter().map(|file| ("the loop", file.as_os_str())));
         files.outputs.extend(self.written.rounded.iter().map(|file| ("the rounded model", file.clone())));
         files.outputs.extend(self.written.every.iter().map(|file| ("the model of every rounding", file.clone())));
         let code = [
@@ -130,7 +140,7 @@ fn run(options: &Options, context: &Context) -> Outcome {
     if picture.is_none() {
         context.check_output(output)?;
     }
-    let model = load(options.model.model.as_ref(), &options.model.line, context)?;
+    let model = model(options, context)?;
     if let Some(name) = &options.param {
         known_names(context, &model, "--param", from_ref(name))?;
     }
@@ -184,6 +194,29 @@ fn run(options: &Options, context: &Context) -> Outcome {
         Holds::No => Status::DoesNotHold,
         Holds::Open => Status::Undecided,
     })
+}
+
+/// What is said where the file of `--from` cannot be read.
+const LOOP: Wanted = Wanted { noun: "loop", help: "--from takes a .c file of DSVerifier, or '-' for standard input" };
+
+/// The model, or that of a loop of DSVerifier.
+fn model(options: &Options, context: &Context) -> Result<Model, Error> {
+    let Some(file) = &options.from else {
+        if options.reading.is_some() {
+            let error = Diagnostic::error(Code::Usage, "--reading goes with --from FILE.c, not with a model file");
+            return Err(error.help("leave it out").into());
+        }
+        return load(options.model.model.as_ref(), &options.model.line, context);
+    };
+    let (name, bytes) = read_bytes(file, &LOOP, context)?;
+    context.budget.step("reading the loop");
+    let found = dsverifier::read(&name, &bytes, options.reading)?;
+    for remark in found.remarks.iter().filter(|_| !context.quiet) {
+        note(&format!("note: {remark}"));
+    }
+    let (model, warnings) = Model::from_toml(&Source::new(format!("the model of {name}"), found.model))?;
+    context.warn(Some(model.source()), &warnings);
+    Ok(model)
 }
 
 /// The model of the inner signals, and the worst inputs, where they are asked for.

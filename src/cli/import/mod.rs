@@ -5,6 +5,7 @@
 
 mod assemble;
 mod csv;
+pub(super) mod dsverifier;
 mod json;
 mod mat;
 mod mat_element;
@@ -171,7 +172,7 @@ pub(super) fn read(name: &str, bytes: &[u8]) -> Result<(Variables, Option<Arc<So
         Some(Format::Csv) => text(csv::read),
         Some(Format::Modelica) => text(modelica::read),
         None => Err(refused(format!("{name} is of no format that can be imported"))
-            .help("there are .mat (MATLAB, SciPy), .npz (NumPy), .json, .csv, and .mo (OpenModelica's linearize)")
+            .help("there are .mat (MATLAB, SciPy), .npz (NumPy), .json, .csv, .mo (OpenModelica's linearize), and .c (DSVerifier)")
             .into()),
     }
 }

@@ -7,6 +7,7 @@ const LIMITS_TAKE_LONG = new Map([
   ["dc-servo", ["T_m"]],
   ["drive-hold", ["T"]],
   ["drive-pwm", ["K_pwm", "T"]],
+  ["drive-ship", ["T"]],
   ["drive-two-rates", ["K_ps"]],
   ["lcl-inverter", ["Lg"]],
   ["two-mass-drive", ["J_l"]],

@@ -101,7 +101,7 @@ impl Diagram<'_, '_> {
         let Some(values) = self.values else { return Err("internal: a hold without values".into()) };
         let number = |f: &Fraction| numbered(f, &values, clock);
         let numbers = a.iter().map(|row| row.iter().map(number).collect()).collect::<Result<Vec<Vec<Q>>, _>>()?;
-        let of = hold::held(&numbers, inputs, hold, values.table, values.numbers.len(), clock)?;
+        let of = hold::held(&numbers, inputs, hold, values.table, values.first, clock)?;
         self.scope.divisors.extend(of.divisors.iter().filter(|m| !m.is_constant()).cloned());
         Ok(of)
     }

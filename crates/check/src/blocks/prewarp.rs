@@ -24,7 +24,7 @@ impl Diagram<'_, '_> {
                 return Err("'prewarp' makes a constant that is not rational, and there are no 'symbols'".into());
             }
             let half = t / Q::from(num_bigint::BigInt::from(2));
-            let (x, mut divisors) = values.table.tangent(&(&w * &w), &half, values.numbers.len(), clock)?;
+            let (x, mut divisors) = values.table.tangent(&(&w * &w), &half, values.first, clock)?;
             divisors.push(x.numerator.clone());
             self.scope.divisors.extend(divisors.into_iter().filter(|m| !m.is_constant()));
             x.inverse(clock)?

@@ -6,15 +6,16 @@ mod residues;
 mod resultant;
 mod strips;
 
-use crate::boxes::polynomial;
+use crate::boxes::{Ground, polynomial};
 use crate::clock::Clock;
 use crate::format::Json;
 use crate::intervals::{Loop, boundaries};
 use crate::multivariate::Multi;
 use crate::number::Q;
-use crate::over_box::{OverBox, common_factor, in_region, over_box, vanishes_only_with};
+use crate::over_box::{OverBox, common_factor, in_region, over_box};
 use crate::over_symbols::primitive;
 use crate::statement::{Extent, axes, bound, count, fixed_extent, list, object, polynomials, values};
+use crate::symbols::Table;
 use crate::words::{exact, outward};
 use crate::{Proved, Rejection, Step, is_discrete, verdict};
 use isolation::Place;
@@ -112,7 +113,7 @@ pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -
     let [_, _, characteristic, boundary, factors, x_factors, strips, joins] =
         Step::Format.of(object(json, "the certificate", keys, &["model"]))?;
     let s = Step::Statement.of(Statement::read(statement))?;
-    let own = Step::Model.of(over_box(model, &s.names, &s.set, clock))?;
+    let own = Step::Model.of(over_box(model, &s.names, &s.set, &Table::empty(), clock))?;
     if own.discrete != s.discrete {
         return Err(Rejection { step: Step::Model, reason: "the model's time is not that of the statement".into() });
     }
@@ -187,7 +188,7 @@ fn curves(json: &Json, all: &[Vec<Multi>], clock: &Clock) -> Result<Vec<Curve>, 
     for (i, parts) in all.iter().enumerate() {
         let mut is_known = false;
         for part in parts {
-            is_known = is_known || vanishes_only_with(part, &factors, clock)?;
+            is_known = is_known || Ground::integers(2).vanishes_only_with(part, &factors, clock)?;
         }
         if !is_known {
             return Err(format!("boundary polynomial {i} is not a product of the factors"));

@@ -5,6 +5,7 @@ use super::polynomial::{self, Polynomial};
 use super::{Parts, Sides, Statement, read};
 use crate::clock::Clock;
 use crate::format::Json;
+use crate::model::Functions;
 use crate::number::{Q, Z};
 use crate::over_box::{FIRST, with_sources};
 use crate::taylor::Precision;
@@ -94,7 +95,8 @@ impl BoxJudge {
     }
 
     pub(super) fn of(model: &str, statement: Statement, parts: &Parts, clock: Clock) -> Result<Self, Rejection> {
-        let (own, sources) = Step::Model.of(with_sources(model, &statement.names, &statement.set, true, &clock))?;
+        let (own, sources) =
+            Step::Model.of(with_sources(model, &statement.names, &statement.set, Functions::Moving, &clock))?;
         if own.discrete != statement.discrete {
             let reason = "the model's time is not that of the statement".into();
             return Err(Rejection { step: Step::Model, reason });

@@ -8,6 +8,7 @@ use crate::number::Z;
 use crate::over_symbols::primitive;
 use num_traits::ToPrimitive;
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
 /// Images are taken modulo this number.
 const PRIME: u64 = (1 << 31) - 1;
@@ -123,6 +124,18 @@ fn common(all: &[Multi], below: usize, clock: &Clock) -> Result<Multi, String> {
     Ok(found)
 }
 
+/// Whether two polynomials may have a factor in common in which one of some variables occurs: their images say so.
+pub fn may_share(p: &Multi, f: &Multi, variables: Range<usize>, clock: &Clock) -> Result<bool, String> {
+    let both = [p.clone(), f.clone()];
+    for v in variables.filter(|v| both.iter().all(|p| p.degree(*v) > 0)) {
+        clock.spend(both.iter().map(|p| p.0.len()).sum::<usize>() + p.degree(v) * f.degree(v), 64, 64)?;
+        if is_in_images(&both, v, POINTS[0]) {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
 /// Whether the images in one variable have a common factor.
 fn is_in_images(all: &[Multi], v: usize, point: u64) -> bool {
     let mut found: Vec<u64> = Vec::new();
@@ -203,5 +216,8 @@ mod tests {
         assert_eq!(common(&product(&f), 5, clock).unwrap(), Multi::one());
         assert_eq!(common(&g, usize::MAX, clock).unwrap(), Multi::one());
         assert_eq!(common(&product(&number(12)), usize::MAX, clock).unwrap(), Multi::one());
+        for (with, variables, is_shared) in [(&f, 2..6, true), (&f, 3..4, false), (&x, 2..6, false)] {
+            assert_eq!(may_share(&product(&f)[0], with, variables, clock), Ok(is_shared));
+        }
     }
 }

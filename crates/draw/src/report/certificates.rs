@@ -8,7 +8,7 @@ use jurist_engine::answer::{Answer, PointVerdict};
 use jurist_engine::problem::Question;
 
 /// Work of all certificates of limits together, which they share evenly, and of the verdict's: about a second of one core.
-const WORK: u64 = 100_000_000;
+const WORK: u64 = 60_000_000;
 
 /// The words of a shell for the model, its settings, and files to write.
 pub(super) struct Commands<'a> {

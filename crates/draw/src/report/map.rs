@@ -20,9 +20,9 @@ const SIZE: (f64, f64) = (860.0, 600.0);
 /// Of the exact map, about half a second of one core.
 const WORK: Work = Work::Units(50_000_000);
 
-/// Boxes end with nine tenths of this, and are drawn as far as they are decided; with the other number the part is left out. About a second of
+/// Boxes end with nine tenths of this, and are drawn as far as they are decided; with the other number the part is left out. About three quarters of a second of
 /// one core.
-const BOXES: (u64, Work) = (100_000_000, Work::Units(95_000_000));
+const BOXES: (u64, Work) = (75_000_000, Work::Units(71_000_000));
 
 /// The share of the window that boxes may leave undecided.
 const UNDECIDED: (i64, i64) = (1, 50);

@@ -30,6 +30,7 @@ pub use roots::{BeyondRoots, ClosedLoopRoot, RIGHTMOST, Roots};
 pub use sensitivity::{Sensitivities, Sensitivity};
 pub use table::{ParametricTable, PointTable};
 pub use tolerance::{LimitSide, RequiredBox, ToleranceAnswer, ToleranceLimit, ToleranceRequest, WorstEnd};
+pub(crate) use tolerance::{SYMBOL_BITS, Truth};
 pub use verdict::{DelayedRoots, PointVerdict, Verdict};
 
 use crate::problem::Problem;

@@ -6,6 +6,8 @@ mod limit;
 mod one_name;
 mod required;
 
+pub(crate) use held::{SYMBOL_BITS, Truth};
+
 use super::Answer;
 use crate::error::{Code, Diagnostic, Error};
 use crate::model::{Model, Tolerance};

@@ -119,7 +119,7 @@ static ROWS: &[Row] = &[
     Row::new(Asked::IntervalsCertificate, "intervals --param NAME --certificate FILE", [A(&WITNESSES), CERTIFIED, CERTIFIED, CERTIFIED, BESIDE, NO_ORDER]),
     Row::new(Asked::ExactMapCertificate, "map -x NAME -y NAME --method exact --certificate FILE", [A(&WITNESSES), R(&MAP_OF_CONSTANTS), R(&MAP_OF_CONSTANTS), R(&MAP_WITH_DEAD_TIME), R(&MAP_WITH_DEAD_TIME), NO_ORDER]),
     Row::new(Asked::BoxMapCertificate, "map -x NAME -y NAME --method boxes --certificate FILE", [B(&WITNESSES), B(&WITNESSES), B(&WITNESSES), B(&WITNESSES), R(&CERTIFIED_BESIDE), NO_ORDER]),
-    Row::new(Asked::ToleranceCertificate, "tolerance --tol NAME=10% --certificate FILE", [A(&WITNESSES), UNCERTIFIED, UNCERTIFIED, UNCERTIFIED, BESIDE, NO_ORDER]),
+    Row::new(Asked::ToleranceCertificate, "tolerance --tol NAME=10% --certificate FILE", [A(&WITNESSES), CERTIFIED, UNCERTIFIED, UNCERTIFIED, BESIDE, NO_ORDER]),
     Row::new(Asked::Smt2, "intervals --param NAME --smt2 FILE", [A(&WITNESSES), NO_SMT, NO_SMT, NO_SMT, BESIDE, NO_SMT]),
     Row::new(Asked::IntervalsCoq, "intervals --param NAME --coq FILE", [A(&WITNESSES), NO_COQ, NO_COQ, NO_COQ, BESIDE, NO_ORDER]),
     at_a_point(Asked::VerdictCoq, "verdict --coq FILE", [A(&WITNESSES), NO_COQ, NO_COQ, BESIDE]),

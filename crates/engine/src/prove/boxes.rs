@@ -1,14 +1,17 @@
 //! Certificates of boxes of tolerances: the tree of cells, and a point beyond.
 
+mod held;
+
 use super::held::{is_held, polynomials, terms};
 use super::statement::{about, number, object, region, set};
 use super::text::to_text;
 use super::{no_certificate, refuse_requirements};
-use crate::answer::{Answer, ToleranceAnswer, ToleranceLimit};
+use crate::answer::{Answer, ToleranceAnswer, ToleranceLimit, Truth};
 use crate::error::Error;
 use crate::problem::Problem;
 use crate::stability::boxes::{BoxDecision, BoxPolynomial, BoxProof, Side, ToleranceProblem, Witness};
 use crate::stability::{AtPoint, RootCount};
+use held::Held;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::MultiPoly;
@@ -17,6 +20,9 @@ use std::sync::Arc;
 
 /// The schema of certificates of boxes.
 const SCHEMA: &str = "jurist/certificate/4";
+
+/// The schema of those over symbols.
+const SCHEMA_WITH_SYMBOLS: &str = "jurist/certificate/8";
 
 impl Answer<ToleranceAnswer> {
     /// A certificate of the largest box that was proved, with the point beyond it that was found: both together prove the bracket
@@ -39,15 +45,13 @@ impl Answer<ToleranceAnswer> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Stopped`] when the budget runs out; [`Error::Refused`] (`E-no-certificate`) where nothing was decided, or the loop is
-    /// not rational.
+    /// [`Error::Stopped`] when the budget runs out; [`Error::Refused`] (`E-no-certificate`) where nothing was decided, a parameter is inside of
+    /// a function, or the loop has other functions than those of holds and prewarped rules.
     pub fn certificate(&self, budget: &Budget) -> Result<String, Error> {
         budget.step("certificate");
         let (problem, value) = (self.problem(), self.value());
         refuse_requirements(problem)?;
-        if is_held(problem, budget)? {
-            return Err(no_certificate("no certificate of a box: the loop has constants that are not rational"));
-        }
+        let is_held = is_held(problem, budget)?;
         let witness = value.factor.as_ref().and_then(|factor| factor.witness.as_ref()).or(match &value.decision {
             BoxDecision::NotStable { witness } => witness.as_ref(),
             _ => None,
@@ -58,17 +62,17 @@ impl Answer<ToleranceAnswer> {
                 None => Err(no_certificate("no certificate: the box was not decided")),
             };
         }
-        let Some(d) = problem.algebra(budget)?.polynomial() else {
+        let Some(d) = problem.algebra_over_symbols(budget)?.polynomial() else {
             return Err(no_certificate("no certificate: the loop is undefined everywhere"));
         };
-        let p = budget.enter(|| BoxPolynomial::new(d, problem.shape()))?;
+        let truth = Truth::of(problem, budget)?;
+        let variables = truth.beside(&value.sides).len();
+        let p = &budget.enter(|| BoxPolynomial::over(d, variables, problem.shape()))?;
+        let held = if is_held { Some(Held::of(problem, budget)?) } else { None };
+        let of = Loop { problem, p, held, budget };
         match (&value.limit, proved(value)) {
-            (Some(limit), _) => of_limit(problem, &p, &value.sides, limit, budget),
-            (None, Some((factor, proof))) => {
-                let sides = &value.sides;
-                let beyond = witness.map(|witness| beyond(witness, sides, p.formal_degree()));
-                of_box(problem, &p, sides, (factor, proof), None, beyond.into_iter().collect())
-            }
+            (Some(limit), _) => of.limit(&value.sides, &truth, limit),
+            (None, Some(proof)) => of.box_of_sides(&value.sides, proof, None, witness.map(|w| (w, &value.sides[..]))),
             (None, None) => unreachable!("something was proved"),
         }
     }
@@ -85,76 +89,114 @@ fn proved(value: &ToleranceAnswer) -> Option<(Rational, &BoxProof)> {
     }
 }
 
-fn of_box(
-    problem: &Arc<Problem>,
-    p: &BoxPolynomial,
-    sides: &[Side],
-    (factor, proof): (Rational, &BoxProof),
-    limit: Option<&str>,
-    beyond: Vec<Value>,
-) -> Result<String, Error> {
-    let tolerances = problem.free().iter().zip(sides).map(|(free, side)| {
-        object([
-            ("name", free.name.as_str().into()),
-            ("nominal", number(side.nominal())),
-            ("between", side.at(&Rational::ONE).iter().map(number).collect()),
-        ])
-    });
-    let statement = object([
-        ("kind", "tolerance".into()),
-        ("time", problem.time().name().into()),
-        ("set", set(problem.set())),
-        ("region", region(problem.region())),
-        ("tolerances", tolerances.collect()),
-        ("factor", number(&factor)),
-        ("limit", limit.map_or(Value::Null, Value::from)),
-        ("beyond", Value::Array(beyond)),
-    ]);
-    let certain = p.certain().iter().zip(&proof.certain).filter(|((_, f), _)| !f.is_constant());
-    let factors = certain.map(|((_, f), tree)| object([("polynomial", terms(f)), ("tree", tree.to_string().into())]));
-    let power = |exponent: i64| Rational::from(2).pow(exponent).expect("two is not zero");
-    let pair = object([
-        ("v0", number(&power(2 * proof.scale))),
-        ("weight", number(&power(proof.weight))),
-        ("tree", proof.pair.to_string().into()),
-    ]);
-    let certificate = object([
-        ("schema", SCHEMA.into()),
-        ("model", about(problem)?),
-        ("statement", statement),
-        ("characteristic", polynomials(&primitive(&p.coefficients_in_region()))),
-        ("factors", factors.collect()),
-        ("pair", pair),
-    ]);
-    Ok(to_text(&certificate))
+/// What boxes are certified of.
+struct Loop<'a> {
+    problem: &'a Arc<Problem>,
+    p: &'a BoxPolynomial,
+    /// The symbols, if there are any.
+    held: Option<Held>,
+    budget: &'a Budget,
 }
 
-/// The box of the others' tolerances and the whole range of one parameter, proved as one, and what was found beyond its ends.
-fn of_limit(
-    problem: &Arc<Problem>,
-    p: &BoxPolynomial,
-    sides: &[Side],
-    limit: &ToleranceLimit,
-    budget: &Budget,
-) -> Result<String, Error> {
-    let [Some(lower), Some(upper)] = &limit.sides else {
-        return Err(no_certificate("no certificate: the box of the others is not stable"));
-    };
-    let at =
-        problem.free().iter().position(|free| free.name == limit.parameter).expect("the limit's parameter is free");
-    let mut own = sides.to_vec();
-    own[at] = Side::scaled(limit.nominal.clone(), [&limit.nominal - &lower.safe, &upper.safe - &limit.nominal]);
-    let boxes = ToleranceProblem::new(p, own.clone()).expect("stable at the nominal point");
-    let BoxDecision::Stable(proof) = boxes.decide(&Rational::ONE, budget)? else {
-        return Err(no_certificate("no certificate: the proof of the whole range at once takes too many cells"));
-    };
-    // Only the limit's own side grows with the factor of a point beyond.
-    let alone: Vec<Side> =
-        own.iter().enumerate().map(|(i, side)| if i == at { side.clone() } else { still(side) }).collect();
-    let found = [lower, upper].into_iter().filter_map(|side| side.factor.witness.as_ref());
-    let found = found.filter(|witness| !alone[at].widths()[usize::from(witness.point[at] > limit.nominal)].is_zero());
-    let points = found.map(|witness| beyond(witness, &alone, p.formal_degree())).collect();
-    of_box(problem, p, &own, (Rational::ONE, &proof), Some(&limit.parameter), points)
+impl Loop<'_> {
+    /// The certificate of a box, the tolerances times a factor, and of points beyond, each with the sides of which its factor is one. A point that the checkers
+    /// cannot count is left out.
+    fn box_of_sides<'w>(
+        &self,
+        sides: &[Side],
+        (factor, proof): (Rational, &BoxProof),
+        limit: Option<&str>,
+        points: impl IntoIterator<Item = (&'w Witness, &'w [Side])>,
+    ) -> Result<String, Error> {
+        let Loop { problem, p, held, budget } = self;
+        let (mut found, mut bits) = (Vec::new(), 0);
+        for (witness, sides) in points {
+            if let Some(held) = held {
+                let Some(of_point) = held.bits_beyond(p, witness, budget)? else { continue };
+                bits = bits.max(of_point);
+            }
+            found.push(beyond(witness, sides, p.formal_degree()));
+        }
+        let tolerances = problem.free().iter().zip(sides).map(|(free, side)| {
+            object([
+                ("name", free.name.as_str().into()),
+                ("nominal", number(side.nominal())),
+                ("between", side.at(&Rational::ONE).iter().map(number).collect()),
+            ])
+        });
+        let statement = object([
+            ("kind", "tolerance".into()),
+            ("time", problem.time().name().into()),
+            ("set", set(problem.set())),
+            ("region", region(problem.region())),
+            ("tolerances", tolerances.collect()),
+            ("factor", number(&factor)),
+            ("limit", limit.map_or(Value::Null, Value::from)),
+            ("beyond", Value::Array(found)),
+        ]);
+        let mut parts = vec![("model", about(problem)?), ("statement", statement)];
+        if let Some(held) = held {
+            let nominal: Vec<Rational> = sides.iter().map(|side| side.nominal().clone()).collect();
+            let inside = held.bits_inside(p, &nominal, budget)?;
+            let inside = inside.ok_or_else(|| no_certificate("no certificate: a root count is not certain"))?;
+            let all = p.in_half_plane();
+            let all = all.iter().chain(p.certain().iter().map(|(_, f)| f));
+            parts.extend(held.parts(problem, bits.max(inside), all, budget)?);
+        }
+        parts.extend(self.proof(proof));
+        let schema = if held.is_some() { SCHEMA_WITH_SYMBOLS } else { SCHEMA };
+        let parts = [("schema", schema.into())].into_iter().chain(parts);
+        Ok(to_text(&Value::Object(parts.map(|(key, value)| (key.to_owned(), value)).collect())))
+    }
+
+    /// The parts of a certificate that prove its box.
+    fn proof(&self, proof: &BoxProof) -> [(&'static str, Value); 3] {
+        let Loop { problem, p, held, .. } = self;
+        let parameters = problem.free().len();
+        let certain = p.certain().iter().zip(&proof.certain).filter_map(|((_, f), tree)| {
+            let f = match held {
+                None => Some(f.clone()).filter(|f| !f.is_constant()),
+                Some(held) => held.in_parameters(f),
+            }?;
+            Some((f, tree))
+        });
+        let factors = certain.map(|(f, tree)| {
+            object([("polynomial", terms(&f)), ("tree", tree.of_first(parameters).to_string().into())])
+        });
+        let power = |exponent: i64| Rational::from(2).pow(exponent).expect("two is not zero");
+        let pair = object([
+            ("v0", number(&power(2 * proof.scale))),
+            ("weight", number(&power(proof.weight))),
+            ("tree", proof.pair.of_first(parameters).to_string().into()),
+        ]);
+        [
+            ("characteristic", polynomials(&primitive(&p.coefficients_in_region()))),
+            ("factors", factors.collect()),
+            ("pair", pair),
+        ]
+    }
+
+    /// The box of the others' tolerances and the whole range of one parameter, proved as one, and what was found beyond its ends.
+    fn limit(&self, sides: &[Side], truth: &Truth, limit: &ToleranceLimit) -> Result<String, Error> {
+        let [Some(lower), Some(upper)] = &limit.sides else {
+            return Err(no_certificate("no certificate: the box of the others is not stable"));
+        };
+        let names = self.problem.free().iter();
+        let at = names.clone().position(|free| free.name == limit.parameter).expect("the limit's parameter is free");
+        let mut own = sides.to_vec();
+        own[at] = Side::scaled(limit.nominal.clone(), [&limit.nominal - &lower.safe, &upper.safe - &limit.nominal]);
+        let boxes = ToleranceProblem::new(self.p, truth.beside(&own)).expect("stable at the nominal point");
+        let BoxDecision::Stable(proof) = boxes.decide(&Rational::ONE, self.budget)? else {
+            return Err(no_certificate("no certificate: the proof of the whole range at once takes too many cells"));
+        };
+        // Only the limit's own side grows with the factor of a point beyond.
+        let alone: Vec<Side> =
+            own.iter().enumerate().map(|(i, side)| if i == at { side.clone() } else { still(side) }).collect();
+        let found = [lower, upper].into_iter().filter_map(|side| side.factor.witness.as_ref());
+        let found = found.filter(|w| !alone[at].widths()[usize::from(w.point[at] > limit.nominal)].is_zero());
+        let points = found.map(|witness| (witness, &alone[..]));
+        self.box_of_sides(&own, (Rational::ONE, &proof), Some(&limit.parameter), points)
+    }
 }
 
 /// The side as a place that does not grow.

@@ -25,10 +25,10 @@ const SCHEMA: &str = "jurist/certificate/2";
 
 /// The checkers have so many bits more than the signs were certain with here, beside those of the longest coefficient: they take powers of symbols,
 /// which may be small, before they multiply.
-const SPARE_BITS: u64 = 64;
+pub(super) const SPARE_BITS: u64 = 64;
 
 /// They take no more.
-const MOST_OF_CHECKERS: u64 = 1 << 15;
+pub(super) const MOST_OF_CHECKERS: u64 = 1 << 15;
 
 /// Whether the loop has constants that are not rational, all of them from holds and prewarped rules at fixed times.
 pub(super) fn is_held(problem: &Problem, budget: &Budget) -> Result<bool, Error> {
@@ -138,16 +138,7 @@ pub(super) fn of_verdict(answer: &Answer<PointVerdict>, budget: &Budget) -> Resu
     };
     let symbols = Arc::clone(p.fixed_symbols().ok_or_else(|| no_certificate("no certificate: symbols move"))?);
     let d = coefficients(&p);
-    // Roots at 1 and -1 that are there by an identity are divided out.
-    let (mut rest, mut on) = (Poly::new(d.clone()), 0);
-    for root in [1, -1] {
-        let root = MultiPoly::from(root);
-        while rest.coeffs().len() > 1 && rest.eval(&root).is_zero() {
-            let line = Poly::new(vec![root.negated(), MultiPoly::one()]);
-            rest = rest.pseudo_div_rem(&line).0;
-            on += 1;
-        }
-    }
+    let (rest, on) = without_certain_roots(&d);
     let found = CERTIFICATE_OVER_SYMBOLS.find(|bits| {
         budget.check()?;
         let enclosed = Enclosed { symbols: &symbols, bits };
@@ -166,6 +157,20 @@ pub(super) fn of_verdict(answer: &Answer<PointVerdict>, budget: &Budget) -> Resu
     }
     let bits = bits + longest(p.poles().iter().chain(&d));
     certificate(problem, statement::verdict(problem, verdict), (bits, &symbols), &d, [], budget)
+}
+
+/// A polynomial without its roots at 1 and -1 that are there by an identity, and how many these are.
+pub(super) fn without_certain_roots(d: &[MultiPoly]) -> (Poly<MultiPoly>, usize) {
+    let (mut rest, mut on) = (Poly::new(d.to_vec()), 0);
+    for root in [1, -1] {
+        let root = MultiPoly::from(root);
+        while rest.coeffs().len() > 1 && rest.eval(&root).is_zero() {
+            let line = Poly::new(vec![root.negated(), MultiPoly::one()]);
+            rest = rest.pseudo_div_rem(&line).0;
+            on += 1;
+        }
+    }
+    (rest, on)
 }
 
 /// A certificate over symbols: what it says, what the symbols are, and the steps that prove it.
@@ -204,7 +209,7 @@ fn coefficients(p: &SymbolicPolynomial) -> Vec<MultiPoly> {
 }
 
 /// The bits of the longest coefficient.
-fn longest<'p>(polynomials: impl Iterator<Item = &'p MultiPoly>) -> u64 {
+pub(super) fn longest<'p>(polynomials: impl Iterator<Item = &'p MultiPoly>) -> u64 {
     polynomials.map(MultiPoly::height_bits).max().unwrap_or(0)
 }
 
@@ -225,7 +230,7 @@ pub(super) fn polynomials(list: &[MultiPoly]) -> Value {
 }
 
 /// What the symbols stand for.
-fn definitions(symbols: &Symbols) -> Result<Value, Error> {
+pub(super) fn definitions(symbols: &Symbols) -> Result<Value, Error> {
     let constant = |f: &RationalFunction| f.as_constant().map(|q| number(&q));
     let define = |definition: &Definition| -> Option<Value> {
         Some(match definition {
@@ -246,7 +251,7 @@ fn definitions(symbols: &Symbols) -> Result<Value, Error> {
 }
 
 /// The factors of the characteristic polynomials of the held blocks.
-fn modes(problem: &Problem, budget: &Budget) -> Result<Value, Error> {
+pub(super) fn modes(problem: &Problem, budget: &Budget) -> Result<Value, Error> {
     let algebra = problem.algebra_over_symbols(budget)?;
     let mode = |m: &Vec<Rational>| Value::Array(m.iter().map(number).collect());
     Ok(Value::Array(algebra.symbols().modes().iter().map(mode).collect()))

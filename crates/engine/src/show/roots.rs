@@ -98,7 +98,7 @@ fn rightmost(listed: usize, beyond: &BeyondRoots) -> String {
     let why = match listed.cmp(&wanted) {
         Ordering::Equal => String::new(),
         Ordering::Greater => format!(" ({wanted} were asked for; the next ones have nearly the same real part)"),
-        Ordering::Less => format!(" ({wanted} were asked for)"),
+        Ordering::Less => format!(" ({wanted} were asked for: nearer to the line below roots are not counted)"),
     };
     match listed {
         0 => format!("infinitely many roots{why}\n"),

@@ -43,6 +43,31 @@ impl Tree {
         Tree(steps.into_iter().map(node).collect())
     }
 
+    /// The tree in so many parameters, where all others are in the middle of what is left of their sides: as coefficients over a cell there are means
+    /// of those beside it, its leaves show the same of these.
+    pub fn of_first(&self, parameters: usize) -> Tree {
+        let mut nodes = Vec::with_capacity(self.0.len());
+        self.copied(0, parameters, Some(&mut nodes));
+        Tree(nodes)
+    }
+
+    /// Copies the part that begins at a node, if it is wanted; the place behind it.
+    fn copied(&self, at: usize, parameters: usize, mut out: Option<&mut Vec<Node>>) -> usize {
+        let is_kept = |axis: &Axis| !matches!(axis, Axis::Parameter(i) if *i >= parameters);
+        let node = &self.0[at];
+        let Node::Halved(axis) = node else {
+            if let Some(out) = out {
+                out.push(node.along(is_kept));
+            }
+            return at + 1;
+        };
+        if let Some(out) = out.as_mut().filter(|_| is_kept(axis)) {
+            out.push(node.clone());
+        }
+        let middle = self.copied(at + 1, parameters, out.as_deref_mut());
+        self.copied(middle, parameters, out.filter(|_| is_kept(axis)))
+    }
+
     /// The number of cells that were not cut further.
     pub fn leaves(&self) -> usize {
         self.0.iter().filter(|node| !matches!(node, Node::Halved(_))).count()
@@ -57,6 +82,13 @@ impl Axis {
 }
 
 impl Node {
+    /// A leaf whose vector is affine along some of its axes only.
+    fn along(&self, is_kept: impl Fn(&Axis) -> bool) -> Node {
+        let Node::Affine(slopes, constant) = self else { return self.clone() };
+        let slopes: Vec<_> = slopes.iter().filter(|(axis, _)| is_kept(axis)).copied().collect();
+        if slopes.is_empty() { Node::Separated(constant.0, constant.1) } else { Node::Affine(slopes, *constant) }
+    }
+
     /// Proved by a vector that is affine along some axes of a tensor with so many parameters.
     pub(super) fn affine(found: Multiplier, parameters: usize) -> Node {
         let slopes = found.slopes.into_iter().map(|(i, v)| (Axis::new(i, parameters), v));
@@ -88,5 +120,28 @@ impl fmt::Display for Tree {
             Node::Signed(positive) => f.write_str(if *positive { "+" } else { "-" }),
             Node::Critical => f.write_str("c"),
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tree_of_the_first_parameters_has_no_other_axes() {
+        let slopes = |axes: &[Axis]| axes.iter().map(|axis| (*axis, (1, 2))).collect();
+        let tree = Tree(vec![
+            Node::Halved(Axis::Frequency),
+            Node::Halved(Axis::Parameter(2)),
+            Node::Halved(Axis::Parameter(0)),
+            Node::Affine(slopes(&[Axis::Parameter(2)]), (3, 4)),
+            Node::Affine(slopes(&[Axis::Parameter(1), Axis::Parameter(2), Axis::Frequency]), (5, 6)),
+            Node::Halved(Axis::Parameter(1)),
+            Node::Separated(7, 8),
+            Node::Separated(9, 10),
+            Node::Separated(11, 12),
+        ]);
+        assert_eq!(tree.of_first(2).to_string(), "xs0,l3,4;a1,x:5,6,1,2,1,2;l11,12;");
+        assert_eq!(tree.of_first(3), tree);
     }
 }

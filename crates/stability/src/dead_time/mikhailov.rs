@@ -195,10 +195,10 @@ impl<'p> Walk<'p> {
                 let absolute = UniPoly::new(p.coeffs().iter().map(Integer::abs).collect());
                 absolute.eval(&r)
             };
-            let weighted = |(part, weight): (&UniPoly, &Rational)| (Rational::from(&sum(part)) * weight).ceil();
-            let all = self.p.parts().iter().zip(&self.weights).map(weighted).fold(Integer::ZERO, |total, x| total + x);
+            let weighted = |(part, weight): (&UniPoly, &Rational)| Rational::from(&sum(part)) * weight;
+            let all = self.p.parts().iter().zip(&self.weights).map(weighted).fold(Rational::ZERO, |total, x| total + x);
             let top = self.p.difference().coeff(0).abs() * r.pow(self.n as u64);
-            if all < &top + &top {
+            if all < Rational::from(&(&top + &top)) {
                 return r;
             }
             r = r << 1;

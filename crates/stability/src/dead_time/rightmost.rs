@@ -68,8 +68,9 @@ pub fn rightmost_roots(
     let mut all = All::new(p, tau, relative, budget)?;
     let mut last = None;
     for round in 0..ROUNDS {
+        let floor = all.floor.as_ref().map_or(f64::NEG_INFINITY, Rational::to_f64_approximate);
         for part in &mut all.parts {
-            part.search.look_approximate(wanted + MOST_MORE, round, budget)?;
+            part.search.look_approximate(wanted + MOST_MORE, floor, round, budget)?;
         }
         match all.attempt(wanted, budget)? {
             Ok(mut found) => {
@@ -220,8 +221,11 @@ impl Part {
     /// The number of roots right of a line on which no known one is.
     fn counted(&self, tau: &Rational, line: &Rational, budget: &Budget) -> Result<usize, NotCounted> {
         budget.step("counting roots right of a line");
-        let shifted = shifted(&self.p, line);
-        let count = count_from_line(&shifted, tau, &-(tau * line), budget)?;
+        // In units in which the dead time is not above 1: the way along the line begins with a step of 1.
+        let scale = tau.ceil().bit_length();
+        let shifted = shifted(&self.p, line, scale);
+        let count =
+            count_from_line(&shifted, &(tau * &Rational::dyadic(&Integer::ONE, scale)), &-(tau * line), budget)?;
         count.right.ok_or(NotCounted::Neutral)
     }
 
@@ -232,14 +236,15 @@ impl Part {
     }
 }
 
-/// The parts in `s` counted from a line, over the integers.
-fn shifted(p: &QuasiPolynomial, line: &Rational) -> QuasiPolynomial {
+/// The parts in `2^scale s`, `s` being counted from a line, over the integers.
+fn shifted(p: &QuasiPolynomial, line: &Rational, scale: u64) -> QuasiPolynomial {
     let (a, d) = (line.numerator(), line.denominator());
     let n = p.order();
     // d^n P(s + a/d) = Q(d s + a) with the coefficients c_j d^(n - j).
     let shift = |part: &UniPoly| {
         let scaled = part.coeffs().iter().enumerate().map(|(j, c)| c * &d.pow((n - j) as u64));
-        UniPoly::new(scaled.collect()).taylor_shift(&a).scaled_argument(&d)
+        let moved = UniPoly::new(scaled.collect()).taylor_shift(&a).scaled_argument(&d);
+        UniPoly::new(moved.coeffs().iter().enumerate().map(|(j, c)| c << (scale * (n - j) as u64)).collect())
     };
     QuasiPolynomial::new(p.parts().iter().map(shift).collect()).expect("the function is not zero")
 }
@@ -247,28 +252,47 @@ fn shifted(p: &QuasiPolynomial, line: &Rational) -> QuasiPolynomial {
 /// A line right of which the highest power of `s` outweighs the rest at high frequencies; `None` of a loop that is not of neutral type. It is
 /// proved where roots are counted.
 fn floor_approximate(p: &QuasiPolynomial, tau: &Rational) -> Option<Rational> {
-    /// The logarithm of a base that is tried.
+    /// Sizes of `z` that are tried are powers of `2^(1/256)`.
     const FINEST: i64 = 256;
-    let top = p.difference();
+    /// The angle by which the longest dead time turns at most along the line.
+    const MOST_TURNED: f64 = 3000.0;
     if p.kind() != Kind::Neutral {
         return None;
     }
-    let first = top.coeff(0).abs();
-    // |z| <= x is allowed, x being a power of 2^(1/256).
-    let share = |c: &Integer| Rational::new(c.abs(), first.clone()).to_f64_approximate();
-    let shares: Vec<f64> = top.coeffs().iter().map(share).collect();
-    let outweighs =
-        |log: f64| shares.iter().enumerate().skip(1).map(|(k, c)| c * (log * k as f64).exp2()).sum::<f64>() < 1.0;
+    let terms = terms_approximate(p);
+    let size = |log: i64| (log as f64 / FINEST as f64).exp2();
+    // All terms at s = r beside the first one, where |z| = x.
+    let sum = |x: f64, r: f64| terms.iter().map(|(k, below, c)| c * x.powi(*k) * r.powi(-*below)).sum::<f64>();
+    let outweighs = |log: i64| sum(size(log), f64::INFINITY) < 2.0;
     let mut log = 0i64;
-    while log > -FINEST * 1000 && !outweighs(log as f64 / FINEST as f64) {
+    while log > -FINEST * 1000 && !outweighs(log) {
         log -= 1;
     }
-    while log < FINEST * 1000 && outweighs((log + 1) as f64 / FINEST as f64) {
+    while log < FINEST * 1000 && outweighs(log + 1) {
         log += 1;
     }
-    // Re s = -ln|z|/tau with ln 2 = 6931472/10^7, and some distance.
-    let exponent = Rational::new((1 - log).into(), FINEST.into()) * Rational::new(6_931_472.into(), 10_000_000.into());
-    exponent.checked_div(tau)
+    let turned = |log: i64| {
+        let radius = (0..200).map(|e| 2f64.powi(e)).find(|r| sum(size(log), *r) < 2.0);
+        radius.unwrap_or(f64::INFINITY) * p.delays() as f64 * tau.to_f64_approximate()
+    };
+    // Further from the chain there are fewer roots to be told, and less way to go.
+    let distances = [1, 2, 4, 8, 16, 32, 64, 128, 256];
+    let distance = distances.into_iter().find(|distance| turned(log - distance) <= MOST_TURNED).unwrap_or(256);
+    // Re s = -ln|z|/tau with ln 2 = 6931472/10^7.
+    let exponent = Rational::new((distance - log).into(), FINEST.into());
+    (exponent * Rational::new(6_931_472.into(), 10_000_000.into())).checked_div(tau)
+}
+
+/// The moduli of the coefficients of `z^k s^(n - below)`, that without delay of the highest power being 1.
+fn terms_approximate(p: &QuasiPolynomial) -> Vec<(i32, i32, f64)> {
+    let n = p.order();
+    let first = p.difference().coeff(0).abs();
+    let share = |c: &Integer| Rational::new(c.abs(), first.clone()).to_f64_approximate();
+    let of = |(k, part): (usize, &UniPoly)| -> Vec<(i32, i32, f64)> {
+        let terms = part.coeffs().iter().enumerate().filter(|(_, c)| !c.is_zero());
+        terms.map(|(j, c)| (k as i32, (n - j) as i32, share(c))).collect()
+    };
+    p.parts().iter().enumerate().flat_map(of).collect()
 }
 
 /// The line that a chain of roots comes near to.

@@ -70,8 +70,17 @@ const REAL: f64 = 1e-8;
 /// Roots that are nearer to each other, beside their size, are taken for one.
 const EQUAL: f64 = 1e-7;
 
+/// Further left powers of `z` are out of the range of numbers.
+const MOST_DECAY: f64 = 600.0;
+
+/// Where large terms cancel, steps that are not larger beside the number are rounding.
+const ROUNDED: f64 = 1e-5;
+
 /// Steps of Newton's method.
 const STEPS: usize = 60;
+
+/// Steps above what is looked at in any case.
+const MOST_ABOVE: usize = 4000;
 
 /// Roots after which a search ends.
 const MOST_ROOTS: usize = 4000;
@@ -111,11 +120,17 @@ impl Search {
         self.roots.iter().map(|root| root.scaled(self.unit))
     }
 
-    /// Searches for roots, about so many, more densely and further in each round.
+    /// Searches for roots, about so many right of a real part, more densely and further in each round.
     ///
     /// # Errors
     /// [`Exhausted`].
-    pub fn look_approximate(&mut self, wanted: usize, round: u32, budget: &Budget) -> Result<(), Exhausted> {
+    pub fn look_approximate(
+        &mut self,
+        wanted: usize,
+        floor: f64,
+        round: u32,
+        budget: &Budget,
+    ) -> Result<(), Exhausted> {
         let mut starts = Vec::new();
         if round == 0 {
             // What is exactly on the axis, or on another root, has no way off it.
@@ -124,24 +139,55 @@ impl Search {
         }
         self.rings(round, &mut starts);
         let dense = f64::from(1u32 << round);
-        let (step, top) = (FRAC_PI_2 / dense, TAU * (wanted as f64 + 4.0) * dense * dense);
+        let (step, top) = (FRAC_PI_2 / dense, TAU * (wanted as f64 + 4.0) * dense);
         let mut y = step / 3.0;
         while y < top {
             checkpoint(self.parts.len() as u64);
             self.balanced(y, &mut starts);
             y += step;
         }
-        let far = 4.0 * top + 20.0 * self.near.iter().fold(1.0, |most: f64, root| most.max(root.size()));
+        let widest = self.near.iter().fold(1.0, |most: f64, root| most.max(root.size()));
+        let far = 4.0 * top + 20.0 * widest;
+        self.follow_approximate(&starts, far, budget)?;
+        // Further up, as long as roots are to be expected that are not left of all that are wanted.
+        let end = top.max(2.0 * widest);
+        for _ in 0..MOST_ABOVE << round {
+            let least = self.least_approximate(wanted).max(floor / self.unit);
+            starts.clear();
+            checkpoint(self.parts.len() as u64);
+            self.balanced(y, &mut starts);
+            starts.retain(|start| start.re >= least);
+            if starts.is_empty() && y > end {
+                break;
+            }
+            self.follow_approximate(&starts, far + 4.0 * y, budget)?;
+            y += step;
+        }
+        Ok(())
+    }
+
+    /// Newton's method from each of these points.
+    fn follow_approximate(&mut self, starts: &[Approximate], far: f64, budget: &Budget) -> Result<(), Exhausted> {
         for start in starts {
             budget.check()?;
             if self.roots.len() >= MOST_ROOTS {
                 break;
             }
-            if let Some(root) = budget.enter(|| self.newton(start, far))? {
+            if let Some(root) = budget.enter(|| self.newton(*start, far))? {
                 self.roots.push(root);
             }
         }
         Ok(())
+    }
+
+    /// The real part of the last of so many known roots, from the right.
+    fn least_approximate(&self, wanted: usize) -> f64 {
+        let mut reals: Vec<f64> = self.roots.iter().map(|root| root.re).collect();
+        if reals.len() <= wanted {
+            return f64::NEG_INFINITY;
+        }
+        let (_, least, _) = reals.select_nth_unstable_by(wanted, |a, b| b.total_cmp(a));
+        *least
     }
 
     /// Points on rings about 0.
@@ -216,11 +262,11 @@ impl Search {
             let newton = value.over(slope);
             let step = newton.over(Approximate { re: 1.0, im: 0.0 }.minus(newton.times(self.pull(w))));
             w = w.minus(step);
-            if !w.re.is_finite() || !w.im.is_finite() || w.size() > far || w.re.abs() > 600.0 {
+            if !w.re.is_finite() || !w.im.is_finite() || w.size() > far || w.re < -MOST_DECAY {
                 return None;
             }
-            settled = step.size() <= 1e-12 * w.size();
-            if settled {
+            settled = step.size() <= ROUNDED * w.size();
+            if step.size() <= 1e-12 * w.size() {
                 break;
             }
         }
@@ -249,7 +295,12 @@ impl Search {
     fn pull(&self, w: Approximate) -> Approximate {
         let one = Approximate { re: 1.0, im: 0.0 };
         let mut sum = Approximate::ZERO;
+        // What is further away changes the way by little.
+        let reach = 30.0 + w.size() / 2.0;
         let mut add = |root: Approximate, times: f64| {
+            if (root.re - w.re).abs() > reach || (root.im - w.im).abs() > reach {
+                return;
+            }
             let term = one.over(w.minus(root)).scaled(times);
             if term.re.is_finite() && term.im.is_finite() {
                 sum = sum.plus(term);

@@ -33,11 +33,14 @@ fn are(found: &RightmostRoots, expected: &[(&str, &str)]) {
     }
 }
 
+/// The parts of a function, the dead time, and real and imaginary parts of roots.
+type Case = (&'static [&'static [i64]], &'static str, &'static [(&'static str, &'static str)]);
+
 /// The roots of `s + a + b exp(-tau s)` are `W_k(-b tau exp(a tau))/tau - a` (Corless and others, On the Lambert W function, 1996); the digits are
 /// those of mpmath's `lambertw` with 45 digits.
 #[test]
 fn loops_of_first_order_have_the_branches_of_lamberts_function() {
-    let cases: [(&[&[i64]], &str, &[(&str, &str)]); 4] = [
+    let cases: [Case; 4] = [
         (
             &[&[0, 1], &[1]],
             "1",
@@ -164,9 +167,22 @@ fn neutral_loops_are_listed_to_the_line_of_the_chain() {
     // No root is right of the chain of 2 s + 1 + (s + 1) z.
     let none = found(&quasi(&[&[1, 2], &[1, 1]]), "1", 3);
     assert!(none.list.is_empty() && none.others_left_of < number("-0.6"));
+    // All roots of (z + 3) (s + 2) but -2 are on the line of the chain.
+    let on_it = found(&quasi(&[&[6, 3], &[2, 1]]), "1", 3);
+    assert!(on_it.list.is_empty() && on_it.others_left_of < number("-1"), "{on_it:?}");
     // Infinitely many roots lie right of any line.
     let advanced = rightmost_roots(&quasi(&[&[1], &[0, 1]]), &Rational::ONE, 3, &number("1e-9"), &budget).unwrap();
     assert_eq!(advanced, None);
+}
+
+#[test]
+fn long_dead_times_and_high_orders_are_searched_as_others() {
+    // s + exp(-10^6 s), and (s + 1)^20 + exp(-s), whose expanded powers cancel to ten digits
+    let long = found(&quasi(&[&[0, 1], &[1]]), "1000000", 3);
+    assert!(long.list.iter().all(|disc| disc.is_pair && disc.re > number("1e-5") && disc.re < number("2e-5")));
+    let power = UniPoly::from_i64(&[1, 1]).power(20);
+    let high = found(&QuasiPolynomial::new(vec![power, UniPoly::one()]).unwrap(), "1", 10);
+    assert!(high.list.len() == 10 && high.list.iter().all(|disc| disc.re > number("-2.1")));
 }
 
 #[test]

@@ -13,10 +13,10 @@ use jurist_algebra::number::Rational;
 use std::sync::Arc;
 
 /// Symbols are enclosed with so many bits after the point.
-const SYMBOL_BITS: u64 = 512;
+pub(crate) const SYMBOL_BITS: u64 = 512;
 
 /// What the polynomial's variables beyond the free parameters are.
-pub(super) struct Truth<'a> {
+pub(crate) struct Truth<'a> {
     problem: &'a Arc<Problem>,
     symbols: Vec<Side>,
     is_exact: bool,
