@@ -46,12 +46,13 @@ function firstScreens(ask) {
   const common = (model) => {
     const described = ask({ ask: "describe", model });
     const set = (described.model?.parameters ?? []).filter((p) => p.nominal !== null).map((p) => [p.name, p.nominal]);
-    at(model, set);
+    program(model, "verdict", "-", "--json", ...options(set));
     return set;
   };
   const read = (file) => readFileSync(join(examples, file), "utf8");
   const drive = read("drive.toml");
   const set = common(drive);
+  at(drive, set);
   const [y, x] = set.map(([name]) => name);
   const but = (...names) => set.filter(([name]) => !names.includes(name));
   for (const value of ["0.01", "1/3", "551", "549.99"]) at(drive, [[y, value], ...but(y)]);
