@@ -54,15 +54,15 @@ export class MapPlot {
     });
   }
 
-  /** The map; of boxes the finer ones once they are about the same values. */
+  /** The map; the finer one once it is about the same values. */
   private get data(): any {
     const [map, finer] = [this.known("map"), this.known("finer map")];
-    return finer.reply?.boxes && (finer.now || !map.now) ? finer.reply : map.reply;
+    return finer.reply?.x && (finer.now || !map.now) ? finer.reply : map.reply;
   }
 
   /** Whether there are boxes because the exact map takes long. */
   private get isLong(): boolean {
-    return this.known("map").reply?.long === true;
+    return this.data?.long === true;
   }
 
   /** Menus for the axes, where there is a choice. */
@@ -141,7 +141,8 @@ export class MapPlot {
     const finer = this.known("finer map");
     const ended = stopped ? "; the counted work ended before it was less" : "";
     const why = this.isLong ? "The exact map takes longer than that." : "There is no exact map of such a loop.";
-    const smaller = !finer.now ? " Smaller boxes are being computed." : finer.reply?.boxes ? "" : ` Smaller boxes: ${no(finer.reply)}.`;
+    const more = this.isLong ? "More" : "Smaller boxes";
+    const smaller = !finer.now ? ` ${more} ${this.isLong ? "is" : "are"} being computed.` : finer.reply?.x ? "" : ` ${more}: ${no(finer.reply)}.`;
     return `${x.name} and ${y.name} by boxes: ${shares.stable} % of the window is proved stable, ${shares.unstable} % unstable, ${shares.undecided} % is undecided (hatched)${ended}. ${why}${smaller}`;
   }
 

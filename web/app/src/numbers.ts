@@ -92,6 +92,36 @@ export function plain(text: string): string {
   return decimal.length > READABLE ? text : (sign === "-" ? "-" : "") + decimal;
 }
 
+/** Powers of ten beyond this are compared as they are written. */
+const FAR = 400;
+
+/** A number as numerator and denominator. */
+function fraction(text: string): [bigint, bigint] | undefined {
+  if (!isNumber(text)) return undefined;
+  const one = (t: string): [bigint, bigint] | undefined => {
+    const [mantissa = "", exponent = "0"] = t.trim().toLowerCase().split("e");
+    const [whole = "", part = ""] = mantissa.split(".");
+    const power = Number(exponent) - part.length;
+    if (Math.abs(power) > FAR) return undefined;
+    const digits = BigInt((whole + part).replace("+", ""));
+    return power < 0 ? [digits, 10n ** BigInt(-power)] : [digits * 10n ** BigInt(power), 1n];
+  };
+  const [p, q = [1n, 1n]] = text.split("/").map(one);
+  return p && q && [p[0] * q[1], p[1] * q[0]];
+}
+
+/** Whether two texts are the same number, however it is written. */
+export function same(a: string | null | undefined, b: string | null | undefined): boolean {
+  if (a === b) return true;
+  const [p, q] = [fraction(a ?? ""), fraction(b ?? "")];
+  return p !== undefined && q !== undefined && p[1] !== 0n && q[1] !== 0n && p[0] * q[1] === q[0] * p[1];
+}
+
+/** The same in a formula: only what stands for itself, as no part of a power or of another quotient. */
+export function plainIn(formula: string): string {
+  return formula.replace(/(?<![\w.^/]|\^-)\d+\/\d+(?![\w.^/])/g, plain);
+}
+
 /** An axis from one value to another. */
 export interface Scale {
   lower: number;

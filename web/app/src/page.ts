@@ -8,15 +8,15 @@ import type { Engine, Reply } from "./engine.js";
 import { Freshness } from "./freshness.js";
 import type { Shared } from "./link.js";
 import { script } from "./load.js";
-import { isNumber, plain } from "./numbers.js";
+import { isNumber, same } from "./numbers.js";
 import { type Interval, Row, nearest } from "./parameters.js";
-import { type Model, signals, withDecimals } from "./model.js";
+import { type Model, asWritten, signals } from "./model.js";
 import { OpenLoopPlot } from "./openloop.js";
 import { MapPlot } from "./map.js";
 import { LocusPlot, type Reads, ResponsePlot, verdictIn } from "./plots.js";
 import type { Figure } from "./plot.js";
 import { Questions } from "./questions.js";
-import { documentOf, instead } from "./reply.js";
+import { documentOf, ended, instead } from "./reply.js";
 import { type Also, questionsAbout, verdictOf } from "./requests.js";
 import { type TextBox, textArea } from "./textbox.js";
 import { VerdictBar } from "./verdict.js";
@@ -157,7 +157,7 @@ export class Page {
     }
     if (!shared) this.engine.cancel();
     this.about(text);
-    this.take(withDecimals(reply.model), shared);
+    this.take(asWritten(reply.model, text), shared);
   }
 
   /** From now on all panels are about this text, and hold nothing of another. */
@@ -189,7 +189,8 @@ export class Page {
     for (const { name, nominal } of model.parameters) {
       // What was dragged stays where it is while the text is edited; a new nominal value wins.
       const old = before?.parameters.find((p) => p.name === name);
-      const kept = !shared && old && old.nominal === nominal ? this.values.get(name) : undefined;
+      const now = this.values.get(name);
+      const kept = !shared && old && same(old.nominal, nominal) && !same(now, nominal) ? now : undefined;
       const given = shared?.v?.[name];
       values.set(name, (given !== undefined && isNumber(given) ? given : kept) ?? nominal ?? "1");
     }
@@ -271,7 +272,7 @@ export class Page {
   /** Those of them that differ from nominal, and those that would follow others. */
   differing(): [string, string][] {
     const known = (name: string) => this.model?.parameters.find((p) => p.name === name);
-    return this.given().filter(([name, value]) => known(name)?.nominal !== plain(value) || known(name)?.formula != null);
+    return this.given().filter(([name, value]) => !same(known(name)?.nominal, value) || known(name)?.formula != null);
   }
 
   /** Everything that a point needs: the verdict and the pictures that move at once, the rest when there is time. */
@@ -373,7 +374,7 @@ export class Page {
       this.response.show(moves);
     } else if (lane === "locus" || lane === "roots") this.locus.show();
     else if (lane === "map" || lane === "finer map") {
-      if (lane === "map" && reply?.x) this.further({ finer: reply.boxes !== undefined });
+      if (lane === "map" && (reply?.x || ended(reply))) this.further({ finer: reply.boxes !== undefined || ended(reply) });
       this.map.show();
     } else if (lane === "margins" || lane === "frequency response") {
       this.cutAt(reply);

@@ -13,6 +13,11 @@ export function no(reply: any): string | undefined {
   return undefined;
 }
 
+/** Whether the counted work ended before there was anything to show. */
+export function ended(reply: any): boolean {
+  return reply?.stopped !== undefined && reply.stopped !== "cancelled";
+}
+
 /** The same, and what can be asked instead: sentences for a panel that has nothing else to say. */
 export function instead(reply: any): string | undefined {
   const message = no(reply);

@@ -167,7 +167,7 @@ test("the work of a map is counted, but for an exact one that somebody waits for
   const chosen = { text: "text", values: [["K", "1"], ["T", "2"], ["L", "3"]], differing: [], focus: "", cut: "", axes: ["K", "T"], also: { rightmost: false, finer: true } };
   const maps = (method) => questionsAbout({ ...chosen, method }).filter((q) => q.lane.endsWith("map")).map((q) => q.request);
   const [first, finer] = maps("auto");
-  assert.deepEqual([first.method, finer.method, first.set], ["auto", "boxes", [["L", "3"]]]);
+  assert.deepEqual([first.method, finer.method, first.set], ["auto", "auto", [["L", "3"]]]);
   assert.ok(first.work > 0 && finer.work > first.work);
   assert.equal(maps("exact")[0].work, undefined);
 });
