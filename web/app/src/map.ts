@@ -130,7 +130,7 @@ export class MapPlot {
     }
     const words = `by boxes, ${data.shares.undecided} % undecided`;
     const [right, top] = [box.left + box.width - 8, box.top + 18];
-    view.inside.append(s("rect", { class: "open sample", fill: "url(#undecided)", x: right - words.length * 6.2 - 20, y: top - 10, width: 12, height: 12 }));
+    view.inside.append(s("rect", { class: "open sample", fill: "url(#undecided)", x: right - words.length * 6.6 - 20, y: top - 10, width: 12, height: 12 }));
     view.inside.append(s("text", { class: "words", x: right, y: top, "text-anchor": "end" }, words));
     view.inside.append(this.cross.x, this.cross.y, this.cross.point);
     this.shift();
@@ -139,7 +139,7 @@ export class MapPlot {
   /** What boxes say, how much is left, and why there are boxes. */
   private saidByBoxes({ x, y, shares, stopped }: any): string {
     const finer = this.known("finer map");
-    const ended = stopped ? "; the counted work ended before it was less" : "";
+    const ended = stopped && finer.now ? "; the counted work ended before it was less" : "";
     const why = this.isLong ? "The exact map takes longer than that." : "There is no exact map of such a loop.";
     const more = this.isLong ? "More" : "Smaller boxes";
     const smaller = !finer.now ? ` ${more} ${this.isLong ? "is" : "are"} being computed.` : finer.reply?.x ? "" : ` ${more}: ${no(finer.reply)}.`;

@@ -168,6 +168,7 @@ export class Page {
     this.freshness.about(text);
     if (!other) return;
     clearTimeout(this.laterTimer);
+    this.laterTimer = 0;
     [this.natural, this.method, this.also] = ["", "auto", { rightmost: false, finer: false }];
     by("failure").hidden = true;
     this.details.clear();
@@ -329,7 +330,10 @@ export class Page {
   private later(): void {
     clearTimeout(this.laterTimer);
     const { text } = this;
-    this.laterTimer = window.setTimeout(() => void this.told.then(() => text === this.text && this.slow()), 60);
+    this.laterTimer = window.setTimeout(() => {
+      this.laterTimer = 0;
+      void this.told.then(() => text === this.text && this.slow());
+    }, 60);
   }
 
   private slow(): void {

@@ -30,7 +30,7 @@ export function axes(svg: SVGSVGElement, box: Box, xs: Scale, ys: Scale, words: 
   svg.append(s("clipPath", { id }, s("rect", { x: box.left, y: box.top, width: box.width, height: box.height })));
   svg.append(s("rect", { class: "ground", x: box.left, y: box.top, width: box.width, height: box.height }));
   let free = -Infinity;
-  for (const t of ticks(xs, Math.max(3.5, box.width / 90))) {
+  for (const t of ticks(xs, Math.max(5, box.width / 70))) {
     const at = x(t);
     svg.append(s("line", { class: "grid", x1: at, x2: at, y1: box.top, y2: bottom }));
     const text = short(t);

@@ -47,7 +47,7 @@ test("the drive is answered before a key is pressed", async () => {
   assert.equal(await page.value('document.getElementById("verdict-roots").textContent'), "6 of 6 roots inside the unit circle");
   const labels = await page.value('[...document.querySelectorAll(".ends button")].map((b) => b.textContent)');
   assert.ok(labels.includes("0.038101") && labels.includes("550.94"), labels.join());
-  assert.match(await page.value('document.getElementById("map-sentence").textContent'), /stable region.* K_pwm = 110, T = 0.0001, stable/);
+  assert.match(await page.value('document.getElementById("map-sentence").textContent'), /stable region.* K_pwm = 110, T = 1e-4, stable/);
   assert.match(await page.value('document.getElementById("open-loop-sentence").textContent'), /gain margin 13.99 dB, lower −69.21 dB, phase margin 71.87°/);
   assert.ok((await page.value('document.querySelectorAll("#locus .root").length')) >= 6);
   assert.ok((await page.value('document.querySelectorAll("#response .line").length')) === 1);
@@ -209,7 +209,7 @@ test("smaller boxes are cancelled and the larger ones stay; an exact map can be 
   await page.until('jurist.engine.busy === "finer map" || jurist.page.known("finer map").now');
   await page.value("jurist.engine.cancel(true)");
   await page.settled();
-  assert.match(await said(), /^K_pwm and T by boxes: .* % is undecided \(hatched\).* There is no exact map of such a loop. (Smaller boxes: undecided: cancelled. )?The point is at K_pwm = 110, T = 0.0001, stable/);
+  assert.match(await said(), /^K_pwm and T by boxes: .* % is undecided \(hatched\).* There is no exact map of such a loop. (Smaller boxes: undecided: cancelled. )?The point is at K_pwm = 110, T = 1e-4, stable/);
   assert.equal(await page.value('document.querySelectorAll("#map path.open").length'), 1);
   // Where the loop is cut: at the error, which the program does not choose of two loops.
   assert.equal(await page.value('document.querySelector("#open-loop select").value'), "speed controller");
@@ -230,6 +230,66 @@ test("smaller boxes are cancelled and the larger ones stay; an exact map can be 
   await page.value(`${exact}.click()`);
   assert.equal(await page.value('jurist.page.questions.lanes().find((q) => q.lane === "map").request.work'), undefined);
   await page.open(fromFile);
+});
+
+test("where the exact map takes more than the first of the work, there are boxes until it is there", async () => {
+  await page.open(fromFile);
+  await page.take(readFileSync(join(root, "examples/drive-filters-4.toml"), "utf8"));
+  const known = (lane, key) => page.value(`jurist.page.known("${lane}").reply.${key} !== undefined`);
+  assert.deepEqual([await known("map", "boxes"), await known("map", "walls")], [true, false]);
+  assert.deepEqual([await known("finer map", "boxes"), await known("finer map", "walls")], [false, true]);
+  assert.match(await page.value('document.getElementById("map-sentence").textContent'), /stable regions?, drawn green. The point is at/);
+  assert.equal(await page.value('document.querySelector("#map .controls button").hidden'), true);
+});
+
+test("numbers are written as in the text, and limits are roots of equations", async () => {
+  await page.open(fromFile);
+  assert.equal(await page.value('document.querySelectorAll(".parameter input")[1].value'), "1e-4");
+  await page.value('document.getElementById("details").open = true');
+  await page.until('document.querySelectorAll("#details-body h3").length === 2');
+  await page.settled();
+  const [first] = await page.value('[...document.querySelectorAll("#details-body tr")].filter((r) => /^root of/.test(r.textContent)).map((r) => r.querySelector("td").textContent)');
+  assert.match(first, /^-?\d+\*K_pwm\^\d+ [+-] [^\[{"]* = 0$/);
+  // A limit behind a hold is a zero of what is said in words.
+  await page.take(readFileSync(join(root, "examples/drive-hold.toml"), "utf8"), { map: false });
+  await page.until('document.querySelectorAll("#details-body h3").length === 2 && document.getElementById("details-body").textContent.includes("stable set of T")');
+  const text = await page.value('document.getElementById("details-body").textContent');
+  assert.match(text, /zero of|root of/);
+  assert.doesNotMatch(text, /[{}"]/);
+  await page.value('jurist.engine.cancel(true)');
+  await page.value('document.getElementById("details").open = false');
+});
+
+test("on a phone a model is pasted from the first screen, and its answers come into sight", async () => {
+  await page.open(fromFile, 390, 844);
+  const seen = (id) => page.value(`(() => { const { top, bottom, width } = document.getElementById("${id}").getBoundingClientRect(); return width > 0 && top >= -1 && bottom <= innerHeight + 1; })()`);
+  assert.equal(await seen("paste-here"), true);
+  await page.value('document.getElementById("paste-here").click()');
+  await page.until('document.activeElement.id === "pasted"');
+  await page.drawn();
+  assert.deepEqual([await seen("pasted"), await seen("paste-use")], [true, true]);
+  await page.value('(() => { document.getElementById("pasted").value = "z^2 + (K - 1)*z + 1/2"; document.getElementById("paste-use").click(); })()');
+  await page.settled();
+  assert.equal(await seen("verdict"), true);
+  assert.equal(await page.value("jurist.page.model.parameters[0].name"), "K");
+  await page.open(fromFile);
+  assert.equal(await page.value('document.getElementById("paste-here").offsetParent'), null);
+});
+
+test("each card is printed whole, on a page or two, with every picture, from whatever width", async () => {
+  await page.open(fromFile, 390, 844);
+  await page.browser.send("Emulation.setEmulatedMedia", { media: "print" });
+  await page.drawn();
+  const cards = await page.value(`[...document.querySelectorAll(".figure")].map((f) => {
+    const { width, height } = f.querySelector("svg").getBoundingClientRect();
+    return { breaks: getComputedStyle(f).breakInside, drawn: f.querySelectorAll("svg .line, svg .root, svg .region").length > 0, wide: width > 100 && height > 100 };
+  })`);
+  assert.deepEqual(cards, Array(4).fill({ breaks: "avoid", drawn: true, wide: true }));
+  await page.browser.send("Emulation.setEmulatedMedia", { media: "" });
+  const paper = await page.browser.print({ printBackground: true });
+  const pages = paper.toString("latin1").match(/\/Type \/Page\b/g).length;
+  assert.ok(pages <= 3, `${pages} pages`);
+  if (pictures) writeFileSync(join(pictures, "print.pdf"), paper);
 });
 
 test("a decimal comma is answered with the point", async () => {
