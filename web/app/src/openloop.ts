@@ -6,6 +6,9 @@ import { type Box, Figure, around, axes, equal, path } from "./plot.js";
 import { ABOVE, BELOW, type Reads, Zoom, waiting, whole } from "./plots.js";
 import { documentOf, instead, no } from "./reply.js";
 
+/** What is below so many decibels, as at a zero on the boundary, needs no room in the picture. */
+const DEEP = -120;
+
 export class OpenLoopPlot {
   readonly figure: Figure;
   readonly zoom: Zoom;
@@ -80,7 +83,9 @@ export class OpenLoopPlot {
     ];
     for (const [box, points, name, below, levels] of panels) {
       const degrees = levels.length > 1;
-      const ys: Scale = { ...around([...points.map((p) => p[1]), levels[0]!]), degrees, decibels: !degrees };
+      const seen = points.map((p) => p[1]);
+      const least = degrees ? -Infinity : Math.min(DEEP, Math.max(...seen) + DEEP / 2);
+      const ys: Scale = { ...around([...seen.map((v) => Math.max(v, least)), levels[0]!]), degrees, decibels: !degrees };
       const view = axes(svg, box, xs, ys, { x: below, y: name }, levels);
       if (box === top) for (const t of svg.querySelectorAll(".tick[text-anchor=middle]")) t.remove();
       for (const level of levels) {

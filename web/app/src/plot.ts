@@ -41,7 +41,7 @@ export function axes(svg: SVGSVGElement, box: Box, xs: Scale, ys: Scale, words: 
   }
   const levels = always.filter((t) => t >= ys.lower && t <= ys.upper);
   const room = (t: number) => levels.every((level) => Math.abs(y(level) - y(t)) > 12);
-  for (const t of [...levels, ...ticks(ys, Math.max(3.5, box.height / 50)).filter(room)]) {
+  for (const t of [...levels, ...ticks(ys, Math.max(5, box.height / 45)).filter(room)]) {
     const at = y(t);
     svg.append(s("line", { class: "grid", x1: box.left, x2: right, y1: at, y2: at }));
     svg.append(s("text", { class: "tick", x: box.left - 6, y: at + 4, "text-anchor": "end" }, short(t)));

@@ -114,11 +114,11 @@ test("a map by boxes has the boxes of the program, and the same ones each time t
   }
   assert.deepEqual([found.x.upper, found.y.upper, found.long, found.stopped], [Number(window.x[1]), Number(window.y[1]), false, false]);
   assert.match(found.text, /K_c .*against theta in s .*, by boxes/);
-  // Half of the work is not enough for so little: what is undecided then is the same again.
-  const part = map({ method: "boxes", undecided: "1/100", work: 20_000 });
+  // A third of the work is not enough for so little: what is undecided then is the same again.
+  const part = map({ method: "boxes", undecided: "1/100", work: 1_000_000 });
   assert.equal(part.stopped, true);
   assert.ok(Number(part.shares.undecided) > 1);
-  assert.deepEqual(map({ method: "boxes", undecided: "1/100", work: 20_000 }), part);
+  assert.deepEqual(map({ method: "boxes", undecided: "1/100", work: 1_000_000 }), part);
   // Such a loop has no exact map, and the engine says so.
   assert.equal(map({}).refused.diagnostics[0].code, "E-dead-time");
 });
@@ -127,9 +127,9 @@ test("an exact map that takes more work than is allowed becomes boxes", () => {
   const model = readFileSync(join(root, "examples/drive.toml"), "utf8");
   const map = (more) => engine.ask({ ask: "map", model, set: [], x: "T", y: "K_pwm", undecided: "1/10", ...more });
   assert.ok(map({ method: "auto" }).walls.length > 0);
-  const short = map({ method: "auto", work: 500 });
+  const short = map({ method: "auto", work: 200_000 });
   assert.deepEqual([short.long, short.walls], [true, undefined]);
-  assert.equal(map({ method: "exact", work: 500 }).boxes, undefined);
+  assert.equal(map({ method: "exact", work: 200_000 }).boxes, undefined);
 });
 
 test("the rightmost roots, the response and the place to cut of a loop with dead time", () => {
