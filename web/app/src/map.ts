@@ -4,23 +4,30 @@ import { h, s } from "./dom.js";
 import { type Scale, decimalAt, float } from "./numbers.js";
 import { type Axes, type Box, Figure, axes, path, place } from "./plot.js";
 import { type Reads, named, verdictIn, waiting, whole } from "./plots.js";
+import type { Known } from "./questions.js";
 import { instead, no } from "./reply.js";
+import { MAPS } from "./requests.js";
 
 export class MapPlot {
   readonly figure: Figure;
   /** The values at the point, as they are set. */
   point: [string, string] = ["", ""];
+  /** How often more of the map was asked for. */
+  finer = 0;
   /** Why no map is asked for. */
   message = "";
   private view: Axes | undefined;
   private readonly exact: HTMLButtonElement;
+  private readonly smaller: HTMLButtonElement;
   private readonly cross = { x: s("line", { class: "cross" }), y: s("line", { class: "cross" }), point: s("circle", { r: 9 }) };
 
   constructor(
     private readonly known: Reads,
     private readonly moved: (x: string, y: string, done: boolean) => void,
     exactly: () => void,
+    smaller: () => void,
   ) {
+    this.smaller = h("button", { type: "button", class: "small", title: "boxes until 0.25 % is undecided, which may take a minute", hidden: true, click: smaller }, "smaller boxes");
     this.exact = h("button", { type: "button", class: "small", title: "the exact map, however long it takes", hidden: true, click: exactly }, "exact map");
     this.figure = new Figure("map", "Map of two parameters", "What limits the region", (svg, w, hgt) => this.paint(svg, w, hgt), () => this.shift());
     const svg = this.figure.svg;
@@ -54,15 +61,20 @@ export class MapPlot {
     });
   }
 
-  /** The map; the finer one once it is about the same values. */
+  /** The map; a finer one once it is about the same values. */
   private get data(): any {
-    const [map, finer] = [this.known("map"), this.known("finer map")];
-    return finer.reply?.x && (finer.now || !map.now) ? finer.reply : map.reply;
+    const [map, ...finer] = MAPS.map(this.known);
+    return (finer.reverse().find(({ reply, now }) => reply?.boxes && (now || !map!.now)) ?? map!).reply;
+  }
+
+  /** What is known of the last map that was asked for. */
+  private get last(): Known {
+    return this.known(MAPS[this.finer]!);
   }
 
   /** Whether there are boxes because the exact map takes long. */
   private get isLong(): boolean {
-    return this.data?.long === true;
+    return this.known("map").reply?.long === true;
   }
 
   /** Menus for the axes, where there is a choice. */
@@ -77,7 +89,7 @@ export class MapPlot {
       };
       return h("select", { "aria-label": k === 0 ? "across" : "upwards", change }, ...names.map((n) => h("option", { selected: n === axes![k] }, n)));
     };
-    this.figure.controls.replaceChildren(this.exact, ...(axes && names.length > 2 ? [select(0), select(1)] : []));
+    this.figure.controls.replaceChildren(this.exact, this.smaller, ...(axes && names.length > 2 ? [select(0), select(1)] : []));
   }
 
   private paint(svg: SVGSVGElement, width: number, height: number): void {
@@ -138,11 +150,10 @@ export class MapPlot {
 
   /** What boxes say, how much is left, and why there are boxes. */
   private saidByBoxes({ x, y, shares, stopped }: any): string {
-    const finer = this.known("finer map");
-    const ended = stopped && finer.now ? "; the counted work ended before it was less" : "";
+    const { last } = this;
+    const ended = stopped && last.now ? "; the counted work ended before it was less" : "";
     const why = this.isLong ? "The exact map takes longer than that." : "There is no exact map of such a loop.";
-    const more = this.isLong ? "More" : "Smaller boxes";
-    const smaller = !finer.now ? ` ${more} ${this.isLong ? "is" : "are"} being computed.` : finer.reply?.x ? "" : ` ${more}: ${no(finer.reply)}.`;
+    const smaller = !last.now ? " Smaller boxes are being computed." : last.reply?.x ? "" : ` Smaller boxes: ${no(last.reply)}.`;
     return `${x.name} and ${y.name} by boxes: ${shares.stable} % of the window is proved stable, ${shares.unstable} % unstable, ${shares.undecided} % is undecided (hatched)${ended}. ${why}${smaller}`;
   }
 
@@ -167,6 +178,7 @@ export class MapPlot {
     const { data, point } = this;
     const { verdict } = verdictIn(this.known) ?? {};
     this.exact.hidden = !this.isLong;
+    this.smaller.hidden = !(data?.boxes && this.finer === 1 && this.last.now);
     if (!data?.x) {
       this.figure.nothing(this.message || instead(data) || "", !this.message && !data);
     } else {

@@ -17,7 +17,7 @@ import { LocusPlot, type Reads, ResponsePlot, verdictIn } from "./plots.js";
 import type { Figure } from "./plot.js";
 import { Questions } from "./questions.js";
 import { documentOf, ended, instead } from "./reply.js";
-import { type Also, questionsAbout, verdictOf } from "./requests.js";
+import { type Also, MAPS, questionsAbout, verdictOf } from "./requests.js";
 import { type TextBox, textArea } from "./textbox.js";
 import { VerdictBar } from "./verdict.js";
 
@@ -44,7 +44,7 @@ export class Page {
   private natural = "";
   private method: "auto" | "exact" = "auto";
   /** What answers about the text have asked for beside the rest. */
-  private also: Also = { rightmost: false, finer: false };
+  private also: Also = { rightmost: false, finer: 0 };
   private mapAxes: [string, string] | undefined;
   private timer = 0;
   private quiet = 0;
@@ -62,11 +62,12 @@ export class Page {
     this.bar = new VerdictBar(this.known);
     this.box = textArea(by<HTMLTextAreaElement>("text"), (text) => this.typed(text));
     this.editor = this.box;
-    this.map = new MapPlot(this.known, (x, y, done) => this.moved(x, y, done), () => {
+    const exactly = () => {
       this.method = "exact";
-      this.further({ finer: false });
+      this.further({ finer: 0 });
       this.chosen();
-    });
+    };
+    this.map = new MapPlot(this.known, (x, y, done) => this.moved(x, y, done), exactly, () => this.further({ finer: 2 }));
     this.locus = new LocusPlot(this.known);
     this.response = new ResponsePlot(this.known);
     this.loop = new OpenLoopPlot(this.known, () => {
@@ -169,7 +170,7 @@ export class Page {
     if (!other) return;
     clearTimeout(this.laterTimer);
     this.laterTimer = 0;
-    [this.natural, this.method, this.also] = ["", "auto", { rightmost: false, finer: false }];
+    [this.natural, this.method, this.also] = ["", "auto", { rightmost: false, finer: 0 }];
     by("failure").hidden = true;
     this.details.clear();
     for (const figure of this.figures()) figure.clear();
@@ -241,7 +242,7 @@ export class Page {
     this.map.choose(names, this.mapAxes, (axes) => {
       this.mapAxes = axes;
       this.method = "auto";
-      this.also = { ...this.also, finer: false };
+      this.also = { ...this.also, finer: 0 };
       this.mapControls(names);
       this.chosen();
     });
@@ -294,6 +295,7 @@ export class Page {
   private stand(): void {
     const { text, focus, mapAxes: axes, method, also } = this;
     const cut = this.cut || this.natural;
+    this.map.finer = also.finer;
     this.questions.stand(text, questionsAbout({ text, values: this.given(), differing: this.differing(), focus, cut, axes, method, also }));
   }
 
@@ -377,8 +379,8 @@ export class Page {
       this.locus.show(moves);
       this.response.show(moves);
     } else if (lane === "locus" || lane === "roots") this.locus.show();
-    else if (lane === "map" || lane === "finer map") {
-      if (lane === "map" && (reply?.x || ended(reply))) this.further({ finer: reply.boxes !== undefined || ended(reply) });
+    else if ((MAPS as readonly string[]).includes(lane)) {
+      if (lane === "map" && (reply?.x || ended(reply))) this.further({ finer: reply.boxes !== undefined || ended(reply) ? 1 : 0 });
       this.map.show();
     } else if (lane === "margins" || lane === "frequency response") {
       this.cutAt(reply);

@@ -73,7 +73,13 @@ pub(crate) fn map(request: &MapRequest) -> Result<Value, Error> {
         Method::Exact => (problem.map_by(MapMethod::Exact, &wanted, DIGITS, &budget())?, false),
         Method::Boxes => (boxes(&limited())?, false),
         Method::Auto => match problem.map_by(MapMethod::Auto, &wanted, DIGITS, &limited()) {
+            // What looking for an exact map has taken is not missing for the boxes.
             Err(Error::Stopped(stopped)) if stopped.stop.is_budget() => (boxes(&limited())?, true),
+            Ok(MapOrBoxes::Boxes(answer))
+                if answer.value().no_exact_map.is_some() && answer.value().boxes.stopped.is_some() =>
+            {
+                (boxes(&limited())?, true)
+            }
             found => (found?, false),
         },
     };
