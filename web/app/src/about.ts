@@ -36,9 +36,9 @@ export function counted(document: any): string | undefined {
 }
 declare const EDITOR_SCRIPT: string;
 
-/** The same of a loop with dead time, which has infinitely many roots: those that are not left of the axis are counted. */
+/** The same of a loop with dead time, which as a rule has infinitely many roots: those that are not left of the axis are counted. */
 function uncounted({ on, outside }: any): string | undefined {
   if (outside === null || outside === undefined) return undefined;
   const many = (count: number) => `${count === 0 ? "no" : count} ${count === 1 ? "root" : "roots"}`;
-  return `${many(outside)} in the right half plane${on ? `, ${on} on the axis` : ""}, of infinitely many`;
+  return `${many(outside)} in the right half plane${on ? `, ${on} on the axis` : ""}`;
 }

@@ -134,7 +134,7 @@ export class OpenLoopPlot {
     } else {
       const db = (value: number | null) => (value === null ? "unlimited" : `${short(value, 4)} dB`);
       const upper = found.gain?.upper ? `gain margin ${db(found.gain.upper_db)}` : "any larger gain";
-      const lower = found.gain?.lower ? `, lower ${db(found.gain.lower_db)}` : "";
+      const lower = !found.gain?.lower ? "" : found.gain.lower_db === null ? ", any smaller gain" : `, lower ${db(found.gain.lower_db)}`;
       const phase = found.phase ? `, phase margin ${label(found.phase.degrees, 4)}°` : "";
       this.figure.say(`Cut at ${found.at}: ${upper}${lower}${phase}. The margins are exact, the curve is drawn in floating point.`);
       this.figure.tabulate(() => [this.table()]);

@@ -199,12 +199,15 @@ export class LocusPlot {
 
   /** Of infinitely many roots those that are known, and where all others are. */
   private sayRightmost(): void {
-    const { roots, others_left_of: line, chain } = this.rightmost;
+    const { roots, others_left_of: line, chain, degree } = this.rightmost;
     const [re, im] = this.dominant();
-    const near = chain ? ` Infinitely many come near to the line Re s = ${label(chain[0], 6)}.` : "";
-    this.figure.say(`The ${roots.length} rightmost of infinitely many roots, a pair counted once: all others are left of Re s = ${label(String(float(line)), 6)}, proved.${near} The root farthest right is ${complex(re, im)}. A root locus is not drawn with dead time.`);
+    const near = chain ? ` Infinitely many come near to the line Re s = ${label(String(float(chain[0])), 6)}.` : "";
+    // Dead times that cancel leave finitely many.
+    const all = `The loop has ${degree} roots: its dead times cancel.`;
+    const some = `The ${roots.length} rightmost of infinitely many roots, a pair counted once: all others are left of Re s = ${label(String(float(line)), 6)}, proved.${near}`;
+    this.figure.say(`${line == null ? all : some} The root farthest right is ${complex(re, im)}. A root locus is not drawn with dead time.`);
     const rows = () => roots.map((r: any) => [`${r.re.replace("-", "−")}${r.pair ? ` ± ${r.im}i` : ""}${r.multiplicity > 1 ? ` (${r.multiplicity} times)` : ""}`, r.damping == null ? "" : short(r.damping, 6), r.natural_frequency_hz == null ? "" : short(r.natural_frequency_hz, 6)]);
-    this.figure.tabulate(() => [h("p", { class: "note" }, "All digits are certain."), table("The rightmost roots", ["root", "damping", "natural frequency (Hz)"], rows())]);
+    this.figure.tabulate(() => [h("p", { class: "note" }, "All digits are certain."), table(line == null ? "Roots" : "The rightmost roots", ["root", "damping", "natural frequency (Hz)"], rows())]);
   }
 
   show(moves = false): void {

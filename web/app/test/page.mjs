@@ -171,7 +171,7 @@ test("a loop with dead time has all its panels, and its map is by boxes", async 
   await page.take(text);
   const said = (id) => page.value(`document.getElementById("${id}-sentence").textContent`);
   const count = (what) => page.value(`document.querySelectorAll(${JSON.stringify(what)}).length`);
-  assert.equal(await page.value('document.getElementById("verdict-roots").textContent'), "no roots in the right half plane, of infinitely many");
+  assert.equal(await page.value('document.getElementById("verdict-roots").textContent'), "no roots in the right half plane");
   assert.match(await said("map"), /^K_c and T_i by boxes: [\d.]+ % of the window is proved stable, [\d.]+ % unstable, 0.\d+ % is undecided \(hatched\). There is no exact map of such a loop. The point is at K_c = 1, T_i = 8, stable.$/);
   assert.match(await page.value('document.querySelector("#map svg").textContent'), /by boxes, 0.\d+ % undecided/);
   assert.deepEqual([await count("#map .region"), await count("#map path.open"), await count("#map .outside")], [1, 1, 1]);
@@ -195,10 +195,33 @@ test("a loop with dead time has all its panels, and its map is by boxes", async 
       assert.equal(verdict === "stable", kind === "stable", `${kind} at K_c = ${K}, T_i = ${T}: ${verdict}`);
     }
   }
+  // Smaller ones for who wants them, until something else is looked at.
+  const smaller = '[...document.querySelectorAll("#map .controls button")].find((b) => b.textContent === "smaller boxes")';
+  assert.equal(await page.value(`${smaller}.hidden`), false);
+  await page.value(`${smaller}.click()`);
+  await page.settled();
+  assert.match(await said("map"), /, 0\.[12]\d* % is undecided \(hatched\)\. There is no exact map/);
+  assert.equal(await page.value(`${smaller}.hidden`), true);
+  await page.value('jurist.page.entered("theta", "4", true)');
+  await page.settled();
+  assert.match(await said("map"), /, 0\.[5-9]\d* % is undecided/);
+  assert.equal(await page.value(`${smaller}.hidden`), false);
+  await page.value('jurist.page.entered("theta", "3", true)');
   await page.value('jurist.page.entered("K_c", "3", true)');
   await page.settled();
-  assert.equal(await page.value('document.getElementById("verdict-roots").textContent'), "2 roots in the right half plane, of infinitely many");
+  assert.equal(await page.value('document.getElementById("verdict-roots").textContent'), "2 roots in the right half plane");
   assert.match(await said("locus"), /The root farthest right is 0\.\d+ \+ 0\.\d+i/);
+  assert.deepEqual(page.complaints(), []);
+});
+
+test("dead times that cancel leave finitely many roots, and a neutral loop says which line they come near to", async () => {
+  const said = (id) => page.value(`document.getElementById("${id}-sentence").textContent`);
+  await page.open(fromFile);
+  const smith = readFileSync(join(root, "examples/smith-predictor.toml"), "utf8");
+  await page.take(smith.replace(/theta_process = 6/, "theta_process = 5"));
+  assert.match(await said("locus"), /^The loop has \d roots: its dead times cancel. The root farthest right is −[\d.]+\./);
+  await page.take(readFileSync(join(root, "examples/neutral-loop.toml"), "utf8"));
+  assert.match(await said("locus"), /Infinitely many come near to the line Re s = −0\.69\d+\. The root/);
   assert.deepEqual(page.complaints(), []);
 });
 
@@ -232,14 +255,17 @@ test("smaller boxes are cancelled and the larger ones stay; an exact map can be 
   await page.open(fromFile);
 });
 
-test("where the exact map takes more than the first of the work, there are boxes until it is there", async () => {
+test("where the exact map takes more than the first of the work, there are boxes until somebody waits for it", async () => {
   await page.open(fromFile);
   await page.take(readFileSync(join(root, "examples/drive-filters-4.toml"), "utf8"));
-  const known = (lane, key) => page.value(`jurist.page.known("${lane}").reply.${key} !== undefined`);
-  assert.deepEqual([await known("map", "boxes"), await known("map", "walls")], [true, false]);
-  assert.deepEqual([await known("finer map", "boxes"), await known("finer map", "walls")], [false, true]);
-  assert.match(await page.value('document.getElementById("map-sentence").textContent'), /stable regions?, drawn green. The point is at/);
-  assert.equal(await page.value('document.querySelector("#map .controls button").hidden'), true);
+  const said = () => page.value('document.getElementById("map-sentence").textContent');
+  const button = (words) => `[...document.querySelectorAll("#map .controls button")].find((b) => b.textContent === "${words}")`;
+  assert.match(await said(), /by boxes: .* 0\.\d+ % is undecided \(hatched\)\. The exact map takes longer than that\./);
+  assert.deepEqual([await page.value(`${button("exact map")}.hidden`), await page.value(`${button("smaller boxes")}.hidden`)], [false, false]);
+  await page.value(`${button("exact map")}.click()`);
+  await page.settled();
+  assert.match(await said(), /: .*stable regions?, drawn green. The point is at/);
+  assert.deepEqual([await page.value(`${button("exact map")}.hidden`), await page.value(`${button("smaller boxes")}.hidden`)], [true, true]);
 });
 
 test("numbers are written as in the text, and limits are roots of equations", async () => {
