@@ -46,12 +46,13 @@ function firstScreens(ask) {
   const common = (model) => {
     const described = ask({ ask: "describe", model });
     const set = (described.model?.parameters ?? []).filter((p) => p.nominal !== null).map((p) => [p.name, p.nominal]);
-    at(model, set);
+    program(model, "verdict", "-", "--json", ...options(set));
     return set;
   };
   const read = (file) => readFileSync(join(examples, file), "utf8");
   const drive = read("drive.toml");
   const set = common(drive);
+  at(drive, set);
   const [y, x] = set.map(([name]) => name);
   const but = (...names) => set.filter(([name]) => !names.includes(name));
   for (const value of ["0.01", "1/3", "551", "549.99"]) at(drive, [[y, value], ...but(y)]);
@@ -59,7 +60,7 @@ function firstScreens(ask) {
     program(drive, "intervals", "-", "--param", name, "--json", ...options(but(name)));
     program(drive, "locus", "-", "--param", name, "--json", "--quiet", ...options(but(name)));
   }
-  for (const [across, up] of [[x, y], [y, x]]) ask({ ask: "map", model: drive, set: [], x: across, y: up });
+  for (const [across, up] of [[x, y], [y, x]]) ask({ ask: "map", model: drive, set: [], x: across, y: up, method: "auto", undecided: "1/20", work: 1e9 });
   for (const command of ["margins", "bode"]) program(drive, command, "-", "--json", ...options(set));
   ask({ ask: "describe", model: drive.replace(`${y} = {`, "K = {") });
   program(null, "new", "--list");

@@ -27,10 +27,18 @@ export function blocks(model: Model): void {
 
 /** Where the roots are, in words. */
 export function counted(document: any): string | undefined {
-  if (document?.degree === undefined || document.inside === undefined || document.inside === null) return undefined;
+  if (document?.degree === undefined || document.inside === undefined) return undefined;
+  if (document.inside === null) return uncounted(document);
   const { degree, inside, on, outside, infinite } = document;
   const where = document.time === "continuous" ? "in the left half plane" : "inside the unit circle";
   const rest = [on ? `${on} on the boundary` : "", outside ? `${outside} outside` : "", infinite ? `${infinite} at infinity` : ""].filter((t) => t);
   return `${inside} of ${degree} ${degree === 1 ? "root" : "roots"} ${where}${rest.length > 0 ? `, ${rest.join(", ")}` : ""}`;
 }
 declare const EDITOR_SCRIPT: string;
+
+/** The same of a loop with dead time, which as a rule has infinitely many roots: those that are not left of the axis are counted. */
+function uncounted({ on, outside }: any): string | undefined {
+  if (outside === null || outside === undefined) return undefined;
+  const many = (count: number) => `${count === 0 ? "no" : count} ${count === 1 ? "root" : "roots"}`;
+  return `${many(outside)} in the right half plane${on ? `, ${on} on the axis` : ""}`;
+}

@@ -3,7 +3,7 @@
 import { coefficients } from "./formula.js";
 import { by, download, h, table } from "./dom.js";
 import { label } from "./numbers.js";
-import { over } from "./over.js";
+import { equation, over } from "./over.js";
 import { causes } from "./parameters.js";
 import { no } from "./reply.js";
 
@@ -106,7 +106,7 @@ export class Details {
         continue;
       }
       for (const [k, interval] of document.stable.entries()) {
-        for (const side of ["lower", "upper"] as const) parts.push(this.end(interval[side], `${name}: ${side} end of interval ${k + 1}`));
+        for (const side of ["lower", "upper"] as const) parts.push(this.end(interval[side], name, `${name}: ${side} end of interval ${k + 1}`));
       }
       if (document.stable.length === 0) parts.push(h("p", {}, "empty: stable for no value"));
       parts.push(this.certificate(asked, name));
@@ -114,7 +114,7 @@ export class Details {
     return parts;
   }
 
-  private end(end: any, title: string): Node {
+  private end(end: any, name: string, title: string): Node {
     if (!end) return h("p", {}, `${title}: none, unbounded`);
     const code = (text: string) => h("span", { class: "digits" }, text);
     const rows: (Node | string)[][] = [["value", code(end.decimal)], ["cause", causes(end.cause)]];
@@ -122,8 +122,8 @@ export class Details {
     else if (end.enclosure) rows.push(["between", code(end.enclosure.join(" and "))]);
     if (end.frequency_hz != null) rows.push(["frequency", `${label(String(end.frequency_hz), 8)} Hz`]);
     else if (end.angle != null) rows.push(["angle", `${label(String(end.angle), 8)} rad per sample`]);
-    if (end.polynomial) rows.push(["root of, from the constant term up", code(`[${end.polynomial.join(", ")}]`)]);
-    if (end.over) rows.push(...over(end.over).map(([what, is]) => [what, code(is)]));
+    if (end.polynomial) rows.push(["root of", code(equation(end.polynomial, name))]);
+    if (end.over) rows.push(...over(end.over, name).map(([what, is]) => [what, code(is)]));
     return h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": title }, table(title, ["what", "is"], rows));
   }
 

@@ -4,21 +4,31 @@ import { h, s } from "./dom.js";
 import { type Scale, decimalAt, float } from "./numbers.js";
 import { type Axes, type Box, Figure, axes, path, place } from "./plot.js";
 import { type Reads, named, verdictIn, waiting, whole } from "./plots.js";
-import { no } from "./reply.js";
+import type { Known } from "./questions.js";
+import { instead, no } from "./reply.js";
+import { MAPS } from "./requests.js";
 
 export class MapPlot {
   readonly figure: Figure;
   /** The values at the point, as they are set. */
   point: [string, string] = ["", ""];
+  /** How often more of the map was asked for. */
+  finer = 0;
   /** Why no map is asked for. */
   message = "";
   private view: Axes | undefined;
+  private readonly exact: HTMLButtonElement;
+  private readonly smaller: HTMLButtonElement;
   private readonly cross = { x: s("line", { class: "cross" }), y: s("line", { class: "cross" }), point: s("circle", { r: 9 }) };
 
   constructor(
     private readonly known: Reads,
     private readonly moved: (x: string, y: string, done: boolean) => void,
+    exactly: () => void,
+    smaller: () => void,
   ) {
+    this.smaller = h("button", { type: "button", class: "small", title: "boxes until 0.25 % is undecided, which may take a minute", hidden: true, click: smaller }, "smaller boxes");
+    this.exact = h("button", { type: "button", class: "small", title: "the exact map, however long it takes", hidden: true, click: exactly }, "exact map");
     this.figure = new Figure("map", "Map of two parameters", "What limits the region", (svg, w, hgt) => this.paint(svg, w, hgt), () => this.shift());
     const svg = this.figure.svg;
     svg.setAttribute("tabindex", "0");
@@ -51,8 +61,20 @@ export class MapPlot {
     });
   }
 
+  /** The map; a finer one once it is about the same values. */
   private get data(): any {
-    return this.known("map").reply;
+    const [map, ...finer] = MAPS.map(this.known);
+    return (finer.reverse().find(({ reply, now }) => reply?.boxes && (now || !map!.now)) ?? map!).reply;
+  }
+
+  /** What is known of the last map that was asked for. */
+  private get last(): Known {
+    return this.known(MAPS[this.finer]!);
+  }
+
+  /** Whether there are boxes because the exact map takes long. */
+  private get isLong(): boolean {
+    return this.known("map").reply?.long === true;
   }
 
   /** Menus for the axes, where there is a choice. */
@@ -67,7 +89,7 @@ export class MapPlot {
       };
       return h("select", { "aria-label": k === 0 ? "across" : "upwards", change }, ...names.map((n) => h("option", { selected: n === axes![k] }, n)));
     };
-    this.figure.controls.replaceChildren(...(axes && names.length > 2 ? [select(0), select(1)] : []));
+    this.figure.controls.replaceChildren(this.exact, this.smaller, ...(axes && names.length > 2 ? [select(0), select(1)] : []));
   }
 
   private paint(svg: SVGSVGElement, width: number, height: number): void {
@@ -75,6 +97,7 @@ export class MapPlot {
     const data = this.data;
     this.drawn = data;
     if (!data?.x) return waiting(svg, width, height, this.message || no(data) || "");
+    if (data.boxes) return this.paintBoxes(svg, whole(width, height, 64), data);
     const box = whole(width, height, 64);
     const view = axes(svg, box, data.x, data.y, { x: named(data.x.name, data.x.unit), y: named(data.y.name, data.y.unit) });
     this.view = view;
@@ -103,6 +126,37 @@ export class MapPlot {
     this.shift();
   }
 
+  /** Boxes by their verdicts, and that it is by boxes. */
+  private paintBoxes(svg: SVGSVGElement, box: Box, data: any): void {
+    // Not by its colour alone: what is undecided is hatched.
+    const hatch = s("pattern", { id: "undecided", width: 6, height: 6, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" }, s("rect", { class: "ground", width: 6, height: 6 }), s("line", { class: "hatch", x1: 0, x2: 0, y1: 0, y2: 6 }));
+    svg.append(hatch);
+    const view = axes(svg, box, data.x, data.y, { x: named(data.x.name, data.x.unit), y: named(data.y.name, data.y.unit) });
+    this.view = view;
+    const at = (n: number) => n.toFixed(1);
+    const [x, y] = [(u: number) => at(box.left + u * box.width), (v: number) => at(box.top + (1 - v) * box.height)];
+    const rectangle = ([left, low, right, high]: [number, number, number, number]) => `M${x(left)} ${y(low)}H${x(right)}V${y(high)}H${x(left)}z`;
+    for (const [name, kind] of [["unstable", "outside"], ["stable", "region"], ["undecided", "open"]] as const) {
+      const fill = kind === "open" ? "url(#undecided)" : undefined;
+      view.inside.append(s("path", { class: kind, fill, d: data.boxes[name].map(rectangle).join("") }));
+    }
+    const words = `by boxes, ${data.shares.undecided} % undecided`;
+    const [right, top] = [box.left + box.width - 8, box.top + 18];
+    view.inside.append(s("rect", { class: "open sample", fill: "url(#undecided)", x: right - words.length * 6.6 - 20, y: top - 10, width: 12, height: 12 }));
+    view.inside.append(s("text", { class: "words", x: right, y: top, "text-anchor": "end" }, words));
+    view.inside.append(this.cross.x, this.cross.y, this.cross.point);
+    this.shift();
+  }
+
+  /** What boxes say, how much is left, and why there are boxes. */
+  private saidByBoxes({ x, y, shares, stopped }: any): string {
+    const { last } = this;
+    const ended = stopped && last.now ? "; the counted work ended before it was less" : "";
+    const why = this.isLong ? "The exact map takes longer than that." : "There is no exact map of such a loop.";
+    const smaller = !last.now ? " Smaller boxes are being computed." : last.reply?.x ? "" : ` Smaller boxes: ${no(last.reply)}.`;
+    return `${x.name} and ${y.name} by boxes: ${shares.stable} % of the window is proved stable, ${shares.unstable} % unstable, ${shares.undecided} % is undecided (hatched)${ended}. ${why}${smaller}`;
+  }
+
   /** The point alone. */
   private shift(): boolean {
     if (!this.view) return false;
@@ -122,14 +176,17 @@ export class MapPlot {
     this.figure.wait(this.known("map").late && this.data?.x);
     if (moves) return this.figure.move();
     const { data, point } = this;
+    const { verdict } = verdictIn(this.known) ?? {};
+    this.exact.hidden = !this.isLong;
+    this.smaller.hidden = !(data?.boxes && this.finer === 1 && this.last.now);
     if (!data?.x) {
-      this.figure.say(this.message || no(data) || "");
-      this.figure.tabulate(() => []);
+      this.figure.nothing(this.message || instead(data) || "", !this.message && !data);
     } else {
       const regions = data.never ? "stable at no point of the plane" : data.regions === 1 ? "one stable region, drawn green" : `${data.regions} stable regions, drawn green`;
-      const { verdict } = verdictIn(this.known) ?? {};
       const at = verdict ? `, ${verdict}` : "";
-      this.figure.say(`${data.x.name} and ${data.y.name}: ${regions}. The point is at ${data.x.name} = ${point[0]}, ${data.y.name} = ${point[1]}${at}.`);
+      const map = data.boxes ? this.saidByBoxes(data) : `${data.x.name} and ${data.y.name}: ${regions}.`;
+      this.figure.say(`${map} The point is at ${data.x.name} = ${point[0]}, ${data.y.name} = ${point[1]}${at}.`);
+      this.figure.head(data.boxes ? "Boxes" : "What limits the region");
     }
     this.figure.svg.setAttribute("aria-label", this.figure.sentence.textContent ?? "");
     if (data?.x && data === this.drawn) return this.figure.move(true);

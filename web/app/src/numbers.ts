@@ -7,6 +7,13 @@ export function isNumber(text: string): boolean {
   return NUMBER.test(text) && text.length < 4000;
 }
 
+/** What is wrong with a text that is no number. */
+export function hint(text: string): string {
+  const [, whole, part] = /^\s*([+-]?\d*),(\d+)\s*$/.exec(text) ?? [];
+  if (part !== undefined) return `a decimal point, not a comma: ${whole || "0"}.${part}`;
+  return "a number such as 110, 1e-4 or 1/3";
+}
+
 /** About. `p/q` of any length: both sides are scaled by their lengths. */
 export function float(text: string | null | undefined): number {
   if (text === null || text === undefined) return NaN;
@@ -83,6 +90,36 @@ export function plain(text: string): string {
   if (places === undefined) return text;
   const decimal = decimalText(digits(places) / BigInt(q), -places);
   return decimal.length > READABLE ? text : (sign === "-" ? "-" : "") + decimal;
+}
+
+/** Powers of ten beyond this are compared as they are written. */
+const FAR = 400;
+
+/** A number as numerator and denominator. */
+function fraction(text: string): [bigint, bigint] | undefined {
+  if (!isNumber(text)) return undefined;
+  const one = (t: string): [bigint, bigint] | undefined => {
+    const [mantissa = "", exponent = "0"] = t.trim().toLowerCase().split("e");
+    const [whole = "", part = ""] = mantissa.split(".");
+    const power = Number(exponent) - part.length;
+    if (Math.abs(power) > FAR) return undefined;
+    const digits = BigInt((whole + part).replace("+", ""));
+    return power < 0 ? [digits, 10n ** BigInt(-power)] : [digits * 10n ** BigInt(power), 1n];
+  };
+  const [p, q = [1n, 1n]] = text.split("/").map(one);
+  return p && q && [p[0] * q[1], p[1] * q[0]];
+}
+
+/** Whether two texts are the same number, however it is written. */
+export function same(a: string | null | undefined, b: string | null | undefined): boolean {
+  if (a === b) return true;
+  const [p, q] = [fraction(a ?? ""), fraction(b ?? "")];
+  return p !== undefined && q !== undefined && p[1] !== 0n && q[1] !== 0n && p[0] * q[1] === q[0] * p[1];
+}
+
+/** The same in a formula: only what stands for itself, as no part of a power or of another quotient. */
+export function plainIn(formula: string): string {
+  return formula.replace(/(?<![\w.^/]|\^-)\d+\/\d+(?![\w.^/])/g, plain);
 }
 
 /** An axis from one value to another. */

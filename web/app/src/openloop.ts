@@ -4,7 +4,10 @@ import { h, s, table } from "./dom.js";
 import { type Scale, label, short } from "./numbers.js";
 import { type Box, Figure, around, axes, equal, path } from "./plot.js";
 import { ABOVE, BELOW, type Reads, Zoom, waiting, whole } from "./plots.js";
-import { documentOf, no } from "./reply.js";
+import { documentOf, instead, no } from "./reply.js";
+
+/** What is below so many decibels, as at a zero on the boundary, needs no room in the picture. */
+const DEEP = -120;
 
 export class OpenLoopPlot {
   readonly figure: Figure;
@@ -28,9 +31,9 @@ export class OpenLoopPlot {
   }
 
   /** Where the loop may be cut. */
-  offer(signals: string[], cut: string): void {
+  offer(signals: string[], cut: string, automatic: boolean): void {
     const option = (value: string, text: string) => h("option", { value, selected: value === cut }, text);
-    this.cut.replaceChildren(option("", "cut: automatic"), ...signals.map((n) => option(n, `cut at ${n}`)));
+    this.cut.replaceChildren(...(automatic ? [option("", "cut: automatic")] : []), ...signals.map((n) => option(n, `cut at ${n}`)));
   }
 
   /** The curve, or why there is none. */
@@ -61,7 +64,7 @@ export class OpenLoopPlot {
   /** Why there is nothing; where the menu has an answer to that, so is this one. */
   private why(reply: any): string | undefined {
     const open = reply?.refused?.diagnostics?.some((d: any) => d.code === "E-cut");
-    return open && this.cut.options.length > 1 ? `${no(reply)}: choose it above` : no(reply);
+    return open && this.cut.options.length > 1 ? `${no(reply)}: choose it above` : instead(reply);
   }
 
   private paintBode(svg: SVGSVGElement, width: number, height: number, data: any): void {
@@ -80,7 +83,9 @@ export class OpenLoopPlot {
     ];
     for (const [box, points, name, below, levels] of panels) {
       const degrees = levels.length > 1;
-      const ys: Scale = { ...around([...points.map((p) => p[1]), levels[0]!]), degrees, decibels: !degrees };
+      const seen = points.map((p) => p[1]);
+      const least = degrees ? -Infinity : Math.min(DEEP, Math.max(...seen) + DEEP / 2);
+      const ys: Scale = { ...around([...seen.map((v) => Math.max(v, least)), levels[0]!]), degrees, decibels: !degrees };
       const view = axes(svg, box, xs, ys, { x: below, y: name }, levels);
       if (box === top) for (const t of svg.querySelectorAll(".tick[text-anchor=middle]")) t.remove();
       for (const level of levels) {
@@ -120,16 +125,16 @@ export class OpenLoopPlot {
     this.figure.wait((curve.late && this.data?.frequency) || (margins.late && this.margins?.at));
     const message = this.why(this.data) ?? this.why(this.margins);
     const found = this.margins;
-    if (message || !found?.at) {
-      this.figure.say(message ?? "");
-      this.figure.tabulate(() => []);
-    } else if (!found.stable) {
+    const waits = !(curve.reply && margins.reply);
+    if (message && !waits && this.data?.frequency) this.figure.say(message);
+    else if (message || !found?.at) this.figure.nothing(message ?? "", waits);
+    else if (!found.stable) {
       this.figure.say(`Cut at ${found.at}. The loop is ${found.verdict}: it has no margins.`);
       this.figure.tabulate(() => [this.table()]);
     } else {
       const db = (value: number | null) => (value === null ? "unlimited" : `${short(value, 4)} dB`);
       const upper = found.gain?.upper ? `gain margin ${db(found.gain.upper_db)}` : "any larger gain";
-      const lower = found.gain?.lower ? `, lower ${db(found.gain.lower_db)}` : "";
+      const lower = !found.gain?.lower ? "" : found.gain.lower_db === null ? ", any smaller gain" : `, lower ${db(found.gain.lower_db)}`;
       const phase = found.phase ? `, phase margin ${label(found.phase.degrees, 4)}°` : "";
       this.figure.say(`Cut at ${found.at}: ${upper}${lower}${phase}. The margins are exact, the curve is drawn in floating point.`);
       this.figure.tabulate(() => [this.table()]);

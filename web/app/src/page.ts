@@ -4,20 +4,20 @@ import { Address } from "./address.js";
 import { blocks, remarks } from "./about.js";
 import { type Asked as Drawers, Details } from "./details.js";
 import { by, h } from "./dom.js";
-import type { Engine } from "./engine.js";
+import type { Engine, Reply } from "./engine.js";
 import { Freshness } from "./freshness.js";
 import type { Shared } from "./link.js";
 import { script } from "./load.js";
-import { isNumber, plain } from "./numbers.js";
+import { isNumber, same } from "./numbers.js";
 import { type Interval, Row, nearest } from "./parameters.js";
-import { type Model, signals, withDecimals } from "./model.js";
+import { type Model, asWritten, signals } from "./model.js";
 import { OpenLoopPlot } from "./openloop.js";
 import { MapPlot } from "./map.js";
 import { LocusPlot, type Reads, ResponsePlot, verdictIn } from "./plots.js";
 import type { Figure } from "./plot.js";
 import { Questions } from "./questions.js";
-import { documentOf, no } from "./reply.js";
-import { questionsAbout, verdictOf } from "./requests.js";
+import { documentOf, ended, instead } from "./reply.js";
+import { type Also, MAPS, questionsAbout, verdictOf } from "./requests.js";
 import { type TextBox, textArea } from "./textbox.js";
 import { VerdictBar } from "./verdict.js";
 
@@ -40,6 +40,11 @@ export class Page {
   private readonly freshness = new Freshness();
   focus = "";
   private cut = "";
+  /** Where the loop is cut as long as nobody says it, and the program does not choose. */
+  private natural = "";
+  private method: "auto" | "exact" = "auto";
+  /** What answers about the text have asked for beside the rest. */
+  private also: Also = { rightmost: false, finer: 0 };
   private mapAxes: [string, string] | undefined;
   private timer = 0;
   private quiet = 0;
@@ -57,7 +62,12 @@ export class Page {
     this.bar = new VerdictBar(this.known);
     this.box = textArea(by<HTMLTextAreaElement>("text"), (text) => this.typed(text));
     this.editor = this.box;
-    this.map = new MapPlot(this.known, (x, y, done) => this.moved(x, y, done));
+    const exactly = () => {
+      this.method = "exact";
+      this.further({ finer: 0 });
+      this.chosen();
+    };
+    this.map = new MapPlot(this.known, (x, y, done) => this.moved(x, y, done), exactly, () => this.further({ finer: 2 }));
     this.locus = new LocusPlot(this.known);
     this.response = new ResponsePlot(this.known);
     this.loop = new OpenLoopPlot(this.known, () => {
@@ -148,7 +158,7 @@ export class Page {
     }
     if (!shared) this.engine.cancel();
     this.about(text);
-    this.take(withDecimals(reply.model), shared);
+    this.take(asWritten(reply.model, text), shared);
   }
 
   /** From now on all panels are about this text, and hold nothing of another. */
@@ -159,6 +169,8 @@ export class Page {
     this.freshness.about(text);
     if (!other) return;
     clearTimeout(this.laterTimer);
+    this.laterTimer = 0;
+    [this.natural, this.method, this.also] = ["", "auto", { rightmost: false, finer: 0 }];
     by("failure").hidden = true;
     this.details.clear();
     for (const figure of this.figures()) figure.clear();
@@ -179,7 +191,8 @@ export class Page {
     for (const { name, nominal } of model.parameters) {
       // What was dragged stays where it is while the text is edited; a new nominal value wins.
       const old = before?.parameters.find((p) => p.name === name);
-      const kept = !shared && old && old.nominal === nominal ? this.values.get(name) : undefined;
+      const now = this.values.get(name);
+      const kept = !shared && old && same(old.nominal, nominal) && !same(now, nominal) ? now : undefined;
       const given = shared?.v?.[name];
       values.set(name, (given !== undefined && isNumber(given) ? given : kept) ?? nominal ?? "1");
     }
@@ -213,7 +226,7 @@ export class Page {
     blocks(model);
     const cuts = signals(model);
     if (!cuts.includes(this.cut)) this.cut = "";
-    this.loop.offer(cuts, this.cut);
+    this.loop.offer(cuts, this.cut || this.natural, !this.natural);
     this.mapControls(names);
     by("tolerance").hidden = !model.tolerances;
     this.locus.time = model.time;
@@ -228,6 +241,8 @@ export class Page {
   private mapControls(names: string[]): void {
     this.map.choose(names, this.mapAxes, (axes) => {
       this.mapAxes = axes;
+      this.method = "auto";
+      this.also = { ...this.also, finer: 0 };
       this.mapControls(names);
       this.chosen();
     });
@@ -259,14 +274,14 @@ export class Page {
   /** Those of them that differ from nominal, and those that would follow others. */
   differing(): [string, string][] {
     const known = (name: string) => this.model?.parameters.find((p) => p.name === name);
-    return this.given().filter(([name, value]) => known(name)?.nominal !== plain(value) || known(name)?.formula != null);
+    return this.given().filter(([name, value]) => !same(known(name)?.nominal, value) || known(name)?.formula != null);
   }
 
   /** Everything that a point needs: the verdict and the pictures that move at once, the rest when there is time. */
   private ask(moves = false): void {
     this.moves = moves;
-    const { text, focus, cut, mapAxes: axes } = this;
-    this.questions.stand(text, questionsAbout({ text, values: this.given(), differing: this.differing(), focus, cut, axes }));
+    const { text, mapAxes: axes } = this;
+    this.stand();
     const quick = this.questions.lanes().filter((q) => q.speed === "quick");
     this.details.stale(this.drawers());
     this.told = this.questions.ask(text, "verdict");
@@ -274,6 +289,32 @@ export class Page {
     if (axes) this.map.point = [this.values.get(axes[0])!, this.values.get(axes[1])!];
     if (!moves) this.show();
     else if (axes) this.map.show(true);
+    this.later();
+  }
+
+  private stand(): void {
+    const { text, focus, mapAxes: axes, method, also } = this;
+    const cut = this.cut || this.natural;
+    this.map.finer = also.finer;
+    this.questions.stand(text, questionsAbout({ text, values: this.given(), differing: this.differing(), focus, cut, axes, method, also }));
+  }
+
+  /** An answer says that there is more to ask, or no more. */
+  private further(also: Partial<Also>): void {
+    const next = { ...this.also, ...also };
+    if (next.rightmost === this.also.rightmost && next.finer === this.also.finer) return;
+    this.also = next;
+    this.stand();
+    this.later();
+  }
+
+  /** The program wants to be told where the loop is cut. */
+  private cutAt(reply: Reply): void {
+    const asks = reply?.refused?.diagnostics?.some((d: any) => d.code === "E-cut");
+    if (!asks || this.cut || this.natural || !this.model?.cut) return;
+    this.natural = this.model.cut;
+    this.loop.offer(signals(this.model), this.natural, false);
+    this.stand();
     this.later();
   }
 
@@ -291,7 +332,10 @@ export class Page {
   private later(): void {
     clearTimeout(this.laterTimer);
     const { text } = this;
-    this.laterTimer = window.setTimeout(() => void this.told.then(() => text === this.text && this.slow()), 60);
+    this.laterTimer = window.setTimeout(() => {
+      this.laterTimer = 0;
+      void this.told.then(() => text === this.text && this.slow());
+    }, 60);
   }
 
   private slow(): void {
@@ -331,11 +375,17 @@ export class Page {
       this.locus.show(moves);
       this.limit();
     } else if (lane === "point") {
+      if (reply?.roots) this.further({ rightmost: reply.roots.rightmost === true });
       this.locus.show(moves);
       this.response.show(moves);
-    } else if (lane === "locus") this.locus.show();
-    else if (lane === "map") this.map.show();
-    else if (lane === "margins" || lane === "frequency response") this.loop.show();
+    } else if (lane === "locus" || lane === "roots") this.locus.show();
+    else if ((MAPS as readonly string[]).includes(lane)) {
+      if (lane === "map" && (reply?.x || ended(reply))) this.further({ finer: reply.boxes !== undefined || ended(reply) ? 1 : 0 });
+      this.map.show();
+    } else if (lane === "margins" || lane === "frequency response") {
+      this.cutAt(reply);
+      this.loop.show();
+    }
     else {
       this.interval(lane.replace("intervals ", ""));
       this.limit();
@@ -348,7 +398,7 @@ export class Page {
     const row = this.rows.get(name);
     row?.wait(late);
     if (document?.stable) row?.answer(document.stable, "", this.moves);
-    else row?.answer(undefined, no(late ? undefined : reply) ?? (reply.notes?.join(" ") || "undecided"), this.moves);
+    else row?.answer(undefined, instead(late ? undefined : reply) ?? (reply.notes?.join(" ") || "undecided"), this.moves);
   }
 
   /** The stable sets that are known. */

@@ -2,7 +2,7 @@
 
 import { h, s } from "./dom.js";
 import { cut } from "./plot.js";
-import { type Scale, beside, decimalAt, float, isNumber, label, place, short, value } from "./numbers.js";
+import { type Scale, beside, decimalAt, float, hint, isNumber, label, place, short, value } from "./numbers.js";
 
 export interface Parameter {
   name: string;
@@ -137,7 +137,7 @@ export class Row {
     const commit = (done: boolean) => {
       const ok = isNumber(this.box.value);
       this.box.setAttribute("aria-invalid", String(!ok));
-      this.wrong.textContent = ok ? "" : "a number such as 110, 1e-4 or 1/3";
+      this.wrong.textContent = ok ? "" : hint(this.box.value);
       if (ok) this.enter(this.box.value.trim(), done, true);
     };
     this.box.addEventListener("input", () => commit(false));

@@ -30,7 +30,7 @@ export function axes(svg: SVGSVGElement, box: Box, xs: Scale, ys: Scale, words: 
   svg.append(s("clipPath", { id }, s("rect", { x: box.left, y: box.top, width: box.width, height: box.height })));
   svg.append(s("rect", { class: "ground", x: box.left, y: box.top, width: box.width, height: box.height }));
   let free = -Infinity;
-  for (const t of ticks(xs, Math.max(3.5, box.width / 90))) {
+  for (const t of ticks(xs, Math.max(5, box.width / 70))) {
     const at = x(t);
     svg.append(s("line", { class: "grid", x1: at, x2: at, y1: box.top, y2: bottom }));
     const text = short(t);
@@ -41,7 +41,7 @@ export function axes(svg: SVGSVGElement, box: Box, xs: Scale, ys: Scale, words: 
   }
   const levels = always.filter((t) => t >= ys.lower && t <= ys.upper);
   const room = (t: number) => levels.every((level) => Math.abs(y(level) - y(t)) > 12);
-  for (const t of [...levels, ...ticks(ys, Math.max(3.5, box.height / 50)).filter(room)]) {
+  for (const t of [...levels, ...ticks(ys, Math.max(5, box.height / 45)).filter(room)]) {
     const at = y(t);
     svg.append(s("line", { class: "grid", x1: box.left, x2: right, y1: at, y2: at }));
     svg.append(s("text", { class: "tick", x: box.left - 6, y: at + 4, "text-anchor": "end" }, short(t)));
@@ -102,6 +102,7 @@ export class Figure {
   readonly controls: HTMLElement;
   private readonly waits = h("span", { class: "waits", hidden: true }, "computing …; this is of the values before");
   private readonly table: HTMLDetailsElement;
+  private readonly summary: HTMLElement;
   private size = { width: 0, height: 0 };
   private pending: "" | "some" | "all" = "";
   private seen = true;
@@ -119,7 +120,8 @@ export class Figure {
     this.sentence = h("p", { id: `${id}-sentence`, class: "sentence" });
     this.extra = h("div", { class: "table", tabindex: 0, role: "region", "aria-label": `${tableTitle} (${title})` });
     this.controls = h("div", { class: "controls" });
-    this.table = h("details", { toggle: () => this.fill() }, h("summary", {}, tableTitle), this.extra);
+    this.summary = h("summary", {}, tableTitle);
+    this.table = h("details", { toggle: () => this.fill() }, this.summary, this.extra);
     this.element = h(
       "section",
       { class: "figure", id, "aria-labelledby": `${id}-title` },
@@ -182,6 +184,24 @@ export class Figure {
 
   say(text: string): void {
     if (this.sentence.textContent !== text) this.sentence.textContent = text;
+    this.empty(false);
+  }
+
+  /** Why there is nothing: said once, with no empty picture above it. What is being computed keeps its place. */
+  nothing(text: string, waits: boolean): void {
+    this.say(text);
+    this.empty(!waits && text !== "");
+    this.tabulate(() => []);
+  }
+
+  private empty(is: boolean): void {
+    this.svg.parentElement!.hidden = is;
+    this.table.hidden = is;
+  }
+
+  /** What the table is about, where that depends on the answer. */
+  head(title: string): void {
+    if (this.summary.textContent !== title) this.summary.textContent = title;
   }
 
   /** What the table holds, made once somebody opens it. */

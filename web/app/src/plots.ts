@@ -1,10 +1,10 @@
 // The pictures of a point: root locus and time response; what all pictures share.
 
 import { h, s, table } from "./dom.js";
-import { type Scale, complex, short } from "./numbers.js";
+import { type Scale, complex, float, label, short } from "./numbers.js";
 import { type Axes, type Box, Figure, around, axes, cut, equal, path } from "./plot.js";
 import type { Known } from "./questions.js";
-import { documentOf, no } from "./reply.js";
+import { documentOf, instead, no } from "./reply.js";
 
 const LEFT = 58;
 export const BELOW = 38;
@@ -79,8 +79,22 @@ export class LocusPlot {
     return no(reply) ? reply : reply.roots;
   }
 
+  /** The rightmost roots, of a loop that has infinitely many. */
+  private get rightmost(): any {
+    return this.roots?.rightmost ? documentOf(this.known("roots").reply) : undefined;
+  }
+
   private get at(): [number, number, number][] {
-    return this.roots?.at ?? [];
+    if (!this.roots?.rightmost) return this.roots?.at ?? [];
+    const both = ({ re, im, pair, multiplicity }: any) => (pair ? [1, -1] : [1]).map((side) => [Number(re), side * Number(im), multiplicity] as [number, number, number]);
+    return (this.rightmost?.roots ?? []).flatMap(both);
+  }
+
+  /** Why there are no roots. */
+  private get why(): any {
+    if (!this.roots?.rightmost) return this.roots;
+    const { reply } = this.known("roots");
+    return documentOf(reply)?.roots ? {} : (no(reply) ? reply : { none: reply.notes?.join(" ") || "undecided" });
   }
 
   /** The lines that the roots move along. */
@@ -96,14 +110,31 @@ export class LocusPlot {
     return this.zoom.window([-half * 0.35, 0], half, this.dominant());
   }
 
+  /** The line that all roots which are not listed are left of. */
+  private get others(): number | undefined {
+    const line = this.rightmost?.others_left_of;
+    return line == null ? undefined : float(line);
+  }
+
+  /** Around the rightmost roots, which reach much further up than across. */
+  private tall(): [Scale, Scale] {
+    const [re, im] = [this.at.map((r) => r[0]), this.at.map((r) => r[1])];
+    const [right, left] = [Math.max(0, ...re), Math.min(this.others!, ...re)];
+    const [reach, high] = [right - left || 1, Math.max(...im) * 1.15 || 1];
+    const { centre, half } = this.zoom.window([(left + right) / 2 - reach * 0.1, 0], 1, this.dominant());
+    const scale = (middle: number, far: number): Scale => ({ lower: middle - far * half, upper: middle + far * half, log: false });
+    return [scale(centre[0], reach * 0.75), scale(centre[1], high)];
+  }
+
   private paint(svg: SVGSVGElement, width: number, height: number): void {
     this.view = undefined;
     const branches: any[] = this.data?.branches ?? [];
-    if (!this.at.length && !branches.length) return waiting(svg, width, height, no(this.roots) ?? "");
+    if (!this.at.length && !branches.length) return waiting(svg, width, height, no(this.why) ?? "");
     const box = whole(width, height);
     const discrete = this.time === "discrete";
     this.window = this.wanted();
-    const [xs, ys] = equal(box, this.window.centre, this.window.half);
+    const { others } = this;
+    const [xs, ys] = others === undefined ? equal(box, this.window.centre, this.window.half) : this.tall();
     const variable = discrete ? "z" : "s";
     const view = axes(svg, box, xs, ys, { x: `Re ${variable}`, y: `Im ${variable}` });
     this.view = view;
@@ -114,6 +145,11 @@ export class LocusPlot {
     } else {
       inside.append(s("rect", { class: "forbidden", x: x(0), y: box.top, width: Math.max(0, box.left + box.width - x(0)), height: box.height }));
       inside.append(s("line", { class: "boundary", x1: x(0), x2: x(0), y1: box.top, y2: box.top + box.height }));
+    }
+    if (others !== undefined) {
+      inside.append(s("rect", { class: "unlisted", x: box.left, y: box.top, width: Math.max(0, x(others) - box.left), height: box.height }));
+      inside.append(s("line", { class: "final", x1: x(others), x2: x(others), y1: box.top, y2: box.top + box.height }));
+      inside.append(s("text", { class: "words", x: x(others) - 6, y: box.top + 16, "text-anchor": "end" }, "all others"));
     }
     for (const [k, branch] of branches.entries()) {
       const points = branch.roots.filter((p: (number | null)[]) => p[0] !== null && p[1] !== null);
@@ -131,7 +167,7 @@ export class LocusPlot {
 
   /** The roots alone, as long as the window is about the right one. */
   private shift(): boolean {
-    if (!this.view || !this.at.length) return false;
+    if (!this.view || !this.at.length || this.rightmost) return false;
     const [{ centre, half }, wanted] = [this.window, this.wanted()];
     const off = Math.hypot(wanted.centre[0] - centre[0], wanted.centre[1] - centre[1]);
     if (off > half / 4 || wanted.half > half * 1.01 || wanted.half < half / 2) return false;
@@ -161,18 +197,30 @@ export class LocusPlot {
     return best ? [best[0], best[1]] : [0, 0];
   }
 
+  /** Of infinitely many roots those that are known, and where all others are. */
+  private sayRightmost(): void {
+    const { roots, others_left_of: line, chain, degree } = this.rightmost;
+    const [re, im] = this.dominant();
+    const near = chain ? ` Infinitely many come near to the line Re s = ${label(String(float(chain[0])), 6)}.` : "";
+    // Dead times that cancel leave finitely many.
+    const all = `The loop has ${degree} roots: its dead times cancel.`;
+    const some = `The ${roots.length} rightmost of infinitely many roots, a pair counted once: all others are left of Re s = ${label(String(float(line)), 6)}, proved.${near}`;
+    this.figure.say(`${line == null ? all : some} The root farthest right is ${complex(re, im)}. A root locus is not drawn with dead time.`);
+    const rows = () => roots.map((r: any) => [`${r.re.replace("-", "−")}${r.pair ? ` ± ${r.im}i` : ""}${r.multiplicity > 1 ? ` (${r.multiplicity} times)` : ""}`, r.damping == null ? "" : short(r.damping, 6), r.natural_frequency_hz == null ? "" : short(r.natural_frequency_hz, 6)]);
+    this.figure.tabulate(() => [h("p", { class: "note" }, "All digits are certain."), table(line == null ? "Roots" : "The rightmost roots", ["root", "damping", "natural frequency (Hz)"], rows())]);
+  }
+
   show(moves = false): void {
-    const [point, lines] = [this.known("point"), this.known("locus")];
-    this.figure.wait((point.late && this.at.length > 0) || (lines.late && this.data));
+    const [point, lines, far] = [this.known("point"), this.known("locus"), this.known("roots")];
+    this.figure.wait(((point.late || far.late) && this.at.length > 0) || (lines.late && this.data));
     if (moves) return this.figure.move();
     // How many roots are where: exact.
     const counts = verdictIn(this.known);
-    const message = no(this.roots);
+    const message = instead(this.why);
     const discrete = this.time === "discrete";
-    if (message) {
-      this.figure.say(message);
-      this.figure.tabulate(() => []);
-    } else if (this.at.length) {
+    if (message) this.figure.nothing(message, !(this.roots?.rightmost ? far : point).reply);
+    else if (this.rightmost) this.sayRightmost();
+    else if (this.at.length) {
       const where = discrete ? "inside the unit circle" : "left of the axis";
       const count = counts?.degree !== undefined ? `${counts.inside} of ${counts.degree} roots ${where}. ` : "";
       const [re, im] = this.dominant();
@@ -278,7 +326,7 @@ export class ResponsePlot {
   show(moves = false): void {
     this.figure.wait(this.known("point").late && this.signal);
     if (moves) return this.figure.move();
-    const message = no(this.data);
+    const message = instead(this.data);
     const names = JSON.stringify(this.data?.signals?.map((x: any) => x.name) ?? []);
     if (names !== this.names) {
       this.names = names;
@@ -287,8 +335,7 @@ export class ResponsePlot {
     this.select.hidden = (this.data?.signals?.length ?? 0) < 2;
     const signal = this.signal;
     if (message || !signal?.points.length) {
-      this.figure.say(message ?? "");
-      this.figure.tabulate(() => []);
+      this.figure.nothing(message ?? "", !this.known("point").reply);
     } else {
       const values: number[] = signal.points.map((p: number[]) => p[1]);
       const last = signal.points.at(-1);

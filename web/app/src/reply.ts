@@ -13,6 +13,22 @@ export function no(reply: any): string | undefined {
   return undefined;
 }
 
+/** Whether the counted work ended before there was anything to show. */
+export function ended(reply: any): boolean {
+  return reply?.stopped !== undefined && reply.stopped !== "cancelled";
+}
+
+/** The same, and what can be asked instead: sentences for a panel that has nothing else to say. */
+export function instead(reply: any): string | undefined {
+  const message = no(reply);
+  const help: string | null | undefined = reply?.refused?.diagnostics?.[0]?.help;
+  return message && help ? `${sentence(message)} ${sentence(help)}` : message;
+}
+
+function sentence(text: string): string {
+  return `${text.charAt(0).toUpperCase()}${text.slice(1)}${/[.!?]$/.test(text) ? "" : "."}`;
+}
+
 const read = new WeakMap<object, any>();
 
 /** The document that a command has written, read once. */

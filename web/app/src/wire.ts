@@ -11,7 +11,8 @@ import type { Figure } from "./plot.js";
 export function wire(page: Page): void {
   const click = (id: string, does: () => void) => by(id).addEventListener("click", does);
   const toml = () => withNominals(page.text, page.differing());
-  click("share", () => void pack(page.shared()).then((fragment) => copy(page, location.href.split("#")[0] + fragment, "link")));
+  const link = location.protocol === "file:" ? "link, which opens on this machine alone, as the page is a file here," : "link";
+  click("share", () => void pack(page.shared()).then((fragment) => copy(page, location.href.split("#")[0] + fragment, link)));
   click("copy-toml", () => void copy(page, toml(), "model file"));
   click("copy-python", () => void copy(page, python(page.text, page.focus || undefined, page.differing()), "Python"));
   click("copy-command", () => void copy(page, commandLine(page.focus || undefined, page.differing()), "command line"));
@@ -41,8 +42,7 @@ export function wire(page: Page): void {
   const use = (pasted: string) => {
     by("paste-wrong").textContent = "";
     try {
-      void page.open(asModel(pasted), { m: "" }).then(() => page.remember(true));
-      choose("tab-text");
+      fresh(asModel(pasted));
     } catch (error) {
       by("paste-wrong").textContent = error instanceof Error ? error.message : String(error);
     }
@@ -50,6 +50,8 @@ export function wire(page: Page): void {
   const fresh = (text: string) => {
     void page.open(text, { m: "" }).then(() => page.remember(true));
     choose("tab-text");
+    // Where the model stands below the answers, these are what is looked for now.
+    if (by("paste-here").offsetParent) by("answers").scrollIntoView();
   };
   const templates = async () => {
     const reply = await page.engine.ask("quick", "templates", { ask: "program", model: null, arguments: ["new", "--list"] });
@@ -59,6 +61,11 @@ export function wire(page: Page): void {
   const template = (name: string) =>
     void page.engine.ask("quick", "template", { ask: "program", model: null, arguments: ["new", name] }).then((reply) => reply?.output && fresh(reply.output));
   const choose = tabs(by("model-tabs"), (id) => id === "tab-examples" && void examples(templates, fresh, template));
+  click("paste-here", () => {
+    choose("tab-paste");
+    by("model").scrollIntoView();
+    by("pasted").focus({ preventScroll: true });
+  });
   click("paste-use", () => use(by<HTMLTextAreaElement>("pasted").value));
   addEventListener("popstate", () => void page.follow());
   addEventListener("hashchange", () => void page.follow());

@@ -102,7 +102,7 @@ test("a second model is pasted while the first is being computed", async () => {
   await paste(MODELS.drive);
   await page.until(`jurist.page.text === ${JSON.stringify(MODELS.drive)}`);
   await page.settled();
-  assert.match(await page.value('document.getElementById("map-sentence").textContent'), /^K_pwm and T: .* The point is at K_pwm = 110, T = 0.0001, stable/);
+  assert.match(await page.value('document.getElementById("map-sentence").textContent'), /^K_pwm and T: .* The point is at K_pwm = 110, T = 1e-4, stable/);
   assert.equal(await page.value('document.getElementById("verdict-word").textContent'), "stable");
   assert.deepEqual(await wrong(), []);
   // A model with one parameter says so, and the next one with three does not.
@@ -195,5 +195,5 @@ test("a verdict that takes long is not awaited behind the one of other values", 
   })()`);
   await page.until('document.getElementById("verdict-word").textContent === "…"');
   assert.equal(await page.value('document.getElementById("verdict").className'), "verdict");
-  assert.match(await page.value('document.getElementById("map-sentence").textContent'), /K_pwm = 600, T = 0.0001\.$/);
+  assert.match(await page.value('document.getElementById("map-sentence").textContent'), /K_pwm = 600, T = 1e-4\.$/);
 });

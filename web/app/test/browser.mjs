@@ -64,7 +64,7 @@ export async function opened(url, { width = 1200, height = 900, mobile = false, 
     drawn: () => browser.value("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))"),
     /** Until there is nothing more to answer, but for a map that takes minutes. */
     async answered({ map = true } = {}) {
-      await until(browser, `Object.entries(jurist.engine.seats).every(([name, s]) => (s.ready || !s.worker) && s.waiting.length === 0 && !s.busy || ${!map} && name === "long") && ` + 'document.getElementById("verdict-word").textContent !== "…" && document.querySelector(".cm-content")', "answers");
+      await until(browser, `Object.entries(jurist.engine.seats).every(([name, s]) => (s.ready || !s.worker) && s.waiting.length === 0 && !s.busy || ${!map} && name === "long") && !jurist.page.laterTimer && ` + 'document.getElementById("verdict-word").textContent !== "…" && document.querySelector(".cm-content")', "answers");
       await page.drawn();
     },
     async take(text, options) {

@@ -101,6 +101,55 @@ test("hostile requests get an answer and no trap", () => {
   for (const text of ["\u0000", "\ud800", "=", "a".repeat(100000)]) assert.equal(engine.ask({ ask: "describe", model: text }).model, null);
 });
 
+test("a map by boxes has the boxes of the program, and the same ones each time that its work is counted", () => {
+  const model = readFileSync(join(root, "examples/dead-time-pi.toml"), "utf8");
+  const map = (more) => engine.ask({ ask: "map", model, set: [["T_i", "8"]], x: "K_c", y: "theta", ...more });
+  const { output } = program(model, "map", "-x", "K_c", "-y", "theta", "--undecided", "1/20", "--json");
+  const { boxes, areas, window } = JSON.parse(output);
+  const found = map({ method: "auto", undecided: "1/20" });
+  for (const verdict of ["stable", "unstable", "undecided"]) {
+    assert.equal(found.boxes[verdict].length, boxes.filter((b) => b.verdict === verdict).length, verdict);
+    const share = (t) => t.split("/").reduce((a, b) => a / b);
+    assert.ok(Math.abs(Number(found.shares[verdict]) - 100 * share(areas[verdict]) / share(areas.window)) < 0.1, verdict);
+  }
+  assert.deepEqual([found.x.upper, found.y.upper, found.long, found.stopped], [Number(window.x[1]), Number(window.y[1]), false, false]);
+  assert.match(found.text, /K_c .*against theta in s .*, by boxes/);
+  // A third of the work is not enough for so little: what is undecided then is the same again.
+  const part = map({ method: "boxes", undecided: "1/100", work: 1_000_000 });
+  assert.equal(part.stopped, true);
+  assert.ok(Number(part.shares.undecided) > 1);
+  assert.deepEqual(map({ method: "boxes", undecided: "1/100", work: 1_000_000 }), part);
+  // Such a loop has no exact map, and the engine says so.
+  assert.equal(map({}).refused.diagnostics[0].code, "E-dead-time");
+});
+
+test("an exact map that takes more work than is allowed becomes boxes", () => {
+  const model = readFileSync(join(root, "examples/drive.toml"), "utf8");
+  const map = (more) => engine.ask({ ask: "map", model, set: [], x: "T", y: "K_pwm", undecided: "1/10", ...more });
+  assert.ok(map({ method: "auto" }).walls.length > 0);
+  const short = map({ method: "auto", work: 200_000 });
+  assert.deepEqual([short.long, short.walls], [true, undefined]);
+  assert.equal(map({ method: "exact", work: 200_000 }).boxes, undefined);
+});
+
+test("the rightmost roots, the response and the place to cut of a loop with dead time", () => {
+  const model = readFileSync(join(root, "examples/dead-time-pi.toml"), "utf8");
+  same("dead-time-pi", model, "roots", "--json");
+  same("dead-time-pi", model, "margins", "--json");
+  const { roots, response } = engine.ask({ ask: "point", model, set: [], response: true });
+  assert.deepEqual(roots, { rightmost: true });
+  const [{ name, points, final }] = response.signals;
+  assert.deepEqual([name, response.unit, final], ["y", "s", 1]);
+  assert.ok(points.length > 100 && Math.abs(points.at(-1) - 1) < 0.05, `${points.slice(-2)}`);
+  // Nothing comes through before the dead time is over.
+  assert.ok(points.every((v, k) => k % 2 === 0 || points[k - 1] > 2.9 || v === 0));
+  const smith = model.replace('input = "r - y"', 'input = "r - y - w"') + '[[block]]\nname = "predictor"\ninput = "u"\noutput = "w"\ntransfer = "K_p*(1 - exp(-theta*s))/(T_p*s + 1)"\n';
+  assert.equal(page(smith, "margins", "--json").status, 2);
+  const { cut } = engine.ask({ ask: "describe", model: smith }).model;
+  assert.equal(cut, "controller");
+  same("smith", smith, "margins", "--at", cut, "--json");
+});
+
 test("the roots of a picture are those of the exact polynomial", () => {
   const model = 'time = "discrete"\n[parameters]\nK = 2\n[loop]\ncharacteristic = "(z - 1/2)^2*(z^2 + K)"\n';
   const { roots } = engine.ask({ ask: "point", model, set: [], response: true });

@@ -7,6 +7,9 @@ import { withoutPlaceholders } from "../placeholders.mjs";
 import { random } from "./models.mjs";
 
 const numbers = await moduleOf("numbers.ts");
+const replies = await moduleOf("reply.ts");
+const about = await moduleOf("about.ts");
+const models = await moduleOf("model.ts");
 const copy = await moduleOf("copy.ts");
 const overModule = await moduleOf("over.ts");
 const paste = await moduleOf("paste.ts");
@@ -38,17 +41,63 @@ test("a part of a root that is noise is not written", () => {
   assert.equal(numbers.complex(0, 0), "0");
 });
 
-test("what an end is a zero of is said in words", () => {
-  const { over } = overModule;
-  assert.deepEqual(over({ symbols: { e_1: "exp(-T)" }, polynomial: ["1", "-e_1"] }), [["root of, from the constant term up", "[1, -e_1]"], ["with", "e_1 = exp(-T)"]]);
-  assert.deepEqual(over({ function: "resultant of the half-size pair", pi: "pi", t1: "tan(1)" }), [["zero of", "resultant of the half-size pair"], ["with", "pi = pi, t1 = tan(1)"]]);
+test("what an end is a root or a zero of is a formula in the language of model files", () => {
+  const { equation, over } = overModule;
+  assert.equal(equation(["-6321", "2642"], "K"), "2642*K - 6321 = 0");
+  assert.equal(equation(["5", "0", "-1", "1"], "T"), "T^3 - T^2 + 5 = 0");
+  assert.equal(equation(["-1/2", "e_1 + 2", "-1"], "K"), "-K^2 + (e_1 + 2)*K - 1/2 = 0");
+  assert.equal(equation(["0"], "K"), "0 = 0");
+  assert.deepEqual(over({ symbols: { e_1: "exp(-T)" }, polynomial: ["1", "-e_1"] }, "K"), [["root of", "-e_1*K + 1 = 0"], ["with", "e_1 = exp(-T)"]]);
+  assert.deepEqual(over({ function: "resultant of the half-size pair", pi: "pi", t1: "tan(1)" }, "K"), [["zero of", "resultant of the half-size pair"], ["with", "t1 = tan(1)"]]);
   const crossing = { omega2: { polynomial: ["-1", "1"], enclosure: ["1", "1"] }, theta: ["0", "1/10"], k: 2, direction: "+" };
-  assert.ok(over(crossing).every(([, is]) => !/[{"]/.test(is)));
+  assert.deepEqual(over(crossing, "T").map(([, is]) => is), ["at ±iω with ω² = x", "x - 1 = 0", "1 and 1", "(θ + 4π)/ω", "0 and 1/10"]);
+});
+
+test("numbers stand as the text writes them, while they are the same", () => {
+  const text = ["[constants]", "L = 9.4e-6 # H", "R = { value = '1.8e-3', tolerance = \"5%\" }", "a = 3", "[parameters]", "T = { nominal = 1e-4, min = 0 }", "K = \"1/3\"", "b = 7", "[parameters.c]", "min = 1", "nominal = 2.50"].join("\n");
+  const parameter = (name, nominal) => ({ name, nominal, min: "1/10", max: null });
+  const constant = (name, value) => ({ name, value, number: value });
+  const model = {
+    parameters: [parameter("T", "1/10000"), parameter("K", "1/3"), parameter("b", "8"), parameter("c", "5/2"), parameter("d", "1/8")],
+    constants: [constant("L", "47/5000000"), constant("R", "9/5000"), constant("a", "1/2*K")],
+    blocks: [["P", "u", "y", "1/2*s^3/2 + 1/(3/4*s) + x_1/2 + 9/5000/7"]],
+  };
+  const made = models.asWritten(model, text);
+  assert.deepEqual(made.parameters.map((p) => p.nominal), ["1e-4", "1/3", "8", "2.50", "0.125"]);
+  assert.deepEqual(made.parameters.map((p) => p.min), Array(5).fill("0.1"));
+  assert.deepEqual(made.constants.map((c) => c.value), ["9.4e-6", "1.8e-3", "0.5*K"]);
+  assert.equal(made.blocks[0][3], "0.5*s^3/2 + 1/(0.75*s) + x_1/2 + 9/5000/7");
+});
+
+test("two texts are one number or two, however they are written", () => {
+  for (const [a, b] of [["1e-4", "1/10000"], ["0.5", ".5"], ["+2", "2."], ["-1.5e3", "-1500"], ["0.1/0.2", "1/2"], [null, null], ["1e9999", "1e9999"]]) assert.ok(numbers.same(a, b), `${a} ${b}`);
+  for (const [a, b] of [["1e-4", "1e-5"], ["1/3", "0.333"], ["1", null], ["K", "1"], ["1/0", "2/0"], ["1e9999", "1e9998"]]) assert.ok(!numbers.same(a, b), `${a} ${b}`);
 });
 
 test("numbers are told from what is none", () => {
   for (const text of ["110", "1e-4", " 1/3 ", "-.5", "+2.", "1.5e3/2.5"]) assert.ok(numbers.isNumber(text), text);
   for (const text of ["", "e5", "1/", "--1", "1 2", "0x1", "inf", "1/2/3", "1,5"]) assert.ok(!numbers.isNumber(text), text);
+});
+
+test("a decimal comma is told from other mistakes", () => {
+  assert.equal(numbers.hint("12,5"), "a decimal point, not a comma: 12.5");
+  assert.equal(numbers.hint(" -,5"), "a decimal point, not a comma: -.5");
+  for (const text of ["", "x", "1,2,3", "1/2,5", "12,"]) assert.equal(numbers.hint(text), "a number such as 110, 1e-4 or 1/3", text);
+});
+
+test("where there is no answer, it is said once and with what can be asked instead", () => {
+  const refused = (message, help) => ({ refused: { diagnostics: [{ code: "E-dead-time", message, help }] } });
+  assert.equal(replies.instead(refused("this cannot be asked", "what can be asked: verdict")), "This cannot be asked. What can be asked: verdict.");
+  assert.equal(replies.instead(refused("this cannot be asked", null)), "this cannot be asked");
+  assert.equal(replies.instead({ stopped: "cancelled" }), "undecided: cancelled");
+  assert.equal(replies.instead({ output: "{}" }), undefined);
+});
+
+test("roots are counted in words, with dead time too", () => {
+  assert.equal(about.counted({ time: "discrete", degree: 6, inside: 5, on: 0, outside: 1, infinite: 0 }), "5 of 6 roots inside the unit circle, 1 outside");
+  const delayed = (on, outside) => about.counted({ time: "continuous", degree: 2, inside: null, on, outside, infinite: null });
+  assert.equal(delayed(0, 0), "no roots in the right half plane");
+  assert.equal(delayed(2, 1), "1 root in the right half plane, 2 on the axis");
 });
 
 test("the neighbour of an end is the next decimal on the side that is asked for", () => {

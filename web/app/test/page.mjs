@@ -47,7 +47,7 @@ test("the drive is answered before a key is pressed", async () => {
   assert.equal(await page.value('document.getElementById("verdict-roots").textContent'), "6 of 6 roots inside the unit circle");
   const labels = await page.value('[...document.querySelectorAll(".ends button")].map((b) => b.textContent)');
   assert.ok(labels.includes("0.038101") && labels.includes("550.94"), labels.join());
-  assert.match(await page.value('document.getElementById("map-sentence").textContent'), /stable region.* K_pwm = 110, T = 0.0001, stable/);
+  assert.match(await page.value('document.getElementById("map-sentence").textContent'), /stable region.* K_pwm = 110, T = 1e-4, stable/);
   assert.match(await page.value('document.getElementById("open-loop-sentence").textContent'), /gain margin 13.99 dB, lower −69.21 dB, phase margin 71.87°/);
   assert.ok((await page.value('document.querySelectorAll("#locus .root").length')) >= 6);
   assert.ok((await page.value('document.querySelectorAll("#response .line").length')) === 1);
@@ -163,6 +163,166 @@ test("a map is cancelled in its middle, and the next answer comes from a new wor
   t.diagnostic(`an answer ${done.took.toFixed(0)} ms after the cancel`);
   assert.deepEqual([done.map, done.replaced, done.verdict, done.anew], [true, 1, "stable", 0]);
   await page.open(fromFile);
+});
+
+test("a loop with dead time has all its panels, and its map is by boxes", async () => {
+  const text = readFileSync(join(root, "examples/dead-time-pi.toml"), "utf8");
+  await page.open(fromFile);
+  await page.take(text);
+  const said = (id) => page.value(`document.getElementById("${id}-sentence").textContent`);
+  const count = (what) => page.value(`document.querySelectorAll(${JSON.stringify(what)}).length`);
+  assert.equal(await page.value('document.getElementById("verdict-roots").textContent'), "no roots in the right half plane");
+  assert.match(await said("map"), /^K_c and T_i by boxes: [\d.]+ % of the window is proved stable, [\d.]+ % unstable, 0.\d+ % is undecided \(hatched\). There is no exact map of such a loop. The point is at K_c = 1, T_i = 8, stable.$/);
+  assert.match(await page.value('document.querySelector("#map svg").textContent'), /by boxes, 0.\d+ % undecided/);
+  assert.deepEqual([await count("#map .region"), await count("#map path.open"), await count("#map .outside")], [1, 1, 1]);
+  assert.match(await said("locus"), /^The 10 rightmost of infinitely many roots, a pair counted once: all others are left of Re s = −1.5, proved./);
+  assert.equal(await count("#locus .root"), 19);
+  assert.match(await said("response"), /^y \(unit step of r\): largest/);
+  assert.match(await said("open-loop"), /^Cut at controller: gain margin 8.0\d* dB.* phase margin/);
+  assert.equal(await count("#open-loop .line"), 2);
+  assert.equal(await page.value('[...document.querySelectorAll(".canvas")].filter((e) => !e.offsetParent).length'), 0);
+  await overflow("dead time");
+  await shot("dead-time");
+  // What a box is proved to be is what the program says of its points.
+  const next = random(7);
+  const boxes = await page.value('jurist.page.known("finer map").reply');
+  for (const kind of ["stable", "unstable"]) {
+    for (let k = 0; k < 10; k++) {
+      const [u, v, r, t] = boxes.boxes[kind][Math.floor(next() * boxes.boxes[kind].length)];
+      const at = ({ lower, upper }, a, b) => String(lower + (upper - lower) * (a + (b - a) * (0.1 + 0.8 * next())));
+      const [K, T] = [at(boxes.x, u, r), at(boxes.y, v, t)];
+      const { verdict } = program(text, "verdict", "--json", "--set", `K_c=${K}`, "--set", `T_i=${T}`);
+      assert.equal(verdict === "stable", kind === "stable", `${kind} at K_c = ${K}, T_i = ${T}: ${verdict}`);
+    }
+  }
+  // Smaller ones for who wants them, until something else is looked at.
+  const smaller = '[...document.querySelectorAll("#map .controls button")].find((b) => b.textContent === "smaller boxes")';
+  assert.equal(await page.value(`${smaller}.hidden`), false);
+  await page.value(`${smaller}.click()`);
+  await page.settled();
+  assert.match(await said("map"), /, 0\.[12]\d* % is undecided \(hatched\)\. There is no exact map/);
+  assert.equal(await page.value(`${smaller}.hidden`), true);
+  await page.value('jurist.page.entered("theta", "4", true)');
+  await page.settled();
+  assert.match(await said("map"), /, 0\.[5-9]\d* % is undecided/);
+  assert.equal(await page.value(`${smaller}.hidden`), false);
+  await page.value('jurist.page.entered("theta", "3", true)');
+  await page.value('jurist.page.entered("K_c", "3", true)');
+  await page.settled();
+  assert.equal(await page.value('document.getElementById("verdict-roots").textContent'), "2 roots in the right half plane");
+  assert.match(await said("locus"), /The root farthest right is 0\.\d+ \+ 0\.\d+i/);
+  assert.deepEqual(page.complaints(), []);
+});
+
+test("dead times that cancel leave finitely many roots, and a neutral loop says which line they come near to", async () => {
+  const said = (id) => page.value(`document.getElementById("${id}-sentence").textContent`);
+  await page.open(fromFile);
+  const smith = readFileSync(join(root, "examples/smith-predictor.toml"), "utf8");
+  await page.take(smith.replace(/theta_process = 6/, "theta_process = 5"));
+  assert.match(await said("locus"), /^The loop has \d roots: its dead times cancel. The root farthest right is −[\d.]+\./);
+  await page.take(readFileSync(join(root, "examples/neutral-loop.toml"), "utf8"));
+  assert.match(await said("locus"), /Infinitely many come near to the line Re s = −0\.69\d+\. The root/);
+  assert.deepEqual(page.complaints(), []);
+});
+
+test("smaller boxes are cancelled and the larger ones stay; an exact map can be waited for", async () => {
+  await page.open(fromFile);
+  await page.take(readFileSync(join(root, "examples/drive-hold.toml"), "utf8"), { map: false });
+  const said = () => page.value('document.getElementById("map-sentence").textContent');
+  await page.until('jurist.engine.busy === "finer map" || jurist.page.known("finer map").now');
+  await page.value("jurist.engine.cancel(true)");
+  await page.settled();
+  assert.match(await said(), /^K_pwm and T by boxes: .* % is undecided \(hatched\).* There is no exact map of such a loop. (Smaller boxes: undecided: cancelled. )?The point is at K_pwm = 110, T = 1e-4, stable/);
+  assert.equal(await page.value('document.querySelectorAll("#map path.open").length'), 1);
+  // Where the loop is cut: at the error, which the program does not choose of two loops.
+  assert.equal(await page.value('document.querySelector("#open-loop select").value'), "speed controller");
+  assert.match(await page.value('document.getElementById("open-loop-sentence").textContent'), /^Cut at speed controller: gain margin/);
+  await overflow("behind a hold");
+  await shot("hold");
+  await page.take(drive.replace(/^/, "# the same once more\n"));
+  const exact = 'document.querySelector("#map .controls button")';
+  assert.equal(await page.value(`${exact}.hidden`), true);
+  await page.value(`(() => {
+    const { page } = jurist;
+    const known = page.questions.known.bind(page.questions);
+    const reply = { ...known("map").reply, long: true };
+    page.questions.known = (lane) => (lane === "map" ? { ...known(lane), reply } : known(lane));
+    page.map.show();
+  })()`);
+  assert.equal(await page.value(`${exact}.hidden`), false);
+  await page.value(`${exact}.click()`);
+  assert.equal(await page.value('jurist.page.questions.lanes().find((q) => q.lane === "map").request.work'), undefined);
+  await page.open(fromFile);
+});
+
+test("where the exact map takes more than the first of the work, there are boxes until somebody waits for it", async () => {
+  await page.open(fromFile);
+  await page.take(readFileSync(join(root, "examples/drive-filters-4.toml"), "utf8"));
+  const said = () => page.value('document.getElementById("map-sentence").textContent');
+  const button = (words) => `[...document.querySelectorAll("#map .controls button")].find((b) => b.textContent === "${words}")`;
+  assert.match(await said(), /by boxes: .* 0\.\d+ % is undecided \(hatched\)\. The exact map takes longer than that\./);
+  assert.deepEqual([await page.value(`${button("exact map")}.hidden`), await page.value(`${button("smaller boxes")}.hidden`)], [false, false]);
+  await page.value(`${button("exact map")}.click()`);
+  await page.settled();
+  assert.match(await said(), /: .*stable regions?, drawn green. The point is at/);
+  assert.deepEqual([await page.value(`${button("exact map")}.hidden`), await page.value(`${button("smaller boxes")}.hidden`)], [true, true]);
+});
+
+test("numbers are written as in the text, and limits are roots of equations", async () => {
+  await page.open(fromFile);
+  assert.equal(await page.value('document.querySelectorAll(".parameter input")[1].value'), "1e-4");
+  await page.value('document.getElementById("details").open = true');
+  await page.until('document.querySelectorAll("#details-body h3").length === 2');
+  await page.settled();
+  const [first] = await page.value('[...document.querySelectorAll("#details-body tr")].filter((r) => /^root of/.test(r.textContent)).map((r) => r.querySelector("td").textContent)');
+  assert.match(first, /^-?\d+\*K_pwm\^\d+ [+-] [^\[{"]* = 0$/);
+  // A limit behind a hold is a zero of what is said in words.
+  await page.take(readFileSync(join(root, "examples/drive-hold.toml"), "utf8"), { map: false });
+  await page.until('document.querySelectorAll("#details-body h3").length === 2 && document.getElementById("details-body").textContent.includes("stable set of T")');
+  const text = await page.value('document.getElementById("details-body").textContent');
+  assert.match(text, /zero of|root of/);
+  assert.doesNotMatch(text, /[{}"]/);
+  await page.value('jurist.engine.cancel(true)');
+  await page.value('document.getElementById("details").open = false');
+});
+
+test("on a phone a model is pasted from the first screen, and its answers come into sight", async () => {
+  await page.open(fromFile, 390, 844);
+  const seen = (id) => page.value(`(() => { const { top, bottom, width } = document.getElementById("${id}").getBoundingClientRect(); return width > 0 && top >= -1 && bottom <= innerHeight + 1; })()`);
+  assert.equal(await seen("paste-here"), true);
+  await page.value('document.getElementById("paste-here").click()');
+  await page.until('document.activeElement.id === "pasted"');
+  await page.drawn();
+  assert.deepEqual([await seen("pasted"), await seen("paste-use")], [true, true]);
+  await page.value('(() => { document.getElementById("pasted").value = "z^2 + (K - 1)*z + 1/2"; document.getElementById("paste-use").click(); })()');
+  await page.settled();
+  assert.equal(await seen("verdict"), true);
+  assert.equal(await page.value("jurist.page.model.parameters[0].name"), "K");
+  await page.open(fromFile);
+  assert.equal(await page.value('document.getElementById("paste-here").offsetParent'), null);
+});
+
+test("each card is printed whole, on a page or two, with every picture, from whatever width", async () => {
+  await page.open(fromFile, 390, 844);
+  await page.browser.send("Emulation.setEmulatedMedia", { media: "print" });
+  await page.drawn();
+  const cards = await page.value(`[...document.querySelectorAll(".figure")].map((f) => {
+    const { width, height } = f.querySelector("svg").getBoundingClientRect();
+    return { breaks: getComputedStyle(f).breakInside, drawn: f.querySelectorAll("svg .line, svg .root, svg .region").length > 0, wide: width > 100 && height > 100 };
+  })`);
+  assert.deepEqual(cards, Array(4).fill({ breaks: "avoid", drawn: true, wide: true }));
+  await page.browser.send("Emulation.setEmulatedMedia", { media: "" });
+  const paper = await page.browser.print({ printBackground: true });
+  const pages = paper.toString("latin1").match(/\/Type \/Page\b/g).length;
+  assert.ok(pages <= 3, `${pages} pages`);
+  if (pictures) writeFileSync(join(pictures, "print.pdf"), paper);
+});
+
+test("a decimal comma is answered with the point", async () => {
+  await page.open(fromFile);
+  await page.value('(() => { const box = document.querySelector(".parameter input"); box.value = "12,5"; box.dispatchEvent(new Event("input", { bubbles: true })); })()');
+  assert.equal(await page.value('document.querySelector(".parameter .wrong").textContent'), "a decimal point, not a comma: 12.5");
+  assert.equal(await page.value('jurist.page.values.get("K_pwm")'), "110");
 });
 
 test("a defect takes its worker with it and not the page", async () => {

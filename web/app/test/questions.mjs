@@ -153,8 +153,21 @@ test("whatever happens, what is known is about the text that is shown: 20 000 st
 });
 
 test("every question says which text it is about", () => {
-  const chosen = { text: "text", values: [["K", "1"], ["T", "2"]], differing: [["K", "1"]], focus: "K", cut: "e", axes: ["K", "T"] };
+  const also = { rightmost: false, finer: 0 };
+  const chosen = { text: "text", values: [["K", "1"], ["T", "2"]], differing: [["K", "1"]], focus: "K", cut: "e", axes: ["K", "T"], method: "auto", also };
   const lanes = questionsAbout(chosen);
-  for (const { lane, request } of lanes) assert.equal(request.model, "text", lane);
-  assert.deepEqual(lanes.map((q) => q.lane), ["verdict", "point", "intervals K", "intervals T", "locus", "margins", "frequency response", "map"]);
+  const further = questionsAbout({ ...chosen, also: { rightmost: true, finer: 1 } });
+  for (const { lane, request } of further) assert.equal(request.model, "text", lane);
+  const names = ["verdict", "point", "intervals K", "intervals T", "locus", "frequency response", "margins", "map"];
+  assert.deepEqual(lanes.map((q) => q.lane), names);
+  assert.deepEqual(further.map((q) => q.lane).sort(), [...names, "roots", "finer map"].sort());
+});
+
+test("the work of a map is counted, but for an exact one that somebody waits for", () => {
+  const chosen = { text: "text", values: [["K", "1"], ["T", "2"], ["L", "3"]], differing: [], focus: "", cut: "", axes: ["K", "T"], also: { rightmost: false, finer: 2 } };
+  const maps = (method) => questionsAbout({ ...chosen, method }).filter((q) => q.request.ask === "map").map((q) => q.request);
+  const [first, finer, small] = maps("auto");
+  assert.deepEqual([first.method, finer.method, first.set], ["auto", "boxes", [["L", "3"]]]);
+  assert.ok(first.work > 0 && finer.work > first.work && small.work > finer.work);
+  assert.equal(maps("exact")[0].work, undefined);
 });

@@ -47,6 +47,7 @@ fn said(model: &Model) -> Value {
         "inputs": model.inputs().iter().map(|name| &name.name).collect::<Vec<_>>(),
         "outputs": model.outputs().iter().map(|output| &output.name.name).collect::<Vec<_>>(),
         "blocks": blocks(model),
+        "cut": model.first_cut(),
         "tolerances": model.parameters().iter().any(|p| p.tolerance.is_some())
             || model.constants().iter().any(|c| c.tolerance.is_some()),
     })

@@ -5,7 +5,9 @@ use crate::reply::Reply;
 use crate::told::budget;
 use jurist::{Budget, Error, Integer, Problem, Rational, Time, UniPoly};
 use jurist_draw::figures::thinned_to;
-use jurist_draw::simulate::{SampledModel, excitation, natural_duration, roots, signal_unit};
+use jurist_draw::simulate::{
+    Course, DelayedModel, SampledModel, Trace, excitation, natural_duration, roots, signal_unit,
+};
 use jurist_engine::model::value_approximate;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -51,7 +53,8 @@ fn reasoned(result: Result<Value, Error>) -> Result<Value, Error> {
 fn roots_at(problem: &Problem, budget: &Budget) -> Result<Value, Error> {
     let algebra = problem.algebra_over_symbols(budget)?;
     if !algebra.symbols().delays().is_empty() {
-        return Ok(json!({ "none": "a loop with dead time has infinitely many roots" }));
+        // Infinitely many: `jurist roots` says the rightmost.
+        return Ok(json!({ "rightmost": true }));
     }
     let Some(polynomial) = algebra.polynomial() else {
         return Err(Error::Undefined(algebra.undefined().unwrap_or_default().to_owned()));
@@ -82,7 +85,6 @@ fn response(problem: &Problem, budget: &Budget) -> Result<Value, Error> {
         Some(duration) => duration,
         None => natural_duration(problem, budget)?.unwrap_or(1.0),
     };
-    let system = SampledModel::from_loop(problem, duration / CONTINUOUS_SAMPLES, budget)?;
     let named =
         |(name, value): &(jurist_engine::model::Name, Rational)| (name.name.clone(), value.to_f64_approximate());
     let initial: Vec<(String, f64)> = defaults.initial.iter().map(named).collect();
@@ -95,6 +97,13 @@ fn response(problem: &Problem, budget: &Budget) -> Result<Value, Error> {
         inputs.push((first.name.clone(), 1.0));
         note = format!("unit step of {}", first.name);
     }
+    if DelayedModel::from_loop(problem, duration / CONTINUOUS_SAMPLES, budget)?.is_some() {
+        let inputs = inputs.into_iter().map(|(name, value)| (name, 0.0, value)).collect();
+        let course = Course { inputs, initial, duration, least_samples: 1.0 };
+        let run = course.run(problem, budget)?;
+        return Ok(shown(problem, &run.trace, &run.finals, "s", &note));
+    }
+    let system = SampledModel::from_loop(problem, duration / CONTINUOUS_SAMPLES, budget)?;
     let steps: Vec<(String, usize, f64)> = inputs.into_iter().map(|(name, value)| (name, 0, value)).collect();
     let drive = excitation(|name| system.state_named(name), system.states.len(), &system.inputs, &initial, &steps)?;
     let least = if asked.is_some() { 1.0 } else { SAMPLES.0 };
@@ -102,7 +111,18 @@ fn response(problem: &Problem, budget: &Budget) -> Result<Value, Error> {
     let samples = wanted.min(SAMPLES.1);
     let trace = system.simulate_within(&drive, samples as usize, budget)?;
     let finals = system.final_values(&drive.inputs_at(0, system.inputs.len()));
-    let shown: Vec<String> = match model.outputs() {
+    let sampled = problem.algebra_over_symbols(budget)?.sample_time().is_some();
+    let unit = if sampled || model.time() == Time::Continuous { "s" } else { "samples" };
+    if wanted > samples {
+        note = [note, format!("the first {samples} of {wanted} samples")].join("; ");
+    }
+    Ok(shown(problem, &trace, &finals, unit, note.trim_start_matches("; ")))
+}
+
+/// The signals that the model names as its outputs, or all, with what they go to.
+fn shown(problem: &Problem, trace: &Trace, finals: &[(String, f64)], unit: &str, note: &str) -> Value {
+    let model = problem.model();
+    let names: Vec<String> = match model.outputs() {
         [] => trace.signals.iter().map(|s| s.name.clone()).collect(),
         outputs => outputs.iter().map(|o| o.name.name.clone()).collect(),
     };
@@ -112,15 +132,10 @@ fn response(problem: &Problem, budget: &Budget) -> Result<Value, Error> {
         let shown: Vec<f64> = thinned_to(&points, SHOWN).into_iter().flat_map(|(t, v)| [short(t), short(v)]).collect();
         json!({ "name": name, "unit": signal_unit(model, name), "points": shown, "final": last })
     };
-    let sampled = problem.algebra_over_symbols(budget)?.sample_time().is_some();
-    let unit = if sampled || model.time() == Time::Continuous { "s" } else { "samples" };
-    if wanted > samples {
-        note = [note, format!("the first {samples} of {wanted} samples")].join("; ");
-    }
-    Ok(json!({
-        "signals": shown.iter().map(signal).collect::<Vec<_>>(), "unit": unit,
-        "held": model.time() == Time::Discrete, "note": note.trim_start_matches("; "),
-    }))
+    json!({
+        "signals": names.iter().map(signal).collect::<Vec<_>>(), "unit": unit,
+        "held": model.time() == Time::Discrete, "note": note,
+    })
 }
 
 /// To seven digits, more than a picture shows.

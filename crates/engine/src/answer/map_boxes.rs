@@ -139,6 +139,32 @@ impl Problem {
         method != MapMethod::Exact && window_of(self, request).is_ok()
     }
 
+    /// The request with both ends of its windows: those that it leaves out are chosen around the nominal point, as they are of loops that have
+    /// only boxes.
+    ///
+    /// Cost: a few verdicts.
+    ///
+    /// # Errors
+    /// [`Error::Refused`] where a parameter has no nominal value, and outside of its domain; [`Error::Stopped`] when the budget runs out.
+    ///
+    /// ```
+    /// use jurist_algebra::limits::Budget;
+    /// use jurist_engine::answer::BoxRequest;
+    /// use jurist_engine::model::Model;
+    /// use jurist_engine::stability::Range;
+    /// let problem = Model::drive().ask().free("K_pwm").free("T").plane_problem()?;
+    /// let request = BoxRequest::new([Range::all(), Range::all()], "1/20".parse()?);
+    /// let around = problem.around_nominal(&request, &Budget::unlimited())?;
+    /// // It is stable to 550.94 V.
+    /// assert_eq!(around.windows[0], Range::between(Some(0.into()), Some(990.into())));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn around_nominal(&self, request: &BoxRequest, budget: &Budget) -> Result<BoxRequest, Error> {
+        let Window { x, y } = budget.enter(|| window_around(self, request, budget))??;
+        let side = |[lower, upper]: [Rational; 2]| Range::between(Some(lower), Some(upper));
+        Ok(BoxRequest::new([side(x), side(y)], request.undecided.clone()))
+    }
+
     /// The stable region in the plane of the two free parameters by a method of choice.
     ///
     /// Loops with dead time, and those with functions, as behind a hold, that one of the parameters is inside of, have boxes only.

@@ -154,6 +154,41 @@ impl Model {
         }
     }
 
+    /// A place to begin at where [`Model::cut`] wants a name: the input of the only block on a loop that compares with the first external
+    /// input, which is the reference, else the first signal that comes back; the first of the parameters where the model is no block diagram.
+    /// `None` where there is no place.
+    ///
+    /// ```
+    /// use jurist_engine::model::Model;
+    /// let (model, _) = Model::from_bytes("two loops", br#"
+    /// time = "continuous"
+    /// loop = { inputs = ["r", "d"], outputs = ["y"] }
+    /// block = [
+    ///     { name = "C", input = "r - y - w", output = "u", transfer = "1/s" },
+    ///     { name = "P", input = "u + d", output = "y", transfer = "1/(s + 1)" },
+    ///     { name = "F", input = "u", output = "w", transfer = "1/(s + 2)" },
+    /// ]
+    /// "#)?;
+    /// assert!(model.cut(None).is_err());
+    /// assert_eq!(model.first_cut().as_deref(), Some("C"));
+    /// # Ok::<(), jurist_engine::error::Error>(())
+    /// ```
+    pub fn first_cut(&self) -> Option<String> {
+        let Form::Blocks(diagram) = &self.form else { return self.parameters().first().map(|p| p.name.clone()) };
+        let successors = successors(diagram);
+        let cyclic = |(i, _): &(usize, &Block)| reached(*i, &successors)[*i];
+        let blocks: Vec<_> = diagram.blocks.iter().enumerate().filter(cyclic).map(|(_, b)| b).collect();
+        let compares = |b: &&&Block| match (diagram.inputs.first(), &b.inputs[..]) {
+            (Some(reference), [sum]) => sum.names().contains(reference.name.as_str()),
+            _ => false,
+        };
+        let comparing: Vec<_> = blocks.iter().filter(compares).collect();
+        match comparing[..] {
+            [only] => Some(only.name.clone()),
+            _ => blocks.iter().flat_map(|b| &b.outputs).next().map(|o| o.name.clone()),
+        }
+    }
+
     /// The loop opened at a cut that is a signal.
     ///
     /// # Errors
