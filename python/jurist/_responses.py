@@ -213,7 +213,7 @@ class ResponseQuestions(Asker):
         >>> ship.every_rounding.holds, ship.every_rounding.factor.decimal, ship.fewest.every_rounding
         (True, '6.39950561523', 4)
         >>> [(r.node, round(float(r.bound), 5), r.holds) for r in ship.ranges]
-        [('y', 1.00112, True)]
+        [('u', 2.00136, True), ('y', 1.00124, True)]
         """
         from ._ship import Ship, asked_with_files
 

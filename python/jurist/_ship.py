@@ -69,9 +69,9 @@ class Fewest(NamedTuple):
 
 
 class SignalRange(NamedTuple):
-    """How far an inner signal of the controller goes.
+    """How far the controller's input ``u`` or an inner signal goes.
 
-    Its magnitude is at most ``bound``, rounding included, of which ``rounding`` is the part of the rounding. ``greatest`` are bounds of
+    Its magnitude is at most ``bound``, of which ``rounding`` is the part of the rounding of inputs and signals. ``greatest`` are bounds of
     its greatest magnitude without rounding, ``limit`` is the greatest number of its format, and ``holds`` says whether it stays within;
     what is not known is `None`.
     """
@@ -264,13 +264,13 @@ class Ship(Document):
 
     @property
     def ranges(self) -> list[SignalRange]:
-        """How far the inner signals go; empty where nothing is said of them, and where the stored loop is not stable."""
+        """How far the controller's input and inner signals go; empty where nothing is said of them, and where the stored loop is not stable."""
         return [
             SignalRange(
                 found["node"],
                 _number(found["bound"]),
                 None if found["greatest"] is None else _pair(found["greatest"]),
-                fraction(found["rounding"]),
+                fraction(found["rounding_with_inputs"]),
                 _number(found["limit"]),
                 found["holds"],
             )
@@ -279,8 +279,8 @@ class Ship(Document):
 
     @property
     def limit_cycle(self) -> dict[str, Fraction]:
-        """By how much the rounding of signals moves each output at most, limit cycles included."""
-        return {name: fraction(found["bound"]) for name, found in self._document["limit_cycle"].items()}
+        """By how much the rounding of the controller's inputs and signals moves each output at most, limit cycles included."""
+        return {name: fraction(found["with_inputs"]) for name, found in self._document["limit_cycle"].items()}
 
     def rounded_model(self) -> Loop:
         """The loop with the stored coefficients. Where the question gave ``values``, give them to its questions again.
