@@ -10,6 +10,8 @@ use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_engine::error::Error;
 use jurist_engine::model::{Form, Model};
 use jurist_engine::problem::Problem;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Bounds of signals, from rest and while nothing leaves its range.
@@ -147,12 +149,23 @@ impl Shipped {
             Rational::new(least.abs().max(greatest.abs()).into(), 2.into())
         });
         let error = unit.map_or(Rational::ZERO, |unit| unit * error);
+        // Each gain once, though several sums have it.
+        let known: RefCell<BTreeMap<(String, String), Option<[Rational; 2]>>> = RefCell::default();
+        let gain = |input: &String, output: &str| -> Result<Option<[Rational; 2]>, Error> {
+            let key = (input.clone(), output.to_owned());
+            if let Some(found) = known.borrow().get(&key) {
+                return Ok(found.clone());
+            }
+            let found = problem.peak_to_peak(input, output, DIGITS, budget)?;
+            let ends = found.value().gain.as_ref().map(|gain| [gain.lower.clone(), gain.upper.clone()]);
+            known.borrow_mut().insert(key, ends.clone());
+            Ok(ends)
+        };
         let sum = |sources: &[(String, Rational)], output: &str| -> Result<Option<[Rational; 2]>, Error> {
             let mut total = [Rational::ZERO, Rational::ZERO];
             for (input, bound) in sources {
-                let found = problem.peak_to_peak(input, output, DIGITS, budget)?;
-                let Some(gain) = &found.value().gain else { return Ok(None) };
-                total = [&total[0] + &(&gain.lower * bound), &total[1] + &(&gain.upper * bound)];
+                let Some([low, high]) = gain(input, output)? else { return Ok(None) };
+                total = [&total[0] + &(&low * bound), &total[1] + &(&high * bound)];
             }
             // Exact sums may be fractions of hundreds of digits.
             let [low, high] = total;
