@@ -127,6 +127,9 @@ impl Ranges {
     }
 }
 
+/// An input and an output of the loop.
+type Ends = (String, String);
+
 /// Bits behind the point of bounds, which are rounded outwards.
 const BITS: u64 = 96;
 
@@ -150,7 +153,7 @@ impl Shipped {
         });
         let error = unit.map_or(Rational::ZERO, |unit| unit * error);
         // Each gain once, though several sums have it.
-        let known: RefCell<BTreeMap<(String, String), Option<[Rational; 2]>>> = RefCell::default();
+        let known: RefCell<BTreeMap<Ends, Option<[Rational; 2]>>> = RefCell::default();
         let gain = |input: &String, output: &str| -> Result<Option<[Rational; 2]>, Error> {
             let key = (input.clone(), output.to_owned());
             if let Some(found) = known.borrow().get(&key) {
