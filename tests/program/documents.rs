@@ -121,7 +121,7 @@ const FORMS: &[&[&str]] = &[
     &["roots", "examples/dc-servo.toml", "--explain"],
     &["roots", "--timeout", "0"],
     &["ship", "examples/drive-blocks.toml", "--block", "speed controller", "--format", "Q4.12", "--signal", "Q8.16"],
-    &["ship", "examples/drive-blocks.toml", "--block", "current controller", "--format", "float32", "--param", "T"],
+    &["ship", "examples/drive-blocks.toml", "--block", "current controller", "--format", "float32", "--param", "K_pwm"],
     &["tune", "examples/pi-sensitivity.toml"],
     &["tune", "examples/pi-sensitivity.toml", "--bound", "ki=1..2"],
     &["tune", "examples/dc-servo.toml", "--free", "K", "--objective", "min radius"],

@@ -234,7 +234,13 @@ pub(crate) struct Near {
 fn is_attained(lines: &Lines<'_>, place: &Place, plain: &RequiredSet) -> Result<bool, Error> {
     let Place::Exact(x) = place else { return Ok(matches!(place, Place::Between(_))) };
     if let Some(value) = x.exact() {
-        return Ok(plain.intervals.iter().any(|interval| interval.contains(&value)));
+        if plain.intervals.iter().any(|interval| interval.contains(&value)) {
+            return Ok(true);
+        }
+        // A bound that is given is included.
+        let gain = &lines.asked.gains[GAIN];
+        let is_bound = gain.bounds.iter().flatten().any(|bound| *bound == value);
+        return Ok(is_bound && lines.is_met(&[(gain.name.clone(), value)], None)?);
     }
     for interval in &plain.intervals {
         let beyond = |end: &Option<RequiredEnd>, side: Ordering| -> Result<bool, Error> {
