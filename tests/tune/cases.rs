@@ -94,6 +94,49 @@ fn what_has_no_best_value_says_so() {
     assert_eq!((&found["optimum"]["value"]["exact"], &found["optimum"]["attained"]), (&"-1".into(), &false.into()));
 }
 
+/// On a plateau the best value is had; numbers at the end of their scale are numbers.
+#[test]
+fn plateaus_and_ends_of_scales() {
+    for (text, objective, decimal, attained) in [
+        ("K/(s^2+0.2*s+1)", "max decay", "0.1", true),
+        ("K/((s-1)*(s+3))", "max decay", "1", true),
+        ("K*s/(s^2+1)", "max damping", "1", true),
+        ("K*(s+1)^2/s^3", "max modulus_margin", "1", true),
+        // Two roots stay near -1 and come to it.
+        ("K*(s+1)^2/s^3", "max decay", "1", false),
+        ("K/(s+3)", "min complementary_peak", "0", false),
+    ] {
+        let found = line(text, objective);
+        let optimum = &found["optimum"];
+        assert_eq!(
+            (&optimum["decimal"], &optimum["attained"]),
+            (&decimal.into(), &attained.into()),
+            "{text} {objective}"
+        );
+    }
+    // The open loop is smaller than 1: no phase limits it.
+    assert_eq!(line("K/((s+1)*(s+2))", "max phase_margin")["optimum"]["decimal"], Value::Null);
+}
+
+#[test]
+fn bounds_belong_to_the_question() {
+    let model = "time = 'continuous'\nparameters.K = 1\nloop.characteristic = 's^3 + 3*s^2 + 2*s + K'\n";
+    for (objective, bound, value, typed) in
+        [("max decay", "K=0.1..0.2", "1/5", "0.199"), ("max K", "K=0..2", "2", "2"), ("min K", "K=1..2", "1", "1")]
+    {
+        let (status, found) = tune(model, &["--free", "K", "--objective", objective, "--bound", bound]);
+        let place = &found["optimum"]["at"]["K"]["value"]["exact"];
+        assert_eq!((status, place, &found["optimum"]["attained"]), (0, &value.into(), &true.into()), "{objective}");
+        assert_eq!(number(typed), found["rounded"]["K"].as_str().unwrap().parse().unwrap(), "{objective}");
+    }
+    let said = refused(model, &["--free", "K", "--bound", "K=2..2"]);
+    assert!(said.contains("--set K=2"), "{said}");
+    let said = refused(model, &["--free", "K", "--set", "K=3", "--objective", "max decay"]);
+    assert!(said.contains("'K' is free and has a value"), "{said}");
+    let discrete = "time = 'discrete'\nparameters.K = 1\nloop.characteristic = 'z^2 - 1.5*z + 0.5 + K'\n";
+    assert!(refused(discrete, &["--free", "K", "--objective", "max damping"]).contains("require it: --damping"));
+}
+
 /// The PI controllers with the largest integral gain under a maximum sensitivity (Åström, Panagopoulos, Hägglund 1998), exactly.
 #[test]
 fn the_largest_integral_gain_under_a_sensitivity() {
@@ -132,7 +175,7 @@ fn requirements_and_bounds_that_exclude_each_other() {
         [[block]]\nname = 'loop'\ninput = 'r - y'\noutput = 'y'\ntransfer = 'K/(s*(s + 1)*(s + 2))'\n";
     let (status, found) =
         tune(loop_, &["--free", "K", "--decay", "0.4", "--phase-margin", "75 deg", "--gain-margin", "2"]);
-    assert_eq!((status, &found["conflict"]), (1, &json!(["phase_margin >= 75 deg", "decay 0.4"])), "{found}");
+    assert_eq!((status, &found["conflict"]), (1, &json!(["phase_margin >= 75 deg", "decay >= 0.4"])), "{found}");
 }
 
 /// The heavy ball on eigenvalues 1 and 10 (Polyak 1964): the radius is (11 - 2 sqrt 10)/9.

@@ -67,6 +67,8 @@ pub enum Best {
     Exact(Real),
     /// There is none: it grows without end.
     Unbounded,
+    /// Zero, which the scale of a peak has at its far end.
+    Zero,
     /// Some gains have the first one, none the second one.
     Between([Rational; 2]),
     /// Nothing was to be best.
@@ -80,6 +82,8 @@ pub enum Place {
     Exact(Real),
     /// Between two numbers.
     Between([Rational; 2]),
+    /// Everywhere from one number to another; `None` is no end.
+    From((Option<Rational>, Option<Rational>)),
     /// It grows without end.
     Unbounded,
 }

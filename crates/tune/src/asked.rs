@@ -138,7 +138,11 @@ fn check_gains(gains: &[Gain]) -> Result<(), Error> {
             && low >= high
         {
             let message = format!("the bounds of '{}' are no interval: {low} is not below {high}", gain.name);
-            return Err(Diagnostic::error(Code::TuneBounds, message).help("write the lower one first").into());
+            let help = match low == high {
+                true => format!("give it this value: --set {}={low}", gain.name),
+                false => "write the lower one first".to_owned(),
+            };
+            return Err(Diagnostic::error(Code::TuneBounds, message).help(help).into());
         }
     }
     Ok(())
@@ -174,11 +178,12 @@ fn objective(model: &Model, gains: &[Gain], text: &str) -> Result<Objective, Err
         return Err(refused(format!("'{name}' is no free gain and no number of a loop that can be made best"), help));
     };
     if !level.fits(model.time()) {
-        let (kind, other) = match model.time() {
-            Time::Discrete => ("discrete", "radius"),
-            Time::Continuous => ("continuous", "decay"),
+        let (kind, help) = match (model.time(), level) {
+            (Time::Discrete, Level::Damping) => ("discrete", "require it: --damping, and make another number best"),
+            (Time::Discrete, _) => ("discrete", "did you mean 'radius'?"),
+            (Time::Continuous, _) => ("continuous", "did you mean 'decay'?"),
         };
-        return Err(refused(format!("{name} is not asked of a {kind} loop"), format!("did you mean '{other}'?")));
+        return Err(refused(format!("the best {name} is not asked of a {kind} loop"), help.to_owned()));
     }
     if level.is_greatest_best() != is_greatest {
         let word = if is_greatest { "min" } else { "max" };

@@ -39,10 +39,10 @@ pub(crate) fn conflict(lines: &Lines<'_>) -> Result<Vec<String>, Error> {
         Part::Region => {
             let regional = asked.requirements.regional.first();
             let own = || match asked.requirements.region.as_ref().map(|region| (region.bound_name(), region.bound())) {
-                Some((name, Bound::Number(bound))) => format!("{name} {}", short(bound)),
+                Some((name, Bound::Number(bound))) => crate::text::regional(name, &short(bound)),
                 _ => "the region".to_owned(),
             };
-            regional.map_or_else(own, |(name, text)| format!("{name} {text}"))
+            regional.map_or_else(own, |(name, text)| crate::text::regional(name, text))
         }
         Part::Bound(gain, side) => {
             let Gain { name, bounds } = &asked.gains[*gain];

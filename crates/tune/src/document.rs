@@ -1,7 +1,6 @@
 //! The document `jurist/tune/1`.
 
 use crate::answer::{Best, Optimum, Outcome, Place, TuneAnswer};
-use crate::asked::Objective;
 use crate::text::{is_its_own_scale, shown};
 use jurist_algebra::number::Rational;
 use jurist_algebra::real::Real;
@@ -111,7 +110,7 @@ impl TuneAnswer {
             objective: asked.objective_text(),
             require: self.required(),
             feasible: self.is_feasible(),
-            optimum: optimum.filter(|_| asked.objective != Objective::Anything).map(|o| self.optimum(o, digits)),
+            optimum: optimum.filter(|o| !matches!(o.value, Best::Nothing)).map(|o| self.optimum(o, digits)),
             found: optimum.map(|optimum| PointFound {
                 point: named(&optimum.found),
                 value: optimum.found_value.as_ref().map(|x| level_text(level, x, digits)),
@@ -145,12 +144,18 @@ impl TuneAnswer {
                 Some(PlaceFound { value: Some(Number::new(x, digits)), enclosure: [(&low).into(), (&high).into()] })
             }
             Place::Between([low, high]) => Some(PlaceFound { value: None, enclosure: [low.into(), high.into()] }),
-            Place::Unbounded => None,
+            Place::From((Some(low), Some(high))) => {
+                Some(PlaceFound { value: None, enclosure: [low.into(), high.into()] })
+            }
+            Place::From(_) | Place::Unbounded => None,
         };
         let names = self.asked.gains.iter().map(|gain| gain.name.clone());
         OptimumFound {
             value: value.filter(|_| level.is_none_or(is_its_own_scale)).map(|value| Number::new(value, digits)),
-            decimal: value.map(|value| shown(level, value, digits)),
+            decimal: match &optimum.value {
+                Best::Zero => Some("0".to_owned()),
+                _ => value.map(|value| shown(level, value, digits)),
+            },
             at: names.zip(optimum.at.iter().map(place)).collect(),
             attained: optimum.attained,
             binding: optimum.binding.clone(),

@@ -3,6 +3,7 @@
 use crate::answer::{Best, Optimum, Outcome, Place};
 use crate::asked::Objective;
 use crate::critical::Curves;
+use crate::decimals::shortest;
 use crate::lines::Lines;
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::{Enclosure, Rational};
@@ -88,11 +89,17 @@ fn best_gain(lines: &Lines<'_>, is_greatest: bool) -> Result<Outcome, Error> {
         },
         (None, _) => (Best::Unbounded, Place::Unbounded, Vec::new(), false),
         (Some(end), None) => {
+            let bound = &lines.asked.gains[GAIN].bounds[usize::from(is_greatest)];
+            let is_bound = bound.as_ref().is_some_and(|bound| end.value().compare_rational(bound).is_eq());
             let attained = match end.value().exact() {
                 Some(value) => lines.is_met(&[(lines.asked.gains[GAIN].name.clone(), value)], None)?,
                 None => is_closed(end),
             };
-            (Best::Exact(end.value()), Place::Exact(end.value()), names(end), attained)
+            let binding = match is_bound {
+                true => vec![format!("bound of {}", lines.asked.gains[GAIN].name)],
+                false => names(end),
+            };
+            (Best::Exact(end.value()), Place::Exact(end.value()), binding, attained)
         }
     };
     let stopped = match (&value, open) {
@@ -161,12 +168,9 @@ fn best_level(lines: &Lines<'_>, level: Level) -> Result<Outcome, Error> {
     if far {
         let set = set_at(&sample)?;
         let interval = widest(&set).expect("the cell is met");
-        let place = match outer(interval) {
-            (Some(low), Some(high)) => Place::Between([low, high]),
-            _ => Place::Unbounded,
-        };
+        let place = place_far(&far_away(&sample, &ends), level, interval, &set_at)?;
         return Ok(Outcome::Optimum(Box::new(Optimum {
-            value: Best::Unbounded,
+            value: best_at_end(level),
             at: vec![place],
             attained: false,
             binding: Vec::new(),
@@ -178,10 +182,18 @@ fn best_level(lines: &Lines<'_>, level: Level) -> Result<Outcome, Error> {
     }
     let places = curves.places(lines.range(GAIN), lines.budget)?;
     let value = Real::from(wall.clone());
-    let near = approach(lines, &value, &sample, &places, &set_at)?;
+    let mut near = approach(lines, &value, &sample, &places, &set_at)?;
     let binding = with_level(level, &near.interval);
+    let mut attained = is_attained(lines, &near.place, &plain)?;
+    // On a plateau all gains of an interval have the best value; else it may be had at no one of them.
+    if !matches!(near.place, Place::Exact(_)) {
+        attained = has_level(lines, level, &value, &point_inside(&near.interval))?;
+        if attained && matches!(near.place, Place::Unbounded) {
+            near.place = Place::From(outer(&near.interval));
+        }
+    }
     Ok(Outcome::Optimum(Box::new(Optimum {
-        attained: is_attained(lines, &near.place, &plain)?,
+        attained,
         value: Best::Exact(value),
         at: vec![near.place],
         binding,
@@ -190,6 +202,54 @@ fn best_level(lines: &Lines<'_>, level: Level) -> Result<Outcome, Error> {
         typed: None,
         stopped: None,
     })))
+}
+
+/// A value of the scale far beyond one.
+fn far_away(sample: &Rational, ends: &[Rational; 2]) -> Rational {
+    let far = sample.abs() * Rational::from(1 << 20) + Rational::from(1 << 20);
+    far.min((sample + &ends[1]) * Rational::new(1.into(), 2.into()))
+}
+
+/// Where gains are whose level has no bound: where they go as it grows, or all of an interval.
+fn place_far(
+    far: &Rational,
+    level: Level,
+    interval: &RequiredInterval,
+    set_at: &dyn Fn(&Rational) -> Result<RequiredSet, Error>,
+) -> Result<Place, Error> {
+    if level == Level::PhaseMargin {
+        return Ok(Place::From(outer(interval)));
+    }
+    let set = set_at(far)?;
+    Ok(Place::From(outer(widest(&set).unwrap_or(interval))))
+}
+
+/// The best value at the end of a scale: a peak of zero, or none.
+pub(crate) fn best_at_end(level: Level) -> Best {
+    match level {
+        Level::ComplementaryPeak => Best::Zero,
+        _ if is_without_end(level) || level == Level::PhaseMargin => Best::Unbounded,
+        _ => {
+            Best::Exact(Real::from(if level.is_rising() { level.scale()[1].clone() } else { level.scale()[0].clone() }))
+        }
+    }
+}
+
+/// Whether a gain has the best value of a level.
+fn has_level(lines: &Lines<'_>, level: Level, value: &Real, gain: &Rational) -> Result<bool, Error> {
+    let named = [(lines.asked.gains[GAIN].name.clone(), gain.clone())];
+    if matches!(level, Level::Decay | Level::Radius) {
+        return Ok(match lines.bound_at(&named, level)? {
+            Some(own) => own.compare(value, lines.budget)?.is_eq(),
+            None => false,
+        });
+    }
+    match value.exact() {
+        // At the end of the scale of the damping all roots are real.
+        Some(end) if level == Level::Damping && end == level.scale()[1] => Ok(true),
+        Some(value) => lines.is_met(&named, Some(&value)),
+        None => Ok(false),
+    }
 }
 
 /// Whether a level may grow without end.
@@ -347,7 +407,17 @@ fn bracket(lines: &Lines<'_>, level: Level, plain: &RequiredSet, ends: &[Rationa
     let seed = seed(lines, level, plain, ends)?.map(|(scale, gain)| (scale, Spot::Point(gain)));
     let found = search.bracket(lines, seed, &met)?;
     let Some((scale, spot)) = found.met else {
-        return Ok(found.stopped.map_or(Outcome::Infeasible { conflict: Vec::new() }, Outcome::Open));
+        // Some gains are stable, whatever level they have.
+        return Ok(Outcome::Optimum(Box::new(Optimum {
+            value: Best::Nothing,
+            at: Vec::new(),
+            attained: false,
+            binding: Vec::new(),
+            found: vec![widest(plain).map(point_inside).expect("it is not empty")],
+            found_value: None,
+            typed: None,
+            stopped: found.stopped,
+        })));
     };
     let (place, found_at, binding) = match &spot {
         Spot::Point(gain) => (Place::Exact(gain.clone().into()), gain.clone(), vec![level.name().to_owned()]),
@@ -361,7 +431,8 @@ fn bracket(lines: &Lines<'_>, level: Level, plain: &RequiredSet, ends: &[Rationa
     };
     let value = match found.not {
         Some(not) => Best::Between([scale.clone(), not]),
-        None => Best::Unbounded,
+        None if found.stopped.is_some() => Best::Nothing,
+        None => best_at_end(level),
     };
     Ok(Outcome::Optimum(Box::new(Optimum {
         value,
@@ -601,13 +672,14 @@ pub(crate) fn outer(interval: &RequiredInterval) -> (Option<Rational>, Option<Ra
     (end(&interval.lower).map(|(low, _)| low), end(&interval.upper).map(|(_, high)| high))
 }
 
-/// The simplest rational number in the inner half.
+/// The shortest decimal in the inner half, or the simplest rational number.
 pub(crate) fn point_inside(interval: &RequiredInterval) -> Rational {
     let quarter = Rational::new(1.into(), 4.into());
     match inner(interval) {
         (Some(low), Some(high)) => {
             let step = (&high - &low) * quarter;
-            simplest_between(&(&low + &step), &(&high - &step)).unwrap_or(low)
+            let (from, to) = (&low + &step, &high - &step);
+            shortest(&from, &to, &from).or_else(|| simplest_between(&from, &to)).unwrap_or(low)
         }
         (Some(low), None) => Rational::from(low.floor()) + Rational::from(2),
         (None, Some(high)) => Rational::from(high.floor()) - Rational::ONE,

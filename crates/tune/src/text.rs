@@ -46,12 +46,12 @@ impl TuneAnswer {
     /// What is required, in words.
     pub(crate) fn required(&self) -> Vec<String> {
         let list = &self.asked.requirements;
-        let mut out: Vec<String> = list.regional.iter().map(|(name, text)| format!("{name} {text}")).collect();
+        let mut out: Vec<String> = list.regional.iter().map(|(name, text)| regional(name, text)).collect();
         if out.is_empty()
             && let Some(region) = &list.region
             && let Bound::Number(bound) = region.bound()
         {
-            out.push(format!("{} {}", region.bound_name(), short(bound)));
+            out.push(regional(region.bound_name(), &short(bound)));
         }
         out.extend(list.list.iter().map(jurist_engine::response::Requirement::text));
         out
@@ -61,7 +61,7 @@ impl TuneAnswer {
         writeln!(out, "no gains meet all of this").expect(TAKES);
         match conflict {
             [] => writeln!(out, "    not even stability is reached"),
-            [one] => writeln!(out, "    {one} alone cannot be met"),
+            [one] => writeln!(out, "    no stable loop has {one}"),
             _ => writeln!(out, "    these exclude each other: {}", conflict.join(", ")),
         }
         .expect(TAKES);
@@ -72,10 +72,22 @@ impl TuneAnswer {
         let wanted = asked.wanted();
         let level = asked.level();
         match &optimum.value {
-            Best::Nothing => writeln!(out, "there are gains that meet all of this"),
+            Best::Nothing if asked.objective == Objective::Anything => {
+                writeln!(out, "there are gains that meet all of this")
+            }
+            Best::Nothing => writeln!(out, "{wanted}: not decided; there are gains that meet all of this"),
+            Best::Unbounded if level == Some(Level::PhaseMargin) => {
+                writeln!(
+                    out,
+                    "{wanted}: no phase limits the loop, since the open loop is smaller than 1 at all frequencies"
+                )
+            }
             Best::Unbounded => writeln!(out, "{wanted}: it has no bound"),
+            Best::Zero => writeln!(out, "{wanted}: 0"),
             Best::Exact(value) => {
-                let reached = if optimum.attained { "" } else { ", which is not reached" };
+                // Of a level over two gains it is not known.
+                let is_known = level.is_none() || asked.gains.len() == 1;
+                let reached = if optimum.attained || !is_known { "" } else { ", which is not reached" };
                 writeln!(out, "{wanted}: {}{}{reached}", shown(level, value, digits), unit(level))
             }
             Best::Between([found, proved]) => {
@@ -98,6 +110,10 @@ impl TuneAnswer {
                 }
                 Place::Exact(x) => format!("{} = {}", gain.name, rounded(x, digits).decimal),
                 Place::Between([low, high]) => format!("{} {}", gain.name, common(low, high, digits)),
+                Place::From((Some(low), Some(high))) => format!("{} {}", gain.name, common(low, high, digits)),
+                Place::From((Some(low), None)) => format!("{} from {}", gain.name, to_decimal(low, 6)),
+                Place::From((None, Some(high))) => format!("{} up to {}", gain.name, to_decimal(high, 6)),
+                Place::From((None, None)) => format!("any {}", gain.name),
                 Place::Unbounded => format!("{} without end", gain.name),
             });
             let places: Vec<String> = places.collect();
@@ -132,7 +148,15 @@ impl TuneAnswer {
                     writeln!(out, "    {}", found.text(digits)).expect(TAKES);
                 }
             }
-            None => writeln!(out, "for example {}", values(&optimum.found)).expect(TAKES),
+            None => {
+                let least = optimum.found_value.as_ref().filter(|_| level.is_some());
+                let least = least.map(|scale| {
+                    let word = if level.is_some_and(Level::is_greatest_best) { "at least" } else { "at most" };
+                    let value = shown(level, &Real::from(scale.clone()), FEW);
+                    format!(", which has {word} {value}{}", unit(level))
+                });
+                writeln!(out, "for example {}{}", values(&optimum.found), least.unwrap_or_default()).expect(TAKES);
+            }
         }
     }
 
@@ -148,6 +172,12 @@ impl TuneAnswer {
         let lost = (&best - value).abs().checked_div(&best.abs())?;
         Some(percent(&lost))
     }
+}
+
+/// A requirement that a region is, as a relation.
+pub(crate) fn regional(name: &str, text: &str) -> String {
+    let sign = if name == "decay" { ">=" } else { "<=" };
+    format!("{name} {sign} {text}")
 }
 
 fn percent(share: &Rational) -> String {
@@ -191,10 +221,21 @@ fn bracket(level: Option<Level>, found: &Rational, proved: &Rational) -> [String
 
 /// The digits that two numbers have in common, or both.
 fn common(low: &Rational, high: &Rational, digits: usize) -> String {
-    let same = (1..=digits).rev().find(|n| to_decimal(low, *n) == to_decimal(high, *n));
+    let tiny = Rational::from(10).pow(-(digits as i64)).expect("ten is not zero");
+    let width = high - low;
+    let same = (3..=digits).rev().find(|n| to_decimal(low, *n) == to_decimal(high, *n));
     match same {
-        Some(n) if n > 2 => format!("= {}..", to_decimal(low, n)),
-        _ => format!("from {} to {}", to_decimal(low, 6), to_decimal(high, 6)),
+        Some(n) => format!("= {}..", to_decimal(low, n)),
+        // Numbers on both sides of a short one have no digits in common.
+        None if width < tiny => {
+            let middle = (low + high) * Rational::new(1.into(), 2.into());
+            let near = jurist_algebra::poly::simplest_between(&(low - &width), &(high + &width)).unwrap_or(middle);
+            format!("= {} (within {})", short(&near), to_decimal(&width, 1))
+        }
+        None => {
+            let n = (6..20).find(|n| to_decimal(low, *n) != to_decimal(high, *n)).unwrap_or(20);
+            format!("from {} to {}", to_decimal(low, n), to_decimal(high, n))
+        }
     }
 }
 

@@ -3,7 +3,9 @@
 use crate::answer::{Best, Optimum, Outcome, Place};
 use crate::asked::Objective;
 use crate::lines::Lines;
-use crate::one_gain::{Search, is_closed, is_without_end, names, outer, point_inside, scale, toward, widest};
+use crate::one_gain::{
+    Search, best_at_end, is_closed, is_without_end, names, outer, point_inside, scale, toward, widest,
+};
 use jurist_algebra::number::Rational;
 use jurist_engine::error::Error;
 use jurist_engine::response::Level;
@@ -126,19 +128,29 @@ fn best_gain(lines: &Lines<'_>, gain: usize, is_greatest: bool) -> Result<Outcom
 
 /// A bracket of a level, a map for each halving.
 fn best_level(lines: &Lines<'_>, level: Level) -> Result<Outcome, Error> {
-    if met_point(&lines.strips(0, None)?).is_none() {
+    let Some(plain) = met_point(&lines.strips(0, None)?) else {
         return Ok(Outcome::Infeasible { conflict: Vec::new() });
-    }
+    };
     let search =
         Search { ends: scale(lines, level), is_rising: level.is_rising(), is_without_end: is_without_end(level) };
     let met = |scale: &Rational| Ok(met_point(&lines.strips(0, Some(scale))?));
     let found = search.bracket(lines, None, &met)?;
     let Some((scale, point)) = found.met else {
-        return Ok(found.stopped.map_or(Outcome::Infeasible { conflict: Vec::new() }, Outcome::Open));
+        return Ok(Outcome::Optimum(Box::new(Optimum {
+            value: Best::Nothing,
+            at: Vec::new(),
+            attained: false,
+            binding: Vec::new(),
+            found: plain.into(),
+            found_value: None,
+            typed: None,
+            stopped: found.stopped,
+        })));
     };
     let value = match found.not {
         Some(not) => Best::Between([scale.clone(), not]),
-        None => Best::Unbounded,
+        None if found.stopped.is_some() => Best::Nothing,
+        None => best_at_end(level),
     };
     let at = point.iter().map(|x| Place::Exact(x.clone().into())).collect();
     Ok(Outcome::Optimum(Box::new(Optimum {

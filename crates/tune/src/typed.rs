@@ -34,8 +34,13 @@ pub(crate) fn typed(lines: &Lines<'_>, optimum: &Optimum) -> Result<Option<Typed
     let values = match (&lines.asked.objective, lines.asked.gains.len()) {
         (Objective::Greatest(gain) | Objective::Least(gain), count) => {
             let given_up = &best - best.abs() * signed(&lines.asked.objective, &loss);
-            let (low, high) = sorted(given_up, inside.clone());
-            let Some(height) = shortest(&low, &high, inside) else { return Ok(None) };
+            // The best value itself, where it is one that gains have.
+            let nearest = match &optimum.value {
+                Best::Exact(value) if optimum.attained && count == 1 => value.exact().unwrap_or_else(|| inside.clone()),
+                _ => inside.clone(),
+            };
+            let (low, high) = sorted(given_up, nearest.clone());
+            let Some(height) = shortest(&low, &high, &nearest) else { return Ok(None) };
             match count {
                 1 => Some(vec![height]),
                 _ => beside(lines, *gain, &height, optimum)?,
@@ -46,7 +51,8 @@ pub(crate) fn typed(lines: &Lines<'_>, optimum: &Optimum) -> Result<Option<Typed
             match count {
                 1 if matches!(optimum.value, Best::Exact(_)) => {
                     let set = lines.set(0, None, Some(&scale))?;
-                    let near = middle(&optimum.at[0]).unwrap_or_else(|| optimum.found[0].clone());
+                    // Where gains go to infinity the least ones are enough.
+                    let near = middle(&optimum.at[0]).unwrap_or(Rational::ZERO);
                     short_in(set.value().intervals.iter(), &near).map(|x| vec![x])
                 }
                 _ => by_trial(lines, &optimum.found, &scale)?,
@@ -80,7 +86,7 @@ fn best_of(optimum: &Optimum) -> Option<Rational> {
             Some((low + high) * Rational::new(1.into(), 2.into()))
         }
         Best::Between([found, _]) => Some(found.clone()),
-        Best::Unbounded | Best::Nothing => None,
+        Best::Unbounded | Best::Zero | Best::Nothing => None,
     }
 }
 
@@ -127,7 +133,8 @@ fn middle(place: &Place) -> Option<Rational> {
             Some((low + high) * half)
         }
         Place::Between([low, high]) => Some((low + high) * half),
-        Place::Unbounded => None,
+        Place::From((Some(low), Some(high))) => Some((low + high) * half),
+        Place::From(_) | Place::Unbounded => None,
     }
 }
 
@@ -143,8 +150,12 @@ fn short_in<'i>(intervals: impl Iterator<Item = &'i RequiredInterval>, near: &Ra
             let step = (&high - &low) * thousandth;
             (low + &step, high - &step)
         }
-        (Some(low), None) => (&low + low.abs() * &thousandth, near.abs() + &low.abs() + Rational::ONE),
-        (None, Some(high)) => (-(near.abs() + high.abs() + Rational::ONE), &high - high.abs() * &thousandth),
+        (Some(low), None) => {
+            (&low + low.abs() * &thousandth, near.abs() + low.abs() * Rational::from(2) + Rational::ONE)
+        }
+        (None, Some(high)) => {
+            (-(near.abs() + high.abs() * Rational::from(2) + Rational::ONE), &high - high.abs() * &thousandth)
+        }
         (None, None) => return Some(Rational::ZERO),
     };
     let near = near.clone().max(low.clone()).min(high.clone());

@@ -69,6 +69,10 @@ fn run(options: &Options, context: &Context) -> Outcome {
     known_names(context, &model, "--free", &options.free)?;
     let gains = gains(options, &model, context)?;
     let question = question(context, &model, &options.model, &options.region)?;
+    if let Some(gain) = gains.iter().find(|gain| question.values_set().contains_key(&gain.name)) {
+        let error = Diagnostic::error(Code::KeptAndSet, format!("'{}' is free and has a value", gain.name));
+        return Err(error.help("leave out --set, or free another gain").into());
+    }
     // What is required may not depend on what is free.
     let free =
         gains.iter().fold(question.clone(), |question, gain| question.without_value(&gain.name).free(&gain.name));

@@ -102,6 +102,8 @@ impl Level {
         match self {
             Level::Decay => time == Time::Continuous,
             Level::Radius => time == Time::Discrete,
+            // In discrete time its boundary is not algebraic, and nothing bounds the search.
+            Level::Damping => time == Time::Continuous,
             _ => true,
         }
     }
