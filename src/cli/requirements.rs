@@ -149,7 +149,7 @@ pub(super) fn refuse_proofs(asked: &Requirements, any_proof: bool) -> Result<(),
     if !any_proof || (asked.list.is_empty() && asked.regional.is_empty()) {
         return Ok(());
     }
-    let error = Diagnostic::error(Code::Require, "an answer with requirements has no certificate and no proof yet");
+    let error = Diagnostic::error(Code::Require, "an answer with requirements has no certificate and no proof");
     Err(error.help("'--no-require' leaves out those of the model: then the certificate is of stability alone").into())
 }
 

@@ -180,7 +180,9 @@ fn run(options: &Options, context: &Context) -> Outcome {
                         .undecided(output, &stopped, text, || documents::Map::new(&problem, Err(&stopped), digits))?
                 }
             };
-            if let Some(hint) = options.method.hint(&boxes).filter(|_| options.certificate.is_none()) {
+            // Boxes decide no requirements.
+            let boxes_may_help = options.certificate.is_none() && asked.is_empty();
+            if let Some(hint) = options.method.hint(&boxes).filter(|_| boxes_may_help) {
                 note(&hint);
             }
             return Ok(status);

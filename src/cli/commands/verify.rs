@@ -9,7 +9,7 @@ use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
 use jurist_check::format::MAX_TEXT;
 use jurist_check::{Limits, Names, check, report};
-use jurist_engine::error::Source;
+use jurist_engine::error::{Code, Diagnostic, Source};
 use jurist_engine::model::Reference;
 use std::ffi::{OsStr, OsString};
 
@@ -53,10 +53,22 @@ impl Runs for Options {
     }
 }
 
+/// Whether a text begins as a certificate does, whatever it proves.
+fn is_certificate(text: &str) -> bool {
+    text.trim_start().starts_with('{') && text.contains("jurist/certificate/")
+}
+
 /// Prints the proved statement and names its texts; the status is 4 for a certificate that proves nothing.
 fn run(options: &Options, context: &Context) -> Outcome {
     let model = model_text(&options.model, &options.line, context, MAX_TEXT as u64)?;
     let certificate = read_text(context, &options.certificate, MAX_TEXT as u64, &CERTIFICATE)?;
+    if let (Ok(first), Ok(second)) = (&model, &certificate)
+        && is_certificate(first)
+        && !is_certificate(second)
+    {
+        let error = Diagnostic::error(Code::Usage, "the first file is a certificate, and the second one is none");
+        return Err(error.help("the model comes first: jurist verify MODEL CERTIFICATE").into());
+    }
     let limits = options.run.timeout.map_or_else(Limits::default, Limits::within);
     let result = match (&model, &certificate) {
         (Ok(model), Ok(certificate)) => {

@@ -360,8 +360,8 @@ fn tolerance(name: String, factor: &Rational, model: &Model, point: &Point, budg
     };
     let proved = short_digits(&bracket.lower);
     let text = match &bracket.upper {
-        Some(upper) => format!("they can grow by {proved}, not by {}", short_digits(upper)),
-        None => format!("they can grow by {proved} at least"),
+        Some(upper) => format!("they can grow by a factor of {proved}, not of {}", short_digits(upper)),
+        None => format!("they can grow by a factor of {proved} at least"),
     };
     let left = (&bracket.lower - factor).checked_div(factor);
     // What is proved of the box is proved, however near the bracket comes.

@@ -55,7 +55,7 @@ const OTHER_CERTIFICATES: &str = "known: loops behind a hold, or with prewarp, a
 const CERTIFIED_MAPS: &str = "exact maps have one where the loop is rational, the bound of its region a number, and stability all that is asked; with constants that are not rational maps by boxes have one: --method boxes";
 
 pub(crate) static DEAD_TIME: Refusal =
-    Refusal::new(Code::DeadTime, "this cannot be asked of a loop with dead time yet", KNOWN);
+    Refusal::new(Code::DeadTime, "this cannot be asked of a loop with dead time", KNOWN);
 pub(crate) static BESIDE_DEAD_TIME: Refusal = Refusal::new(
     Code::DeadTime,
     "beside dead time the loop contains other functions that are not rational",
@@ -84,7 +84,7 @@ pub(crate) static NO_FIXED_ORDER: Refusal = Refusal::new(
 );
 pub(crate) static FEEDBACK: Refusal = Refusal::new(
     Code::DeadTime,
-    "the peak gain is not known yet where dead time is in the feedback, or in one of several paths to the output",
+    "the peak gain is not known where dead time is in the feedback, or in one of several paths to the output",
     "the peak of the sensitivity 1/(1 + L) is the inverse of the modulus margin: 'jurist margins'",
 );
 pub(crate) static NOT_OF_SAMPLES: Refusal = Refusal::new(
@@ -99,7 +99,7 @@ pub(crate) static ONE_FACTOR: Refusal = Refusal::new(
 );
 pub(crate) static DECAY: Refusal = Refusal::new(
     Code::DeadTime,
-    "a decay rate cannot be asked of {what} in a loop with dead time yet",
+    "a decay rate cannot be asked of {what} in a loop with dead time",
     "ask for one parameter: 'intervals --param NAME --decay S'",
 );
 const ONE_SLICE: &str = "boxes decide one slice at a time, with windows of both axes: '{slice}'";
@@ -119,7 +119,7 @@ pub(crate) static BOXES_ARE_OF_STABILITY: Refusal =
     Refusal::new(Code::Require, "boxes decide stability only, no requirements", "leave out '--method boxes'");
 pub(crate) static ONLY_THE_BOX: Refusal = Refusal::new(
     Code::Tolerance,
-    "{what} not asked of tolerances inside of functions or with dead time yet",
+    "{what} not asked of tolerances inside of functions or with dead time",
     "what can be asked of it: whether the box is stable, the largest factor with its worst point and shares, and --limit",
 );
 pub(crate) static MARGINS_AT_POINTS: Refusal = Refusal::new(

@@ -53,7 +53,7 @@ impl DelayedLoop {
         let free = problem.free().len();
         if free > 1 {
             let help = "ask for one parameter, 'intervals --param NAME', or for a map by boxes";
-            return Err(refused("this cannot be asked of two parameters in a loop with dead time yet", help));
+            return Err(refused("this cannot be asked of two parameters in a loop with dead time", help));
         }
         let (delay, powers) = base_delay(&delays)?;
         // A decay rate that is asked for is one more variable before the symbols.

@@ -51,7 +51,7 @@ pub(super) fn of_set(answer: &Answer<StableSet>, delayed: &DelayedLoop, budget: 
     }
     let function = delayed.quasi_polynomial();
     let Some([p, q]) = function.as_ref().map(|f| f.parts()) else {
-        return Err(no_certificate("no certificate: several multiples of a dead time have none yet"));
+        return Err(no_certificate("no certificate: several multiples of a dead time have none"));
     };
     if domain.lower.as_ref().is_none_or(Rational::is_negative) {
         return Err(no_certificate("no certificate: the domain has negative dead times"));

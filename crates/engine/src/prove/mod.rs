@@ -35,7 +35,7 @@ fn refuse_transcendental(set: &StableSet, what: &str) -> Result<(), Error> {
 fn refuse_requirements(problem: &Problem) -> Result<(), Error> {
     match problem.model().require().is_empty() {
         true => Ok(()),
-        false => Err(no_certificate("no certificate: nothing proves the requirements of the model yet")),
+        false => Err(no_certificate("no certificate: nothing proves the requirements of the model")),
     }
 }
 

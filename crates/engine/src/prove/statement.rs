@@ -35,7 +35,7 @@ pub(super) fn region(region: &Region) -> Value {
 /// `E-no-certificate` where the checkers do not read such a model.
 pub(super) fn about(problem: &Problem) -> Result<Value, Error> {
     if problem.model().hyperperiod() > 1 {
-        return Err(no_certificate("no certificate: the checkers read no loops of several rates yet"));
+        return Err(no_certificate("no certificate: the checkers read no loops of several rates"));
     }
     let digest = sha256(&loop_alone(&problem.model().source().text));
     let title = problem.title().map_or(Value::Null, Value::from);

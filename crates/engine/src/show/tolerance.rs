@@ -123,7 +123,7 @@ impl Shown<'_> {
                     let point: Vec<String> = self
                         .names()
                         .zip(&witness.point)
-                        .map(|(name, value)| format!("{name} = {}", short(value)))
+                        .map(|(name, value)| format!("{name} = {}", with_decimal(value)))
                         .collect();
                     let found = verdict_of(witness, self.problem);
                     let line = match found.verdict {
@@ -314,4 +314,12 @@ pub(crate) fn verdict_of(witness: &Witness, problem: &Problem) -> PointVerdict {
         witness.at.clone().unwrap_or(AtPoint::Undefined),
         problem.evaluated().map_or(0, |algebra| algebra.formal_degree()),
     )
+}
+
+/// The number, and a decimal beside what is a fraction.
+fn with_decimal(value: &Rational) -> String {
+    /// Digits of the decimal.
+    const DIGITS: usize = 6;
+    let exact = short(value);
+    if exact.contains('/') { format!("{exact} ({}..)", to_decimal(value, DIGITS)) } else { exact }
 }

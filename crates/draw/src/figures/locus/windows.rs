@@ -29,6 +29,9 @@ const MOST_DISCRETE: f64 = 3.0;
 /// A continuous picture shows what is this many times as far as the farthest crossing, or the slowest nominal root.
 const MOST_CONTINUOUS: f64 = 8.0;
 
+/// A mark that is nearer to 0 than this share of the farthest one says nothing of the picture's size.
+const LEAST_SHARE: f64 = 1e-3;
+
 fn crossings(figure: &LocusFigure<'_>) -> Vec<(f64, f64)> {
     figure.crossings.iter().flat_map(|c| &c.at).map(|z| (z.re, z.im)).collect()
 }
@@ -54,8 +57,13 @@ pub(super) fn whole(figure: &LocusFigure<'_>) -> Square {
     let size = |z: &(f64, f64)| z.0.hypot(z.1);
     let crossings = crossings(figure);
     let farthest_crossing = crossings.iter().map(size).fold(0.0, f64::max);
+    // Marks are poles and zeros; where the gain begins at 0, a root of the first sample may be as near to 0 as it is small.
+    let farthest_mark = marks(figure).map(|z| size(&z)).filter(|r| r.is_finite()).fold(0.0, f64::max);
+    let is_slow = |r: &f64| *r > farthest_mark * LEAST_SHARE;
+    let of_marks = marks(figure).map(|z| size(&z)).filter(is_slow).min_by(f64::total_cmp);
     let first = figure.locus.samples().next();
-    let slowest = first.and_then(|s| s.roots.iter().map(|z| z.norm()).filter(|r| *r > 0.0).min_by(f64::total_cmp));
+    let of_roots = || first.and_then(|s| s.roots.iter().map(|z| z.norm()).filter(|r| *r > 0.0).min_by(f64::total_cmp));
+    let slowest = of_marks.or_else(of_roots);
     let scale = if farthest_crossing > 0.0 { farthest_crossing } else { slowest.unwrap_or(1.0) };
     points.retain(|z| size(z) <= MOST_CONTINUOUS * scale);
     points.extend(&crossings);
@@ -127,6 +135,12 @@ mod tests {
     fn a_lone_crossing_is_in_the_middle_of_the_magnified_part() {
         let (whole, near, _) = windows(Time::Discrete, &[(0.0, 1.0)], &[]);
         assert_eq!((near.centre, near.half), ((0.0, 1.0), whole.half / 4.0));
+    }
+
+    #[test]
+    fn a_crossing_at_the_origin_does_not_shrink_the_picture() {
+        let (whole, _, outside) = windows(Time::Continuous, &[(0.0, 0.0)], &[(-0.5, 0.87), (-0.5, -0.87), (0.0, 0.0)]);
+        assert!(whole.half > 0.8 && outside == 0, "{whole:?}");
     }
 
     #[test]

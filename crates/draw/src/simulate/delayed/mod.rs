@@ -262,7 +262,7 @@ impl Reader {
     /// The parts of the entries that are not zero.
     fn parts(&self, matrix: &RationalMatrix) -> Result<Vec<EntryPart>, Error> {
         let refused = || {
-            let message = "a loop in which dead time acts on itself at once is not simulated yet";
+            let message = "a loop in which dead time acts on itself at once is not simulated";
             Error::from(
                 Diagnostic::error(Code::DeadTime, message)
                     .help("these are loops of neutral type; known of them: verdict, intervals, margins, bode, nyquist"),

@@ -202,8 +202,11 @@ impl Question {
         }
         let problem = self.free(third).problem()?;
         assert_eq!(problem.free().len(), 3, "two parameters are free beside that of the slices");
-        let domain = &problem.free()[2].domain;
-        match slices.values().iter().find(|value| !domain.contains(value)) {
+        let (domain, closed) = (&problem.free()[2].domain, problem.free()[2].closed);
+        let is_end = |value: &Rational| {
+            (closed[0] && domain.lower.as_ref() == Some(value)) || (closed[1] && domain.upper.as_ref() == Some(value))
+        };
+        match slices.values().iter().find(|value| !domain.contains(value) && !is_end(value)) {
             None => Ok(problem),
             Some(value) => {
                 let text = crate::show::intervals::domain_text(third, domain);

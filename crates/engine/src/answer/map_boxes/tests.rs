@@ -135,5 +135,5 @@ fn what_boxes_cannot_treat_is_refused() {
     let linear = refused("s + 1 + exp(-K*tau*s)", MapMethod::Auto);
     assert_eq!(linear, "the dead time is not linear in the free parameters");
     let exact = refused("s + K + exp(-tau*s)", MapMethod::Exact);
-    assert_eq!(exact, "this cannot be asked of a loop with dead time yet");
+    assert_eq!(exact, "this cannot be asked of a loop with dead time");
 }

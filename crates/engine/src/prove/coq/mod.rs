@@ -104,7 +104,7 @@ impl Answer<PointVerdict> {
 fn one_rate(problem: &Problem) -> Result<(), Error> {
     match problem.model().hyperperiod() {
         1 => Ok(()),
-        _ => Err(refused("the loop has several rates", "there is no certificate of such loops yet")),
+        _ => Err(refused("the loop has several rates", "there is no certificate of such loops")),
     }
 }
 

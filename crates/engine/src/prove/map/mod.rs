@@ -62,7 +62,7 @@ impl Answer<Map> {
             let (problem, map) = (self.problem(), self.value());
             problem.refuse_map_certificate(budget)?;
             if map.required.is_some() {
-                return Err(no_certificate("no certificate of a map: nothing proves requirements yet"));
+                return Err(no_certificate("no certificate of a map: nothing proves requirements"));
             }
             budget.step("certificate");
             let (mut characteristic, mut proof) = (Vec::new(), Proof::of_nothing());
