@@ -47,7 +47,7 @@ impl fmt::Display for OpenReason {
             OpenReason::Cells => "too many cells",
             OpenReason::Small => "a cell too small",
             OpenReason::Memory => "too much memory",
-            OpenReason::Time => "the time",
+            OpenReason::Time => "the time that it was given is over",
             OpenReason::Refutations => "too many points that are not stable",
             OpenReason::Unreached => "a point that no line from the nominal one shows",
             OpenReason::Vanishing => "a divisor or a real root near zero",
