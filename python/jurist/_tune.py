@@ -25,7 +25,7 @@ class Tune(Document):
     >>> best.value.polynomial, best.at["K"].decimal(8), best.rounded["K"]
     ((2, -6, 3), '0.38490018', Fraction(2, 5))
     >>> bool(loop.tune(None, ["K"], decay="0.43")), loop.tune(None, ["K"], decay="0.43").conflict
-    (False, ('decay 0.43',))
+    (False, ('decay >= 0.43',))
     """
 
     __slots__ = ()

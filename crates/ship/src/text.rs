@@ -251,7 +251,7 @@ impl ShipAnswer {
             let [own, all] = [&moved.by_signals, &moved.with_inputs].map(|most| at_most(most, FEW));
             write!(
                 out,
-                "\n    the rounding of these signals moves {} by at most {own}, limit cycles included; with the inputs rounded as well by {all}",
+                "\n    the rounding of these signals moves {} by at most {own}, limit cycles included,\n        and with the inputs rounded as well by {all}",
                 moved.output
             )
             .expect(TAKES);
