@@ -3,9 +3,10 @@
 use crate::answer::{Best, Optimum, Outcome, Place};
 use crate::asked::Objective;
 use crate::lines::Lines;
-use crate::one_gain::{
-    Search, best_at_end, is_closed, is_without_end, names, outer, point_inside, scale, toward, widest,
-};
+use crate::near::toward;
+use crate::one_gain::{best_at_end, is_without_end, scale};
+use crate::search::Search;
+use crate::sets::{is_closed, names, outer, point_inside, widest};
 use jurist_algebra::number::Rational;
 use jurist_engine::error::Error;
 use jurist_engine::response::Level;

@@ -4,7 +4,7 @@ use crate::answer::{Best, Optimum, Place};
 use crate::asked::Objective;
 use crate::decimals::shortest;
 use crate::lines::Lines;
-use crate::one_gain::{outer, widest};
+use crate::sets::{outer, widest};
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::real::Real;
 use jurist_engine::error::Error;

@@ -1,0 +1,125 @@
+//! The best value of a scale by halving, where its boundary is not algebraic.
+
+use crate::lines::Lines;
+use jurist_algebra::limits::Exhausted;
+use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::simplest_between;
+use jurist_engine::error::Error;
+
+/// A search for the best value of a scale by halving.
+pub(crate) struct Search {
+    pub ends: [Rational; 2],
+    pub is_rising: bool,
+    pub is_without_end: bool,
+}
+
+/// Between what is met and what is not.
+pub(crate) struct Bracketed<T> {
+    /// A value that is met, and with what.
+    pub met: Option<(Rational, T)>,
+    /// A value that is not met; `None` where there is none.
+    pub not: Option<Rational>,
+    /// What ended the search before the gap was reached.
+    pub stopped: Option<Exhausted>,
+}
+
+/// So often the first value is halved or doubled.
+const DOUBLINGS: usize = 48;
+
+impl Search {
+    /// A value at a distance from the worst end.
+    fn at(&self, distance: &Rational) -> Rational {
+        if self.is_rising { &self.ends[0] + distance } else { &self.ends[1] - distance }
+    }
+
+    fn distance(&self, value: &Rational) -> Rational {
+        if self.is_rising { value - &self.ends[0] } else { &self.ends[1] - value }
+    }
+
+    /// A distance that is less than the whole one.
+    fn within(&self, distance: Rational, whole: &Rational) -> Rational {
+        let half = Rational::new(1.into(), 2.into());
+        let most = match self.is_without_end {
+            true => whole.clone(),
+            false => whole - tiny() * half,
+        };
+        distance.min(most)
+    }
+
+    /// Halves until the gap of the question is reached, or the work ends.
+    ///
+    /// # Errors
+    /// Those of the question that are no end of the work.
+    pub fn bracket<T>(
+        &self,
+        lines: &Lines<'_>,
+        seed: Option<(Rational, T)>,
+        met: &dyn Fn(&Rational) -> Result<Option<T>, Error>,
+    ) -> Result<Bracketed<T>, Error> {
+        let half = Rational::new(1.into(), 2.into());
+        let whole = &self.ends[1] - &self.ends[0];
+        // Distances from the worst end.
+        let mut low = seed.as_ref().map(|(value, _)| self.distance(value));
+        let mut high: Option<Rational> = None;
+        // Beyond a good value by less than the gap at first, then by four times as much.
+        let mut step = low.as_ref().map(|low| low * &lines.asked.gap * &half);
+        let mut out = Bracketed { met: seed, not: None, stopped: None };
+        let mut next = match (&low, &step) {
+            (Some(low), Some(step)) => self.within(low + step, &whole),
+            _ if self.is_without_end => Rational::ONE,
+            _ => &whole * &half,
+        };
+        for _ in 0..2 * DOUBLINGS {
+            lines.budget.step("a bracket of the best value");
+            let value = self.at(&next);
+            match met(&value) {
+                Ok(Some(found)) => {
+                    out.met = Some((value, found));
+                    low = Some(next.clone());
+                }
+                Ok(None) => {
+                    out.not = Some(value);
+                    high = Some(next.clone());
+                }
+                Err(Error::Stopped(stopped)) => {
+                    out.stopped = Some(stopped);
+                    return Ok(out);
+                }
+                Err(error) => return Err(error),
+            }
+            next = match (&low, &high) {
+                (None, Some(high)) if *high < tiny() => return Ok(out),
+                (None, Some(high)) => high * &half,
+                (Some(low), None) if step.is_some() && &whole - low > tiny() => {
+                    let longer = step.as_ref().expect("it was just seen") * &Rational::from(4);
+                    let next = self.within(low + &longer, &whole);
+                    step = Some(longer);
+                    next
+                }
+                (Some(low), None) if self.is_without_end => {
+                    if *low >= &whole * &half {
+                        return Ok(out);
+                    }
+                    low + low
+                }
+                (Some(low), None) if &whole - low < tiny() => return Ok(out),
+                (Some(low), None) => (low + &whole) * &half,
+                (Some(low), Some(high)) => {
+                    let width = high - low;
+                    if width <= high * &lines.asked.gap {
+                        return Ok(out);
+                    }
+                    let third = &width * &Rational::new(1.into(), 3.into());
+                    simplest_between(&(low + &third), &(high - &third)).expect("a third is left")
+                }
+                (None, None) => unreachable!("one of them was just found"),
+            };
+        }
+        Ok(out)
+    }
+}
+
+/// Distances below this are not looked for.
+fn tiny() -> Rational {
+    Rational::new(1.into(), Integer::ONE << 40_u64)
+}
