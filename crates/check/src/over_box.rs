@@ -188,8 +188,7 @@ fn not_that(k: usize) -> String {
     format!("coefficient {k} is not that of the model")
 }
 
-/// What is left of a polynomial when what it has in common with the factors is divided out, as often as there is anything, until none of
-/// the parameters, of which there are so many, occurs in it.
+/// Divides a polynomial by its common divisors with the factors, again and again, until it holds no parameter. `parameters` is their number.
 pub(super) fn beside_factors(p: &Multi, factors: &[Multi], parameters: usize, clock: &Clock) -> Result<Multi, String> {
     let mut p = primitive(vec![p.clone()], clock)?.swap_remove(0);
     let is_done = |p: &Multi| p.is_zero() || (FIRST..FIRST + parameters).all(|v| p.degree(v) == 0);

@@ -46,8 +46,8 @@ pub struct Optimum {
     pub value: Best,
     /// The gains there, in the order in which they were asked for.
     pub at: Vec<Place>,
-    /// Whether gains have the best value; they come as near as you like else.
-    pub attained: bool,
+    /// Whether gains have the best value; they come as near as you like else. `None` where that is not known.
+    pub attained: Option<bool>,
     /// What binds: names of requirements, causes of a limit of stability, `bound`.
     pub binding: Vec<String>,
     /// Gains that meet all requirements.
@@ -58,6 +58,24 @@ pub struct Optimum {
     pub typed: Option<Typed>,
     /// Why the bracket is wider than the gap.
     pub stopped: Option<Exhausted>,
+}
+
+impl Optimum {
+    /// A best value with gains that meet what is required; nothing more is known of it.
+    pub(crate) fn new(value: Best, at: Vec<Place>, found: Vec<Rational>, found_value: Option<Rational>) -> Optimum {
+        Optimum { value, at, attained: None, binding: Vec::new(), found, found_value, typed: None, stopped: None }
+    }
+
+    /// Gains that meet what is required, where the best ones are not known.
+    pub(crate) fn some(found: Vec<Rational>) -> Optimum {
+        Optimum::new(Best::Nothing, Vec::new(), found, None)
+    }
+}
+
+impl From<Optimum> for Outcome {
+    fn from(optimum: Optimum) -> Outcome {
+        Outcome::Optimum(Box::new(optimum))
+    }
 }
 
 /// A best value.

@@ -24,15 +24,15 @@ impl Curves {
         Ok(Curves { curves: coprime_polynomials(all, budget)? })
     }
 
-    /// The critical heights strictly between two numbers, ascending.
+    /// The critical heights strictly between two numbers, `None` being infinity, ascending.
     pub fn heights(
         &self,
         places: &Range,
-        ends: &[Rational; 2],
+        ends: [Option<&Rational>; 2],
         budget: &Budget,
     ) -> Result<Vec<RealAlgebraic>, Exhausted> {
         let polynomials = critical_polynomials(&self.curves, places, budget)?;
-        roots(&polynomials, [Some(&ends[0]), Some(&ends[1])], budget)
+        roots(&polynomials, ends, budget)
     }
 
     /// The places at which a curve has an extreme height or meets another one, strictly inside of a range, ascending.

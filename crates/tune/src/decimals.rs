@@ -23,16 +23,7 @@ pub fn shortest(low: &Rational, high: &Rational, near: &Rational) -> Option<Rati
         return Some(Rational::ZERO);
     }
     let greatest = low.abs().max(high.abs());
-    // The power of ten of the first digit, or one more.
-    let mut first = 0_i64;
-    let ten = Rational::from(10);
-    let power = |k: i64| ten.pow(k).expect("ten is not zero");
-    while power(first) <= greatest {
-        first += 1;
-    }
-    while power(first - 1) > greatest {
-        first -= 1;
-    }
+    let first = first_power(&greatest);
     for digits in 0..=i64::from(MOST_DIGITS) {
         let unit = power(first - digits);
         let steps = near.checked_div(&unit)?;
@@ -45,6 +36,23 @@ pub fn shortest(low: &Rational, high: &Rational, near: &Rational) -> Option<Rati
         }
     }
     None
+}
+
+/// A power of ten.
+pub(crate) fn power(k: i64) -> Rational {
+    Rational::from(10).pow(k).expect("ten is not zero")
+}
+
+/// The least power of ten above a positive number, as its exponent.
+pub(crate) fn first_power(x: &Rational) -> i64 {
+    let mut first = 0;
+    while power(first) <= *x {
+        first += 1;
+    }
+    while power(first - 1) > *x {
+        first -= 1;
+    }
+    first
 }
 
 #[cfg(test)]

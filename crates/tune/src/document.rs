@@ -63,8 +63,8 @@ pub struct OptimumFound {
     pub decimal: Option<String>,
     /// The gains there; `null` where one grows without end.
     pub at: Named<Option<PlaceFound>>,
-    /// Whether gains have the best value; they come as near as you like else.
-    pub attained: bool,
+    /// Whether gains have the best value; they come as near as you like else. `null` where that is not known.
+    pub attained: Option<bool>,
     /// What binds.
     pub binding: Vec<String>,
 }

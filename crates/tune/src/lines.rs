@@ -1,4 +1,5 @@
-//! Lines and planes of gains, and which points of them meet what is asked.
+//! The questions that the search asks the engine: along one gain, in the plane of two, at a point. Each answer says where the loop is stable and meets
+//! its requirements.
 
 use crate::asked::Asked;
 use jurist_algebra::limits::Budget;
@@ -12,7 +13,7 @@ use jurist_stability::Range;
 use jurist_stability::plane::Strip;
 use std::sync::Arc;
 
-/// A question with everything set but the gains.
+/// The question in which every name has a value, except the gains.
 pub(crate) struct Lines<'a> {
     pub asked: &'a Asked,
     /// The question; no gain is set or free.

@@ -3,7 +3,7 @@
 use crate::answer::Place;
 use crate::lines::Lines;
 use crate::one_gain::GAIN;
-use crate::sets::{outer, widest};
+use crate::sets::{is_closed, outer, widest};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{RealAlgebraic, simplest_between};
 use jurist_algebra::real::Real;
@@ -21,30 +21,29 @@ pub(crate) struct Near {
     pub place: Place,
 }
 
-/// Whether a gain is strictly within the set in which everything but the level is met: then it has the best value.
-pub(crate) fn is_attained(lines: &Lines<'_>, place: &Place, plain: &RequiredSet) -> Result<bool, Error> {
-    let Place::Exact(x) = place else { return Ok(matches!(place, Place::Between(_))) };
+/// Whether the gain is in the set in which everything but the level is met: then it has the best value. `None` where the gain is not known exactly.
+pub(crate) fn is_attained(lines: &Lines<'_>, place: &Place, plain: &RequiredSet) -> Result<Option<bool>, Error> {
+    let Place::Exact(x) = place else { return Ok(None) };
     if let Some(value) = x.exact() {
         if plain.intervals.iter().any(|interval| interval.contains(&value)) {
-            return Ok(true);
+            return Ok(Some(true));
         }
         // A bound that is given is included.
         let gain = &lines.asked.gains[GAIN];
         let is_bound = gain.bounds.iter().flatten().any(|bound| *bound == value);
-        return Ok(is_bound && lines.is_met(&[(gain.name.clone(), value)], None)?);
+        return Ok(Some(is_bound && lines.is_met(&[(gain.name.clone(), value)], None)?));
     }
+    let is_inside = |end: &Option<RequiredEnd>, side: Ordering| -> Result<bool, Error> {
+        let Some(end) = end else { return Ok(true) };
+        let order = end.value().compare(x, lines.budget)?;
+        Ok(order == side || (order.is_eq() && is_closed(end)))
+    };
     for interval in &plain.intervals {
-        let beyond = |end: &Option<RequiredEnd>, side: Ordering| -> Result<bool, Error> {
-            Ok(match end {
-                None => false,
-                Some(end) => end.value().compare(x, lines.budget)? != side,
-            })
-        };
-        if !beyond(&interval.lower, Ordering::Less)? && !beyond(&interval.upper, Ordering::Greater)? {
-            return Ok(true);
+        if is_inside(&interval.lower, Ordering::Less)? && is_inside(&interval.upper, Ordering::Greater)? {
+            return Ok(Some(true));
         }
     }
-    Ok(false)
+    Ok(Some(false))
 }
 
 /// So many digits of the best value are gone towards.

@@ -51,16 +51,7 @@ fn anything(lines: &Lines<'_>) -> Result<Outcome, Error> {
         return Ok(nothing);
     }
     let inside = widest(&set).map(point_inside).expect("it is not empty");
-    Ok(Outcome::Optimum(Box::new(Optimum {
-        value: Best::Nothing,
-        at: Vec::new(),
-        attained: true,
-        binding: Vec::new(),
-        found: vec![inside],
-        found_value: None,
-        typed: None,
-        stopped: None,
-    })))
+    Ok(Optimum::some(vec![inside]).into())
 }
 
 fn best_gain(lines: &Lines<'_>, is_greatest: bool) -> Result<Outcome, Error> {
@@ -86,11 +77,11 @@ fn best_gain(lines: &Lines<'_>, is_greatest: bool) -> Result<Outcome, Error> {
                 Best::Between([found.clone(), far.clone()]),
                 Place::Between([found.clone(), far.clone()]),
                 Vec::new(),
-                false,
+                None,
             ),
-            None => (Best::Unbounded, Place::Unbounded, Vec::new(), false),
+            None => (Best::Nothing, Place::Unbounded, Vec::new(), None),
         },
-        (None, _) => (Best::Unbounded, Place::Unbounded, Vec::new(), false),
+        (None, _) => (Best::Unbounded, Place::Unbounded, Vec::new(), None),
         (Some(end), None) => {
             let bound = &lines.asked.gains[GAIN].bounds[usize::from(is_greatest)];
             let is_bound = bound.as_ref().is_some_and(|bound| end.value().compare_rational(bound).is_eq());
@@ -102,25 +93,17 @@ fn best_gain(lines: &Lines<'_>, is_greatest: bool) -> Result<Outcome, Error> {
                 true => vec![format!("bound of {}", lines.asked.gains[GAIN].name)],
                 false => names(end),
             };
-            (Best::Exact(end.value()), Place::Exact(end.value()), binding, attained)
+            (Best::Exact(end.value()), Place::Exact(end.value()), binding, Some(attained))
         }
     };
     let stopped = match (&value, open) {
-        (Best::Between(_) | Best::Unbounded, Some(bracket)) => {
+        (Best::Between(_) | Best::Nothing, Some(bracket)) => {
             Some(Exhausted::by_method(bracket.why.clone(), "gains beyond those that are found"))
         }
         _ => None,
     };
-    Ok(Outcome::Optimum(Box::new(Optimum {
-        value,
-        at: vec![at],
-        attained,
-        binding,
-        found: vec![found.clone()],
-        found_value: Some(found),
-        typed: None,
-        stopped,
-    })))
+    let optimum = Optimum::new(value, vec![at], vec![found.clone()], Some(found));
+    Ok(Optimum { attained, binding, stopped, ..optimum }.into())
 }
 
 /// A level: exactly where its boundary is algebraic, else in a bracket.
@@ -134,7 +117,15 @@ fn best_level(lines: &Lines<'_>, level: Level) -> Result<Outcome, Error> {
     let Some(curves) = curves else { return bracket(lines, level, &plain, &ends) };
     lines.budget.step("critical values");
     let curves = Curves::new(&curves, lines.budget)?;
-    let heights = curves.heights(lines.range(GAIN), &ends, lines.budget)?;
+    let [low, high] = &ends;
+    let top = if is_without_end(level) { None } else { Some(high) };
+    let heights = curves.heights(lines.range(GAIN), [Some(low), top], lines.budget)?;
+    // Beyond the last critical value nothing changes: what is met there is met without end.
+    let above = |last: &RealAlgebraic| Rational::from(last.floor()) * Rational::from(2) + Rational::from(2);
+    let ends = match heights.last() {
+        Some(last) if top.is_none() => [low.clone(), above(last).max(high.clone())],
+        _ => ends,
+    };
     // From the worst to the best.
     let mut walls = vec![RealAlgebraic::from_rational(ends[0].clone())];
     walls.extend(heights);
@@ -162,7 +153,7 @@ fn best_level(lines: &Lines<'_>, level: Level) -> Result<Outcome, Error> {
             first = middle + 1;
         }
     }
-    let Some(cell) = met else { return Ok(Outcome::Infeasible { conflict: Vec::new() }) };
+    let Some(cell) = met else { return Ok(Optimum { stopped: Some(not_found()), ..some(&plain) }.into()) };
     let wall = &walls[cell + 1];
     let sample = inside(cell);
     let is_end = cell + 2 == walls.len();
@@ -172,16 +163,7 @@ fn best_level(lines: &Lines<'_>, level: Level) -> Result<Outcome, Error> {
         let set = set_at(&sample)?;
         let interval = widest(&set).expect("the cell is met");
         let place = place_far(&far_away(&sample, &ends), level, interval, &set_at)?;
-        return Ok(Outcome::Optimum(Box::new(Optimum {
-            value: best_at_end(level),
-            at: vec![place],
-            attained: false,
-            binding: Vec::new(),
-            found: vec![point_inside(interval)],
-            found_value: Some(sample),
-            typed: None,
-            stopped: None,
-        })));
+        return Ok(Optimum::new(best_at_end(level), vec![place], vec![point_inside(interval)], Some(sample)).into());
     }
     let places = curves.places(lines.range(GAIN), lines.budget)?;
     let value = Real::from(wall.clone());
@@ -191,20 +173,47 @@ fn best_level(lines: &Lines<'_>, level: Level) -> Result<Outcome, Error> {
     // On a plateau all gains of an interval have the best value; else it may be had at no one of them.
     if !matches!(near.place, Place::Exact(_)) {
         attained = has_level(lines, level, &value, &point_inside(&near.interval))?;
-        if attained && matches!(near.place, Place::Unbounded) {
+        if attained == Some(true) && matches!(near.place, Place::Unbounded) {
             near.place = Place::From(outer(&near.interval));
         }
     }
-    Ok(Outcome::Optimum(Box::new(Optimum {
-        attained,
-        value: Best::Exact(value),
-        at: vec![near.place],
-        binding,
-        found: vec![point_inside(&near.interval)],
-        found_value: Some(near.height),
-        typed: None,
-        stopped: None,
-    })))
+    let found = vec![point_inside(&near.interval)];
+    let optimum = Optimum::new(Best::Exact(value), vec![near.place], found, Some(near.height));
+    Ok(Optimum { attained, binding, ..optimum }.into())
+}
+
+/// Some gain of a set that is not empty.
+fn some(plain: &RequiredSet) -> Optimum {
+    Optimum::some(vec![widest(plain).map(point_inside).expect("it is not empty")])
+}
+
+/// That no gain with any value of a level was found, though some loops are stable.
+pub(crate) fn not_found() -> Exhausted {
+    Exhausted::by_method("no value of the level was found", "a bracket of the best value")
+}
+
+/// The best value between one that is found and one that no gain has; nothing is claimed where the search found no such one.
+pub(crate) fn bracketed(
+    level: Level,
+    found: &Rational,
+    not: Option<Rational>,
+    stopped: Option<Exhausted>,
+) -> (Best, Option<Exhausted>) {
+    let [low, high] = level.scale();
+    let end = if level.is_rising() { high } else { low };
+    match not {
+        Some(not) => (Best::Between([found.clone(), not]), stopped),
+        None if stopped.is_some() => (Best::Nothing, stopped),
+        // No damping is above 1, and no radius below 0.
+        None if matches!(level, Level::Damping | Level::Radius) => (Best::Between([found.clone(), end]), None),
+        None => {
+            let beyond = "values beyond the ones that were tried";
+            (
+                Best::Nothing,
+                Some(Exhausted::by_method("the search ends at a value of the level that some gains have", beyond)),
+            )
+        }
+    }
 }
 
 /// A value of the scale far beyond one.
@@ -228,7 +237,7 @@ fn place_far(
 }
 
 /// The best value at the end of a scale: a peak of zero, or none.
-pub(crate) fn best_at_end(level: Level) -> Best {
+fn best_at_end(level: Level) -> Best {
     match level {
         Level::ComplementaryPeak => Best::Zero,
         _ if is_without_end(level) || level == Level::PhaseMargin => Best::Unbounded,
@@ -238,20 +247,19 @@ pub(crate) fn best_at_end(level: Level) -> Best {
     }
 }
 
-/// Whether a gain has the best value of a level.
-fn has_level(lines: &Lines<'_>, level: Level, value: &Real, gain: &Rational) -> Result<bool, Error> {
+/// Whether a gain has the best value of a level; `None` where that is not known.
+fn has_level(lines: &Lines<'_>, level: Level, value: &Real, gain: &Rational) -> Result<Option<bool>, Error> {
     let named = [(lines.asked.gains[GAIN].name.clone(), gain.clone())];
     if matches!(level, Level::Decay | Level::Radius) {
         return Ok(match lines.bound_at(&named, level)? {
-            Some(own) => own.compare(value, lines.budget)?.is_eq(),
-            None => false,
+            Some(own) => Some(own.compare(value, lines.budget)?.is_eq()),
+            None => Some(false),
         });
     }
     match value.exact() {
-        // At the end of the scale of the damping all roots are real.
-        Some(end) if level == Level::Damping && end == level.scale()[1] => Ok(true),
-        Some(value) => lines.is_met(&named, Some(&value)),
-        None => Ok(false),
+        // The ends of a scale are no requirements, nor are irrational numbers.
+        Some(value) if !level.scale().contains(&value) => Ok(Some(lines.is_met(&named, Some(&value))?)),
+        _ => Ok(None),
     }
 }
 
@@ -306,16 +314,7 @@ fn bracket(lines: &Lines<'_>, level: Level, plain: &RequiredSet, ends: &[Rationa
     let found = search.bracket(lines, seed, &met)?;
     let Some((scale, spot)) = found.met else {
         // Some gains are stable, whatever level they have.
-        return Ok(Outcome::Optimum(Box::new(Optimum {
-            value: Best::Nothing,
-            at: Vec::new(),
-            attained: false,
-            binding: Vec::new(),
-            found: vec![widest(plain).map(point_inside).expect("it is not empty")],
-            found_value: None,
-            typed: None,
-            stopped: found.stopped,
-        })));
+        return Ok(Optimum { stopped: found.stopped.or_else(|| Some(not_found())), ..some(plain) }.into());
     };
     let (place, found_at, binding) = match &spot {
         Spot::Point(gain) => (Place::Exact(gain.clone().into()), gain.clone(), vec![level.name().to_owned()]),
@@ -327,19 +326,7 @@ fn bracket(lines: &Lines<'_>, level: Level, plain: &RequiredSet, ends: &[Rationa
             (place, point_inside(interval), with_level(level, interval))
         }
     };
-    let value = match found.not {
-        Some(not) => Best::Between([scale.clone(), not]),
-        None if found.stopped.is_some() => Best::Nothing,
-        None => best_at_end(level),
-    };
-    Ok(Outcome::Optimum(Box::new(Optimum {
-        value,
-        at: vec![place],
-        attained: false,
-        binding,
-        found: vec![found_at],
-        found_value: Some(scale),
-        typed: None,
-        stopped: found.stopped,
-    })))
+    let (value, stopped) = bracketed(level, &scale, found.not, found.stopped);
+    let optimum = Optimum::new(value, vec![place], vec![found_at], Some(scale));
+    Ok(Optimum { binding, stopped, ..optimum }.into())
 }

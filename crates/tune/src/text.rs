@@ -85,9 +85,7 @@ impl TuneAnswer {
             Best::Unbounded => writeln!(out, "{wanted}: it has no bound"),
             Best::Zero => writeln!(out, "{wanted}: 0"),
             Best::Exact(value) => {
-                // Of a level over two gains it is not known.
-                let is_known = level.is_none() || asked.gains.len() == 1;
-                let reached = if optimum.attained || !is_known { "" } else { ", which is not reached" };
+                let reached = if optimum.attained == Some(false) { ", which is not reached" } else { "" };
                 writeln!(out, "{wanted}: {}{}{reached}", shown(level, value, digits), unit(level))
             }
             Best::Between([found, proved]) => {

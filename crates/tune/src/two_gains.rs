@@ -4,7 +4,7 @@ use crate::answer::{Best, Optimum, Outcome, Place};
 use crate::asked::Objective;
 use crate::lines::Lines;
 use crate::near::toward;
-use crate::one_gain::{best_at_end, is_without_end, scale};
+use crate::one_gain::{bracketed, is_without_end, not_found, scale};
 use crate::search::Search;
 use crate::sets::{is_closed, names, outer, point_inside, widest};
 use jurist_algebra::number::Rational;
@@ -40,16 +40,7 @@ fn met_point(strips: &[Strip]) -> Option<[Rational; 2]> {
 fn anything(lines: &Lines<'_>) -> Result<Outcome, Error> {
     Ok(match met_point(&lines.strips(0, None)?) {
         None => Outcome::Infeasible { conflict: Vec::new() },
-        Some(point) => Outcome::Optimum(Box::new(Optimum {
-            value: Best::Nothing,
-            at: Vec::new(),
-            attained: true,
-            binding: Vec::new(),
-            found: point.into(),
-            found_value: None,
-            typed: None,
-            stopped: None,
-        })),
+        Some(point) => Optimum::some(point.into()).into(),
     })
 }
 
@@ -67,16 +58,9 @@ fn best_gain(lines: &Lines<'_>, gain: usize, is_greatest: bool) -> Result<Outcom
     let end = if is_greatest { &strip.x.upper } else { &strip.x.lower };
     let Some(value) = end else {
         let cell = strip.cells.iter().find(|cell| cell.stable).expect("it is met");
-        return Ok(Outcome::Optimum(Box::new(Optimum {
-            value: Best::Unbounded,
-            at: vec![Place::Unbounded, Place::Unbounded],
-            attained: false,
-            binding: Vec::new(),
-            found: in_order(strip.sample.clone(), cell.sample.clone()),
-            found_value: Some(strip.sample.clone()),
-            typed: None,
-            stopped: None,
-        })));
+        let found = in_order(strip.sample.clone(), cell.sample.clone());
+        let places = vec![Place::Unbounded, Place::Unbounded];
+        return Ok(Optimum::new(Best::Unbounded, places, found, Some(strip.sample.clone())).into());
     };
     let mut near = None;
     for digits in DIGITS {
@@ -115,16 +99,9 @@ fn best_gain(lines: &Lines<'_>, gain: usize, is_greatest: bool) -> Result<Outcom
     if gain == 1 {
         at.reverse();
     }
-    Ok(Outcome::Optimum(Box::new(Optimum {
-        value: Best::Exact(value.clone()),
-        at,
-        attained,
-        binding,
-        found: in_order(height.clone(), point_inside(&interval)),
-        found_value: Some(height),
-        typed: None,
-        stopped: None,
-    })))
+    let found = in_order(height.clone(), point_inside(&interval));
+    let optimum = Optimum::new(Best::Exact(value.clone()), at, found, Some(height));
+    Ok(Optimum { attained: Some(attained), binding, ..optimum }.into())
 }
 
 /// A bracket of a level, a map for each halving.
@@ -137,31 +114,12 @@ fn best_level(lines: &Lines<'_>, level: Level) -> Result<Outcome, Error> {
     let met = |scale: &Rational| Ok(met_point(&lines.strips(0, Some(scale))?));
     let found = search.bracket(lines, None, &met)?;
     let Some((scale, point)) = found.met else {
-        return Ok(Outcome::Optimum(Box::new(Optimum {
-            value: Best::Nothing,
-            at: Vec::new(),
-            attained: false,
-            binding: Vec::new(),
-            found: plain.into(),
-            found_value: None,
-            typed: None,
-            stopped: found.stopped,
-        })));
+        return Ok(
+            Optimum { stopped: found.stopped.or_else(|| Some(not_found())), ..Optimum::some(plain.into()) }.into()
+        );
     };
-    let value = match found.not {
-        Some(not) => Best::Between([scale.clone(), not]),
-        None if found.stopped.is_some() => Best::Nothing,
-        None => best_at_end(level),
-    };
+    let (value, stopped) = bracketed(level, &scale, found.not, found.stopped);
     let at = point.iter().map(|x| Place::Exact(x.clone().into())).collect();
-    Ok(Outcome::Optimum(Box::new(Optimum {
-        value,
-        at,
-        attained: false,
-        binding: vec![level.name().to_owned()],
-        found: point.into(),
-        found_value: Some(scale),
-        typed: None,
-        stopped: found.stopped,
-    })))
+    let optimum = Optimum::new(value, at, point.into(), Some(scale));
+    Ok(Optimum { binding: vec![level.name().to_owned()], stopped, ..optimum }.into())
 }

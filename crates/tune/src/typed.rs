@@ -2,7 +2,7 @@
 
 use crate::answer::{Best, Optimum, Place};
 use crate::asked::Objective;
-use crate::decimals::shortest;
+use crate::decimals::{first_power, power, shortest};
 use crate::lines::Lines;
 use crate::sets::{outer, widest};
 use jurist_algebra::number::{Enclosure, Rational};
@@ -36,7 +36,9 @@ pub(crate) fn typed(lines: &Lines<'_>, optimum: &Optimum) -> Result<Option<Typed
             let given_up = &best - best.abs() * signed(&lines.asked.objective, &loss);
             // The best value itself, where it is one that gains have.
             let nearest = match &optimum.value {
-                Best::Exact(value) if optimum.attained && count == 1 => value.exact().unwrap_or_else(|| inside.clone()),
+                Best::Exact(value) if optimum.attained == Some(true) && count == 1 => {
+                    value.exact().unwrap_or_else(|| inside.clone())
+                }
                 _ => inside.clone(),
             };
             let (low, high) = sorted(given_up, nearest.clone());
@@ -205,16 +207,7 @@ fn rounded(x: &Rational, digits: i64) -> Vec<Rational> {
     if x.is_zero() {
         return vec![Rational::ZERO];
     }
-    let ten = Rational::from(10);
-    let power = |k: i64| ten.pow(k).expect("ten is not zero");
-    let mut first = 0_i64;
-    while power(first) <= x.abs() {
-        first += 1;
-    }
-    while power(first - 1) > x.abs() {
-        first -= 1;
-    }
-    let unit = power(first - digits);
+    let unit = power(first_power(&x.abs()) - digits);
     let steps = x.checked_div(&unit).expect("a power is not zero");
     let half = Rational::new(1.into(), 2.into());
     let nearest = Rational::from((steps + half).floor());

@@ -99,8 +99,8 @@ struct Loop<'a> {
 }
 
 impl Loop<'_> {
-    /// The certificate of a box, the tolerances times a factor, and of points beyond, each with the sides of which its factor is one. A point that the checkers
-    /// cannot count is left out.
+    /// The certificate of a box, which is the tolerances times a factor, and of points outside of it. Each point has a factor for its sides. The certificate leaves
+    /// out a point whose roots the checkers cannot count.
     fn box_of_sides<'w>(
         &self,
         sides: &[Side],

@@ -3,7 +3,7 @@
 use super::disk::degrees;
 use super::family::{Elimination, Family};
 use super::required_set::not_decided;
-use super::requirement::{Circle, Found, Requirement, RequirementKind, Rule};
+use super::requirement::{Circle, Found, Requirement, Rule};
 use crate::error::Error;
 use crate::model::Time;
 use crate::problem::{DECAY, Problem, RADIUS, Region};
@@ -149,12 +149,6 @@ impl Level {
             Level::DiskMargin => Some(scale.mul(&Enclosure::from_rational(Rational::from(2)), bits)),
             _ => Some(scale.clone()),
         }
-    }
-
-    /// The entry of the list of requirements.
-    pub fn kind(self) -> &'static RequirementKind {
-        let found = RequirementKind::all().iter().find(|kind| kind.name == self.name());
-        found.expect("each level is a requirement")
     }
 }
 
