@@ -12,7 +12,7 @@ use jurist_check::{Limits, Step, check};
 use jurist_engine::answer::ToleranceRequest;
 use jurist_engine::error::{Code, Error};
 use jurist_engine::problem::Region;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// No test may fail because the machine is busy.
 const LIMITS: Limits = Limits::within(Duration::MAX);
