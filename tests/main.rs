@@ -83,6 +83,7 @@ mod maps {
     mod oracle;
     mod program;
     mod required;
+    mod required_boxes;
 }
 
 /// Any number of parameters: boxes of tolerances.

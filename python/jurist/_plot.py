@@ -89,11 +89,18 @@ def plot_map(m: Map, ax: Axes | None, x: Any, y: Any, columns: int, kw: dict[str
     """A map: boxes as they were proved, or an exact one column by column."""
     ax = axes(ax)
     document = m.to_dict()
-    style = {"facecolor": _STABLE, "edgecolor": "none", "alpha": 0.55, "label": _goal(m), **kw}
+    required = document.get("required") if not m.is_exact else None
+    label = "stable" if required else _goal(m)
+    style = {"facecolor": _STABLE, "edgecolor": "none", "alpha": 0.55, "label": label, **kw}
     if m.is_exact:
         _exact_map(m, ax, x, y, columns, style)
     else:
         _boxes(m, ax, style)
+        if required:
+            met = [b for b in required["boxes"] if b["met"]]
+            _rectangles(ax, met, {"antialiased": False, **style, "label": _goal(m), "alpha": 1.0, **kw})
+            open_ = [b for b in required["boxes"] if b["met"] is None]
+            _rectangles(ax, open_, {**_UNDECIDED, "label": ""})
     nominal = document["nominal"]
     if nominal["x"] is not None and nominal["y"] is not None:
         place = [float(exact(nominal[side])) for side in ("x", "y")]
@@ -105,18 +112,22 @@ def plot_map(m: Map, ax: Axes | None, x: Any, y: Any, columns: int, kw: dict[str
     return ax
 
 
-def _boxes(m: Map, ax: Axes, style: dict[str, Any]) -> None:
+# Neighbours share an edge, which two smoothed ones would show.
+_UNDECIDED = {"antialiased": False, "facecolor": "gray", "edgecolor": "none", "alpha": 0.4, "label": "undecided"}
+
+
+def _rectangles(ax: Axes, boxes: list[dict[str, Any]], looks: dict[str, Any]) -> None:
+    """Boxes as they stand in a document; one of them has the label."""
     from matplotlib.patches import Rectangle
 
-    # Neighbours share an edge, which two smoothed ones would show.
-    kinds = {
-        "stable": {"antialiased": False, **style},
-        "undecided": {"antialiased": False, "facecolor": "gray", "edgecolor": "none", "alpha": 0.4, "label": "undecided"},
-    }
-    for verdict, looks in kinds.items():
-        for k, box in enumerate(b for b in m.boxes if b["verdict"] == verdict):
-            (x0, x1), (y0, y1) = ([float(exact(b)) for b in box[side]] for side in ("x", "y"))
-            ax.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, **(looks if not k else {**looks, "label": ""})))
+    for k, box in enumerate(boxes):
+        (x0, x1), (y0, y1) = ([float(exact(b)) for b in box[side]] for side in ("x", "y"))
+        ax.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, **(looks if not k else {**looks, "label": ""})))
+
+
+def _boxes(m: Map, ax: Axes, style: dict[str, Any]) -> None:
+    for verdict, looks in {"stable": {"antialiased": False, **style}, "undecided": _UNDECIDED}.items():
+        _rectangles(ax, [b for b in m.boxes if b["verdict"] == verdict], looks)
     window = m.to_dict()["window"]
     ax.set_xlim(*(float(exact(b)) for b in window["x"]))
     ax.set_ylim(*(float(exact(b)) for b in window["y"]))

@@ -131,13 +131,14 @@ fn run(options: &Options, context: &Context) -> Outcome {
     let (asked, question) = options.require.asked_each(&model, question, &options.region, context)?;
     refuse_proofs(&asked, options.certificate.is_some())?;
     let boxes = options.method.request(&requests, context)?;
-    let mut method = options.method.method_for(&asked)?;
+    let mut method = options.method.method();
     let problem = question.plane_problem()?;
     if options.certificate.is_some() {
         method = options.method.method_certified(&problem, &context.budget)?;
     }
     let question = match method {
-        MapMethod::Boxes => Asked::BoxMap,
+        MapMethod::Boxes if asked.list.is_empty() => Asked::BoxMap,
+        MapMethod::Boxes => Asked::BoxMapWithRequirements,
         MapMethod::Exact if asked.list.is_empty() => Asked::ExactMap,
         _ => asked.list.iter().fold(Asked::Map, |question, r| question.with_requirement(r, problem.time())),
     };
@@ -222,17 +223,9 @@ fn required(
                 return Err(refusal.diagnostic(&[]).into());
             }
         }
-        if !Asked::MapWithMargins.over(ring).is_answered() {
-            problem.algebra(&context.budget)?;
-        }
     }
-    match problem.map_by(method, boxes, digits, &context.budget)? {
-        MapOrBoxes::Exact(answer) if !asked.list.is_empty() => {
-            let answer = answer.with_requirements(&asked.list, asked.at.as_deref(), &context.budget)?;
-            Ok(MapOrBoxes::Exact(Box::new(answer)))
-        }
-        found => Ok(found),
-    }
+    let required = (asked.list.as_slice(), asked.at.as_deref());
+    problem.required_map_by((method, boxes), required, digits, &context.budget)
 }
 
 /// The kind of picture that the output file's ending asks for, if it asks for one.

@@ -14,10 +14,8 @@ use jurist_algebra::number::Rational;
 use jurist_draw::figures::map::boxes_figure;
 use jurist_draw::page::map_boxes_page;
 use jurist_engine::answer::{Answer, BoxRequest, MapBoxes, MapMethod};
-use jurist_engine::coverage::Asked;
 use jurist_engine::error::{Code, Diagnostic, Error as EngineError};
 use jurist_engine::problem::Problem;
-use jurist_engine::response::Requirements;
 use jurist_engine::stability::Range;
 use jurist_engine::stability::plane::boxes::Window;
 use std::path::Path;
@@ -53,17 +51,6 @@ impl MethodOptions {
             MethodName::Boxes => MapMethod::Boxes,
             MethodName::Auto => MapMethod::Auto,
         }
-    }
-
-    /// The same beside requirements, which boxes do not decide.
-    pub fn method_for(&self, asked: &Requirements) -> Result<MapMethod, Error> {
-        if asked.list.is_empty() {
-            return Ok(self.method());
-        }
-        if let (MethodName::Boxes, Some(refusal)) = (self.method, Asked::BoxMapWithRequirements.never()) {
-            return Err(refusal.diagnostic(&[]).into());
-        }
-        Ok(MapMethod::Exact)
     }
 
     /// The method of a map with a certificate: boxes where the exact map has none, unless that is asked for.
@@ -143,12 +130,12 @@ pub(super) fn answer(boxes: &Answer<MapBoxes>, output: &OutputOptions, context: 
             _ => map_boxes_page(boxes, &figure, digits).into_bytes(),
         };
         write(Path::new(file), &bytes)?;
-        return Ok(match &boxes.value().boxes.stopped {
+        return Ok(match boxes.value().stopped() {
             None => Status::Holds,
             Some(stop) => context.say_undecided(&stopped_at(stop)),
         });
     }
-    match &boxes.value().boxes.stopped {
+    match boxes.value().stopped() {
         None => {
             context.answer(output, || boxes.text(digits), || boxes.json())?;
             Ok(Status::Holds)

@@ -278,6 +278,11 @@ impl Integer {
         i64::try_from(&self.0).ok()
     }
 
+    /// The value as `i128`, if it fits.
+    pub fn to_i128(&self) -> Option<i128> {
+        i128::try_from(&self.0).ok()
+    }
+
     /// The nearest `f64`, infinite beyond its range: for pictures, never for decisions.
     pub fn to_f64_approximate(&self) -> f64 {
         f64::rounding_from(&self.0, RoundingMode::Nearest).0

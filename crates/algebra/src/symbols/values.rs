@@ -38,6 +38,22 @@ impl ParametricSymbols {
         ParametricSymbols { table }
     }
 
+    /// The table with another symbol at its end.
+    pub fn with(mut self, name: &str, definition: Definition) -> ParametricSymbols {
+        self.table.push((name.into(), definition));
+        self
+    }
+
+    /// The number of symbols.
+    pub fn len(&self) -> usize {
+        self.table.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.table.is_empty()
+    }
+
     /// What the symbols are functions of.
     pub fn arguments(&self) -> impl Iterator<Item = &RationalFunction> {
         self.table.iter().flat_map(|(_, definition)| definition.arguments())

@@ -4,9 +4,10 @@ use super::{Answer, Map};
 use crate::coverage::{Asked, CoefficientRing};
 use crate::error::Error;
 use crate::problem::Problem;
+use crate::response::{RequiredBoxes, Requirement};
 use crate::stability::Range;
 use crate::stability::plane::boxes::{BoxMap, Window, stability_boxes};
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, Stop};
 use jurist_algebra::number::Rational;
 use std::sync::Arc;
 use window::{window_around, window_of};
@@ -17,6 +18,9 @@ const SUBDIVISION: (u32, u32) = (9, 10);
 /// An exact map over symbols is tried first where the curve of complex pairs has no more terms. Up to here it takes some ten seconds at
 /// most (4400 terms: the drive of `examples/drive-hold.toml`), beyond soon minutes.
 const MOST_TERMS: u64 = 6000;
+
+/// The same beside requirements, whose curves are longer.
+const MOST_TERMS_WITH_REQUIREMENTS: u64 = 400;
 
 /// How a map is made.
 ///
@@ -74,7 +78,7 @@ impl BoxRequest {
 /// A window of two parameters cut into boxes.
 ///
 /// ```
-/// use jurist_algebra::limits::{Budget, Exhausted};
+/// use jurist_algebra::limits::{Budget, Exhausted, Stop};
 /// use jurist_algebra::number::Rational;
 /// use jurist_engine::answer::{BoxRequest, MapMethod, MapOrBoxes};
 /// use jurist_engine::model::{Model, ParameterBuilder, Time};
@@ -103,12 +107,14 @@ pub struct MapBoxes {
     pub boxes: BoxMap,
     /// Why there is no exact map, where that was looked for first.
     pub no_exact_map: Option<Exhausted>,
+    /// The stable boxes by whether requirements are met, where that was asked.
+    pub required: Option<RequiredBoxes>,
 }
 
 /// A map by either method.
 ///
 /// ```
-/// use jurist_algebra::limits::{Budget, Exhausted};
+/// use jurist_algebra::limits::{Budget, Exhausted, Stop};
 /// use jurist_algebra::number::Rational;
 /// use jurist_engine::answer::{BoxRequest, MapMethod, MapOrBoxes};
 /// use jurist_engine::model::{Model, ParameterBuilder, Time};
@@ -131,6 +137,13 @@ pub enum MapOrBoxes {
     Exact(Box<Answer<Map>>),
     /// Boxes.
     Boxes(Box<Answer<MapBoxes>>),
+}
+
+impl MapBoxes {
+    /// Why a subdivision, of the window or of its stable boxes, stopped before its goal: `None` when none did.
+    pub fn stopped(&self) -> Option<&Stop> {
+        self.boxes.stopped.as_ref().or_else(|| self.required.as_ref()?.stopped.as_ref())
+    }
 }
 
 impl Problem {
@@ -214,9 +227,61 @@ impl Problem {
                 return exact(budget);
             }
             let boxes = self.boxes_over(ring, window, &request.undecided, budget)?;
-            let value = MapBoxes { goal: request.undecided.clone(), boxes, no_exact_map };
+            let value = MapBoxes { goal: request.undecided.clone(), boxes, no_exact_map, required: None };
             Ok(MapOrBoxes::Boxes(Box::new(Answer::new(Arc::clone(self), value))))
         })?
+    }
+
+    /// The stable region with the parts of it in which requirements are met, margins being taken at a cut; the exact one where that is known
+    /// soon, unless a method is asked for.
+    ///
+    /// Cost: that of [`Problem::map_by`], and of [`Answer::<Map>::with_requirements`] or [`Answer::<MapBoxes>::with_requirements`].
+    ///
+    /// # Errors
+    /// As these.
+    ///
+    /// # Panics
+    /// Unless two parameters are free.
+    pub fn required_map_by(
+        self: &Arc<Self>,
+        (method, request): (MapMethod, &BoxRequest),
+        (requirements, at): (&[Requirement], Option<&str>),
+        digits: usize,
+        budget: &Budget,
+    ) -> Result<MapOrBoxes, Error> {
+        let by = |method: MapMethod, budget: &Budget| match self.map_by(method, request, digits, budget)? {
+            found if requirements.is_empty() => Ok(found),
+            MapOrBoxes::Exact(map) => {
+                map.with_requirements(requirements, at, budget).map(Box::new).map(MapOrBoxes::Exact)
+            }
+            MapOrBoxes::Boxes(boxes) => {
+                boxes.with_requirements(requirements, at, budget).map(Box::new).map(MapOrBoxes::Boxes)
+            }
+        };
+        if method != MapMethod::Auto || requirements.is_empty() {
+            return by(method, budget);
+        }
+        let ring = self.coefficient_ring(budget)?;
+        let has_exact = Asked::ExactMap.over(ring).is_answered();
+        let has_boxes = match ring {
+            CoefficientRing::Rational => window_of(self, request).is_ok(),
+            _ => window_around(self, request, budget).is_ok(),
+        };
+        let is_short = match ring {
+            CoefficientRing::Constants => {
+                self.plane_over_symbols(budget)?.map_or(0, |p| p.size(self.shape())) <= MOST_TERMS_WITH_REQUIREMENTS
+            }
+            _ => true,
+        };
+        match (has_exact && is_short, has_boxes) {
+            (true, true) => match by(MapMethod::Exact, &budget.share(1, 2)) {
+                Err(Error::Stopped(_)) => by(MapMethod::Boxes, budget),
+                answered => answered,
+            },
+            (false, true) => by(MapMethod::Boxes, budget),
+            (_, false) if has_exact => by(MapMethod::Exact, budget),
+            (_, false) => by(MapMethod::Boxes, budget),
+        }
     }
 
     /// The inner result is an error where an exact map would take long, and there are boxes.

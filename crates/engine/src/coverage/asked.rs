@@ -200,7 +200,7 @@ impl Asked {
     ///
     /// ```
     /// use jurist_engine::coverage::Asked;
-    /// assert!(Asked::BoxMapWithRequirements.never().is_some() && Asked::Jury.never().is_none());
+    /// assert!(Asked::SlicesWithRequirements.never().is_some() && Asked::Jury.never().is_none());
     /// ```
     pub fn never(self) -> Option<&'static Refusal> {
         let refusals = self.row().coverage.iter().map(|coverage| match coverage {

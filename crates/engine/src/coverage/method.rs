@@ -119,6 +119,12 @@ pub(super) static DELAYED_TENSOR: Method = Method::new(
     "The box is cut in frequency and parameters; exp(-i w tau) is a Taylor model in both, and beyond a bound of the frequency no root is on the axis. One name alone is decided by its stable set.",
     "stability::boxes::DelayedFunction",
 );
+pub(super) static REQUIRED_BOXES: Method = Method::new(
+    "pieces of the circle by Taylor models in the parameters",
+    "Taylor models of the open loop's coefficients in a box of the parameters tell on which pieces of the frequency a crossing may be, and whether the \
+     requirement allows it there. A box where all are allowed meets the requirement, one where a sign changes among forbidden ones does not; others are halved.",
+    "answer::MapBoxes",
+);
 pub(super) static POLYNOMIAL: Method = Method::new(
     "characteristic polynomial",
     "The determinant of the closed loop by the multimodular Hessenberg form; constants and functions that are not rational are further variables.",

@@ -115,8 +115,6 @@ pub(crate) static SLICES_ARE_OF_STABILITY: Refusal = Refusal::new(
     "the slices of '-z' are of stability alone, without '{option}'",
     "leave out '-z' and give its parameter one value with '--set'",
 );
-pub(crate) static BOXES_ARE_OF_STABILITY: Refusal =
-    Refusal::new(Code::Require, "boxes decide stability only, no requirements", "leave out '--method boxes'");
 pub(crate) static ONLY_THE_BOX: Refusal = Refusal::new(
     Code::Tolerance,
     "{what} not asked of tolerances inside of functions or with dead time",

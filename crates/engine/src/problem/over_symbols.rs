@@ -180,7 +180,7 @@ pub(crate) fn moving_symbols(symbols: &model::Symbols) -> Result<MovingSymbols, 
 }
 
 /// The table of symbols where several names are kept, on which they may depend.
-fn parametric_symbols(symbols: &model::Symbols) -> Result<ParametricSymbols, Error> {
+pub(crate) fn parametric_symbols(symbols: &model::Symbols) -> Result<ParametricSymbols, Error> {
     Ok(ParametricSymbols::new(definitions(symbols)?))
 }
 

@@ -5,6 +5,8 @@
 //! stability the moduli, products and differences of such polynomials are polynomials in one real variable
 //! ([`HalfSizePair`](crate::stability::HalfSizePair)), whose zeros are isolated; every margin is an algebraic number or a known function of one.
 
+mod affine;
+mod along_circle;
 mod asked;
 mod by_gain;
 mod cells;
@@ -24,10 +26,12 @@ mod met;
 mod norm;
 mod on_roots;
 mod open_loop;
+mod over_box;
 mod over_boxes;
 mod over_symbols;
 mod peak_to_peak;
 mod place;
+mod required_boxes;
 mod required_map;
 mod required_set;
 mod requirement;
@@ -50,6 +54,7 @@ pub use norm::{Norm, PeakGain};
 pub use open_loop::OpenLoop;
 pub use peak_to_peak::PeakToPeak;
 pub use place::Place;
+pub use required_boxes::{RequiredAreas, RequiredBox, RequiredBoxes};
 pub use required_map::{RequiredMap, RequiredRegions};
 pub use required_set::{RequiredEnd, RequiredInterval, RequiredSet, RequirementMet};
 pub(crate) use requirement::{Found, LIST, Rule, radius_below};

@@ -8,12 +8,13 @@ use super::super::panel::Shape;
 use super::super::{Figure, INK};
 use super::draw::{inside, what};
 use super::window::AxisWindow;
-use super::{REGION, UNDECIDED, UNSTABLE};
+use super::{MET, REGION, UNDECIDED, UNSTABLE};
 use crate::scene::{Colour, Item, Rectangle, Scene, Stroke, through};
 use jurist_algebra::number::{Rational, to_decimal};
 use jurist_engine::answer::{Answer, MapBoxes};
+use jurist_engine::response::RequiredBoxes;
 use jurist_engine::show::region::goal_or_stable;
-use jurist_engine::stability::plane::boxes::{BoxMap, BoxVerdict};
+use jurist_engine::stability::plane::boxes::{BoxMap, BoxVerdict, PlaneBox, Window};
 
 /// The window with its boxes, both axes linear.
 pub fn boxes_figure(answer: &Answer<MapBoxes>, width: f64, height: f64) -> Figure {
@@ -24,26 +25,36 @@ pub fn boxes_figure(answer: &Answer<MapBoxes>, width: f64, height: f64) -> Figur
     let [x, y] = [0, 1].map(|k: usize| windows[k].axis(&problem.free()[k]));
     let mut scene = Scene::new(width, height);
     let mut top = heading(&what(problem), problem).draw(&mut scene);
+    let required = answer.value().required.as_ref();
     let mut entries = entries(map, &goal_or_stable(problem));
+    entries.extend(required.into_iter().flat_map(|found| required_entries(found, &map.window)));
     entries.extend(nominal.map(|_| (Sample::Mark(Shape::Diamond, INK), "nominal".to_owned())));
     top = legend::in_rows(&mut scene, &entries, (14.0, top + 2.0), width - 28.0) + 6.0;
     let left = Frame::left_of(&y, height - top - BELOW);
     let plot = Rectangle { left, top, width: width - left - 18.0, height: height - top - BELOW };
     let frame = Frame { x, y, plot, equal: false };
-    for (verdict, fill, edge) in [
-        (BoxVerdict::Unstable { outside: None }, UNSTABLE, Colour::WHITE),
-        (BoxVerdict::Stable, REGION, Colour::WHITE),
-        (BoxVerdict::Undecided, UNDECIDED, UNDECIDED),
-    ] {
+    let mut fill = |boxes: &mut dyn Iterator<Item = &Window>, fill: Colour, edge: Colour| {
         let mut segments = Vec::new();
-        for b in map.boxes.iter().filter(|b| b.verdict.name() == verdict.name()) {
-            let at = |k: usize| frame.at((b.window.x[k].to_f64_approximate(), b.window.y[k].to_f64_approximate()));
+        for window in boxes {
+            let at = |k: usize| frame.at((window.x[k].to_f64_approximate(), window.y[k].to_f64_approximate()));
             let ((x0, y0), (x1, y1)) = (at(0), at(1));
             segments.extend(through(&[(x0, y0), (x1, y0), (x1, y1), (x0, y1)], true));
         }
         if !segments.is_empty() {
             scene.add(Item::Path { segments, fill: Some(fill), stroke: Some(Stroke::new(edge, 0.3)) });
         }
+    };
+    for (verdict, ground, edge) in [
+        (BoxVerdict::Unstable { outside: None }, UNSTABLE, Colour::WHITE),
+        (BoxVerdict::Stable, REGION, Colour::WHITE),
+        (BoxVerdict::Undecided, UNDECIDED, UNDECIDED),
+    ] {
+        let with = |b: &&PlaneBox| b.verdict.name() == verdict.name();
+        fill(&mut map.boxes.iter().filter(with).map(|b| &b.window), ground, edge);
+    }
+    for (met, ground) in [(Some(true), MET), (None, UNDECIDED)] {
+        let boxes = required.into_iter().flat_map(|found| &found.boxes).filter(|b| b.met == met);
+        fill(&mut boxes.map(|b| &b.window), ground, ground);
     }
     frame.draw(&mut scene);
     if let Some(at) = nominal {
@@ -63,6 +74,22 @@ fn nominal(answer: &Answer<MapBoxes>, windows: &[AxisWindow; 2]) -> Option<(f64,
 
 fn axis([lower, upper]: &[Rational; 2]) -> AxisWindow {
     AxisWindow { lower: lower.clone(), upper: upper.clone(), logarithmic: false }
+}
+
+/// The ground where requirements are met, and the share of the window that is open.
+fn required_entries(found: &RequiredBoxes, window: &Window) -> [Entry; 2] {
+    let name = match found.requirements.as_slice() {
+        [one] => one.text().replace('_', " ").replace(">=", "\u{2265}").replace("<=", "\u{2264}"),
+        _ => "all requirements met".to_owned(),
+    };
+    let share = |area: &Rational| {
+        let percent = area.checked_div(&window.area()).map(|share| to_decimal(&(share * Rational::from(100)), 4));
+        percent.unwrap_or_default()
+    };
+    [
+        (Sample::Area(MET), format!("{name} {} %", share(&found.areas.met))),
+        (Sample::Area(UNDECIDED), format!("undecided whether met {} %", share(&found.areas.undecided))),
+    ]
 }
 
 /// Colours with their meaning and the share of the window.

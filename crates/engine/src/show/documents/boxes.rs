@@ -1,10 +1,12 @@
 //! The document `jurist/map-boxes/1`.
 
 use super::map::variables;
+use super::requirements::RequirementAsked;
 use super::schema_name;
 use super::{Answered, Curve, Exact, MapQuestion};
 use crate::answer::{self, Answer};
 use crate::problem::Problem;
+use crate::response;
 use crate::stability::plane::boxes;
 use jurist_algebra::limits::Exhausted;
 use serde::{Deserialize, Serialize};
@@ -44,6 +46,71 @@ pub struct SubdividedWindow {
     /// Why there is no exact map, where that was looked for first; left out where it was not.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub no_exact_map: Option<String>,
+    /// The stable boxes by whether requirements are met; left out where nothing is required.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub required: Option<RequiredInBoxes>,
+}
+
+/// Where requirements are met: the stable boxes, cut further.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct RequiredInBoxes {
+    /// Where margins are taken, as it was asked for.
+    pub at: Option<String>,
+    /// What is required.
+    pub requirements: Vec<RequirementAsked>,
+    /// Areas in the product of the parameters' units; they add up to that of the stable boxes.
+    pub areas: RequiredAreas,
+    /// The boxes by lower x, then lower y; together they are the stable ones.
+    pub boxes: Vec<RequiredBox>,
+    /// The budget that ran out before the goal was reached; `null` where none did.
+    pub stopped: Option<String>,
+}
+
+/// Exact areas.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct RequiredAreas {
+    /// Of the boxes in which all requirements are met.
+    pub met: Exact,
+    /// Of those in which one is met nowhere.
+    pub unmet: Exact,
+    /// Of the rest.
+    pub undecided: Exact,
+}
+
+/// An open box of stable points.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct RequiredBox {
+    /// Where it is.
+    #[serde(flatten)]
+    pub window: Window,
+    /// Whether all requirements are met at all points, or not all at any; `null` where neither is proved.
+    pub met: Option<bool>,
+    /// The name of a requirement that is met at no point, else `null`.
+    pub unmet: Option<String>,
+}
+
+impl From<&response::RequiredBoxes> for RequiredInBoxes {
+    fn from(found: &response::RequiredBoxes) -> Self {
+        let one = |b: &response::RequiredBox| RequiredBox {
+            window: (&b.window).into(),
+            met: b.met,
+            unmet: b.unmet.map(|k| found.requirements[k].name().to_owned()),
+        };
+        RequiredInBoxes {
+            at: found.at.clone(),
+            requirements: found.requirements.iter().map(RequirementAsked::from).collect(),
+            areas: RequiredAreas {
+                met: (&found.areas.met).into(),
+                unmet: (&found.areas.unmet).into(),
+                undecided: (&found.areas.undecided).into(),
+            },
+            boxes: found.boxes.iter().map(one).collect(),
+            stopped: found.stopped.as_ref().map(ToString::to_string),
+        }
+    }
 }
 
 /// No boxes.
@@ -124,20 +191,22 @@ impl From<&boxes::PlaneBox> for PlaneBox {
 impl MapBoxes {
     /// The document, also of an answer that the budget did not allow.
     pub fn new(problem: &Problem, answer: Result<&answer::MapBoxes, &Exhausted>) -> Self {
-        let known = |answer::MapBoxes { goal, boxes: map, no_exact_map }: &answer::MapBoxes| SubdividedWindow {
-            window: (&map.window).into(),
-            goal: goal.into(),
-            curves: map.curves.iter().map(|curve| Curve::new(curve, &variables(problem))).collect(),
-            areas: Areas {
-                window: (&map.window.area()).into(),
-                stable: (&map.areas.stable).into(),
-                unstable: (&map.areas.unstable).into(),
-                undecided: (&map.areas.undecided).into(),
-            },
-            boxes: map.boxes.iter().map(PlaneBox::from).collect(),
-            stopped: map.stopped.as_ref().map(ToString::to_string),
-            no_exact_map: no_exact_map.as_ref().map(Exhausted::to_string),
-        };
+        let known =
+            |answer::MapBoxes { goal, boxes: map, no_exact_map, required }: &answer::MapBoxes| SubdividedWindow {
+                window: (&map.window).into(),
+                goal: goal.into(),
+                curves: map.curves.iter().map(|curve| Curve::new(curve, &variables(problem))).collect(),
+                areas: Areas {
+                    window: (&map.window.area()).into(),
+                    stable: (&map.areas.stable).into(),
+                    unstable: (&map.areas.unstable).into(),
+                    undecided: (&map.areas.undecided).into(),
+                },
+                boxes: map.boxes.iter().map(PlaneBox::from).collect(),
+                stopped: map.stopped.as_ref().map(ToString::to_string),
+                no_exact_map: no_exact_map.as_ref().map(Exhausted::to_string),
+                required: required.as_ref().map(RequiredInBoxes::from),
+            };
         MapBoxes { schema: MapBoxesName::V1, question: MapQuestion::new(problem), answer: Answered::of(answer, known) }
     }
 }

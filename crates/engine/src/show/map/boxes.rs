@@ -5,6 +5,7 @@ use super::super::region::goal_or_stable;
 use super::text::axis_text;
 use crate::answer::{Answer, MapBoxes};
 use crate::problem::Problem;
+use crate::response::RequiredBoxes;
 use crate::stability::plane::boxes::{BoxMap, BoxVerdict, Window};
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::{Rational, to_decimal};
@@ -24,6 +25,9 @@ pub fn map_boxes_text(problem: &Problem, answer: Result<&MapBoxes, &Exhausted>, 
         Err(stopped) => out.push_str(&format!("{}\n", undecided_text(stopped))),
         Ok(answer) => {
             boxes_text(&mut out, &answer.boxes, &goal_or_stable(problem), [&x.name, &y.name], digits);
+            if let Some(found) = &answer.required {
+                required_text(&mut out, found, &answer.boxes.window, [&x.name, &y.name], digits);
+            }
             if let Some(stopped) = &answer.no_exact_map {
                 out.push_str(&format!("    no exact map: {stopped}\n"));
             }
@@ -33,36 +37,65 @@ pub fn map_boxes_text(problem: &Problem, answer: Result<&MapBoxes, &Exhausted>, 
 }
 
 fn boxes_text(out: &mut String, map: &BoxMap, goal: &str, names: [&str; 2], digits: usize) {
-    let ([x, y], window) = (names, &map.window);
-    let span = |name: &str, [low, high]: &[Rational; 2]| {
-        format!("{} < {name} < {}", to_decimal(low, digits), to_decimal(high, digits))
-    };
-    out.push_str(&format!("{}, {}\n", span(x, &window.x), span(y, &window.y)));
-    let whole = window.area();
+    let window = &map.window;
+    out.push_str(&format!("{}, {}\n", span(names[0], &window.x, digits), span(names[1], &window.y, digits)));
     for (name, area, wanted) in [
         (goal, &map.areas.stable, BoxVerdict::Stable.name()),
         ("unstable", &map.areas.unstable, "unstable"),
         ("undecided", &map.areas.undecided, "undecided"),
     ] {
-        let share = area.checked_div(&whole).expect("a window has an area") * Rational::from(100);
         let count = map.boxes.iter().filter(|b| b.verdict.name() == wanted).count();
-        let percent = to_decimal(&share, 4);
-        out.push_str(&format!(
-            "    {name}: {percent} % of the window, in {count} box{}\n",
-            if count == 1 { "" } else { "es" }
-        ));
+        out.push_str(&share_line(name, area, &window.area(), count));
     }
-    let stable: Vec<&Window> =
-        map.boxes.iter().filter(|b| b.verdict == BoxVerdict::Stable).map(|b| &b.window).collect();
-    let extent = |side: fn(&Window) -> &[Rational; 2]| {
-        let low = stable.iter().map(|w| &side(w)[0]).min()?;
-        let high = stable.iter().map(|w| &side(w)[1]).max()?;
-        Some([low.clone(), high.clone()])
-    };
-    if let (Some(across), Some(up)) = (extent(|w| &w.x), extent(|w| &w.y)) {
-        out.push_str(&format!("    the stable boxes reach over {}, {}\n", span(x, &across), span(y, &up)));
-    }
+    let stable = map.boxes.iter().filter(|b| b.verdict == BoxVerdict::Stable).map(|b| &b.window);
+    out.push_str(&extent(&format!("the {} boxes", BoxVerdict::Stable.name()), stable, names, digits));
     if let Some(budget) = &map.stopped {
         out.push_str(&format!("    stopped early, the budget ran out: {budget}\n"));
     }
+}
+
+/// In how much of the window the stable loop meets what is required.
+fn required_text(out: &mut String, found: &RequiredBoxes, window: &Window, names: [&str; 2], digits: usize) {
+    let at = found.at.as_ref().map(|at| format!(", the loop cut at '{at}'")).unwrap_or_default();
+    let asked: Vec<String> = found.requirements.iter().map(|r| r.text()).collect();
+    out.push_str(&format!("inside the stable boxes{at}: {}\n", asked.join(", ")));
+    for (name, area, met) in [
+        ("met", &found.areas.met, Some(true)),
+        ("not met", &found.areas.unmet, Some(false)),
+        ("undecided", &found.areas.undecided, None),
+    ] {
+        let count = found.boxes.iter().filter(|b| b.met == met).count();
+        out.push_str(&share_line(name, area, &window.area(), count));
+    }
+    let met = found.boxes.iter().filter(|b| b.met == Some(true)).map(|b| &b.window);
+    out.push_str(&extent("the boxes that meet it", met, names, digits));
+    if let Some(budget) = &found.stopped {
+        out.push_str(&format!("    stopped early, the budget ran out: {budget}\n"));
+    }
+}
+
+fn share_line(name: &str, area: &Rational, whole: &Rational, count: usize) -> String {
+    let share = area.checked_div(whole).expect("a window has an area") * Rational::from(100);
+    let boxes = if count == 1 { "box" } else { "boxes" };
+    format!("    {name}: {} % of the window, in {count} {boxes}\n", to_decimal(&share, 4))
+}
+
+/// How far boxes reach; nothing where there are none.
+fn extent<'w>(what: &str, boxes: impl Iterator<Item = &'w Window>, names: [&str; 2], digits: usize) -> String {
+    let boxes: Vec<&Window> = boxes.collect();
+    let along = |side: fn(&Window) -> &[Rational; 2]| {
+        let low = boxes.iter().map(|w| &side(w)[0]).min()?;
+        let high = boxes.iter().map(|w| &side(w)[1]).max()?;
+        Some([low.clone(), high.clone()])
+    };
+    match (along(|w| &w.x), along(|w| &w.y)) {
+        (Some(across), Some(up)) => {
+            format!("    {what} reach over {}, {}\n", span(names[0], &across, digits), span(names[1], &up, digits))
+        }
+        _ => String::new(),
+    }
+}
+
+fn span(name: &str, [low, high]: &[Rational; 2], digits: usize) -> String {
+    format!("{} < {name} < {}", to_decimal(low, digits), to_decimal(high, digits))
 }

@@ -51,7 +51,8 @@ pub fn stability_boxes(
     };
     let whole = family.rows.iter().map(|rows| rows.patch(&window.x, &window.y)).enumerate().collect();
     let look = |place: &Place, open: &mut OpenPatches| Ok(family.look(place, open));
-    Ok(BoxMap { curves, ..by_levels(window, goal, (OpenPatches(whole), MOST_UNDECIDED), budget, look) })
+    let whole = vec![(Place::whole(), OpenPatches(whole))];
+    Ok(BoxMap { curves, ..by_levels(whole, goal, MOST_UNDECIDED, budget, look).into_map(window) })
 }
 
 /// Polynomials of which none is negative where the loop is stable.

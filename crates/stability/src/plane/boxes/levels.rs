@@ -5,6 +5,7 @@ use super::{BoxMap, BoxVerdict, PlaneBox, Window};
 use crate::subdivision::{Halves, Look};
 use jurist_algebra::limits::{Budget, Exhausted, Stop, parallel_map};
 use jurist_algebra::number::{Integer, Rational};
+use std::collections::BTreeMap;
 use std::convert::Infallible;
 use std::sync::Arc;
 
@@ -37,28 +38,122 @@ pub(crate) fn subdivided<T: Send + Sync>(
     budget: &Budget,
     look: impl Fn(&Place, Option<&T>) -> Result<(Seen, Option<T>), Exhausted> + Sync,
 ) -> BoxMap {
-    /// No more boxes are undecided at a time.
-    const MOST_UNDECIDED: usize = 1 << 13;
     budget.step("subdividing the window");
-    by_levels(window, goal, (Note(None), MOST_UNDECIDED), budget, |place, note: &mut Note<T>| {
+    let whole = vec![(Place::whole(), Note(None))];
+    let found = by_levels(whole, goal, MOST_UNDECIDED, budget, |place, note: &mut Note<T>| {
         let (seen, noted) = look(place, note.0.as_deref())?;
         note.0 = noted.map(Arc::new);
         Ok(seen)
-    })
+    });
+    found.into_map(window)
 }
 
-/// Halves all boxes of one size before the next, so that the answer does not depend on the number of threads, until the share of the
-/// undecided area is at most `goal` (0 to 1) or more boxes than `most` are undecided. A budget that runs out leaves more of the window
-/// undecided, and so does a look that stops.
+/// No more boxes are undecided at a time.
+const MOST_UNDECIDED: usize = 1 << 13;
+
+/// What is known of parts of a window.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Refined<V> {
+    /// The parts that are decided, each with what is known of it.
+    pub decided: Vec<(Window, V)>,
+    /// The parts that are not.
+    pub undecided: Vec<Window>,
+    /// Why the subdivision stopped before so little was undecided as was asked for: `None` when it did not.
+    pub stopped: Option<Stop>,
+}
+
+/// Cuts some boxes of a window further, until what is undecided of them is at most a share `goal` (0 to 1) of the whole window. The boxes come
+/// from halving the window. `look` has what the look at the box that was halved left of what it was told itself, at first `known`.
 ///
 /// Cost: that of the looks at about `1/h` boxes of side `h` along each boundary.
-pub(super) fn by_levels<K: Halves + Send>(
-    window: &Window,
+///
+/// # Panics
+/// When a box does not come from halving the window.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_stability::Range;
+/// use jurist_stability::plane::boxes::{Window, refined};
+/// use jurist_stability::subdivision::Look;
+/// // The half of the unit square in which x < 1/2, by whether y < 1/3.
+/// let [zero, half, one]: [jurist_algebra::number::Rational; 3] = ["0", "1/2", "1"].map(|x| x.parse().unwrap());
+/// let whole = Window { x: [zero.clone(), one.clone()], y: [zero.clone(), one.clone()] };
+/// let left = Window { x: [zero, half], ..whole.clone() };
+/// let third = "1/3".parse().unwrap();
+/// let found = refined(&whole, &[left], (), &"1/16".parse().unwrap(), &Budget::unlimited(), |place, ()| {
+///     let b = place.window(&whole);
+///     Ok(match (b.y[1] <= third, b.y[0] >= third) {
+///         (true, _) => Look::Decided("below"),
+///         (_, true) => Look::Decided("above"),
+///         _ => Look::Cut(1),
+///     })
+/// });
+/// // y from 1/4 to 3/8 is left: a sixteenth of the whole.
+/// assert_eq!((found.decided.len(), found.undecided.len()), (3, 1));
+/// ```
+pub fn refined<K: Clone + Send + Sync, V: Send>(
+    whole: &Window,
+    boxes: &[Window],
+    known: K,
     goal: &Rational,
-    (known, most): (K, usize),
     budget: &Budget,
-    look: impl Fn(&Place, &mut K) -> Result<Seen, Exhausted> + Sync,
-) -> BoxMap {
+    look: impl Fn(&Place, &mut K) -> Result<Look<V, Infallible>, Exhausted> + Sync,
+) -> Refined<V> {
+    let start = |b: &Window| (Place::of(b, whole).expect("a box of the window"), Kept(known.clone()));
+    let starts = boxes.iter().map(start).collect();
+    let seen = |place: &Place, known: &mut Kept<K>| look(place, &mut known.0);
+    by_levels(starts, goal, MOST_UNDECIDED, budget, seen).windows(whole)
+}
+
+/// What both halves of a box know of it.
+struct Kept<K>(K);
+
+impl<K: Clone> Halves for Kept<K> {
+    fn halves(self, _axis: usize) -> [Kept<K>; 2] {
+        [Kept(self.0.clone()), self]
+    }
+}
+
+/// Parts of a window with what is known of them, by their places.
+pub(super) struct Levels<V> {
+    decided: Vec<(Place, V)>,
+    undecided: Vec<Place>,
+    stopped: Option<Stop>,
+}
+
+impl<V> Levels<V> {
+    fn windows(self, whole: &Window) -> Refined<V> {
+        Refined {
+            decided: self.decided.into_iter().map(|(place, verdict)| (place.window(whole), verdict)).collect(),
+            undecided: self.undecided.iter().map(|place| place.window(whole)).collect(),
+            stopped: self.stopped,
+        }
+    }
+}
+
+impl Levels<BoxVerdict> {
+    /// The boxes of the whole window.
+    pub fn into_map(self, window: &Window) -> BoxMap {
+        let Refined { decided, undecided, stopped } = self.windows(window);
+        let open = undecided.into_iter().map(|window| (window, BoxVerdict::Undecided));
+        let boxes = decided.into_iter().chain(open).map(|(window, verdict)| PlaneBox { window, verdict }).collect();
+        BoxMap::new(window.clone(), Vec::new(), boxes, stopped)
+    }
+}
+
+/// Halves all boxes of one size before the next, so that the answer does not depend on the number of threads, until what is undecided is at
+/// most a share `goal` (0 to 1) of the window or more boxes than `most` are undecided. Boxes to start with have their turn with those of
+/// their size. A budget that runs out leaves more undecided, and so does a look that stops.
+///
+/// Cost: that of the looks at about `1/h` boxes of side `h` along each boundary.
+pub(super) fn by_levels<K: Halves + Send, V: Send>(
+    starts: Vec<(Place, K)>,
+    goal: &Rational,
+    most: usize,
+    budget: &Budget,
+    look: impl Fn(&Place, &mut K) -> Result<Look<V, Infallible>, Exhausted> + Sync,
+) -> Levels<V> {
     let looked = |(place, mut known): (Place, K)| {
         let seen = budget.enter(|| look(&place, &mut known)).and_then(|seen| seen);
         (((place, known), None), seen)
@@ -70,15 +165,22 @@ pub(super) fn by_levels<K: Halves + Send>(
         (Some(_), Err(exhausted)) => vec![((cell, axis), Err(exhausted))],
     };
     let (mut decided, mut stopped) = (Vec::new(), None);
-    let mut undecided = vec![((Place::whole(), known), None)];
-    for halvings in 0..=MOST_HALVINGS {
-        let mut rest = std::mem::take(&mut undecided).into_iter();
+    let mut undecided: Vec<Undecided<K>> = Vec::new();
+    let mut later = starts;
+    for level in 0..=MOST_HALVINGS {
+        let (now, rest): (Vec<_>, Vec<_>) = later.into_iter().partition(|(place, _)| place.level() <= level);
+        later = rest;
+        let mut rest = std::mem::take(&mut undecided)
+            .into_iter()
+            .chain(now.into_iter().map(|cell| (cell, None)))
+            .collect::<Vec<_>>()
+            .into_iter();
         while stopped.is_none() && rest.len() > 0 {
             let group: Vec<Undecided<K>> = rest.by_ref().take(GROUP).collect();
             let tested: Vec<Vec<_>> = parallel_map(group, turn);
             for ((cell, axis), seen) in tested.into_iter().flatten() {
                 match seen {
-                    Ok(Look::Decided(verdict)) => decided.push(PlaneBox { window: cell.0.window(window), verdict }),
+                    Ok(Look::Decided(verdict)) => decided.push((cell.0, verdict)),
                     Ok(Look::Cut(axis)) => undecided.push((cell, Some(axis))),
                     Ok(Look::Open(never)) => match never {},
                     Err(exhausted) => {
@@ -87,21 +189,29 @@ pub(super) fn by_levels<K: Halves + Send>(
                     }
                 }
             }
-            budget.advance(decided.len() as u64, (decided.len() + undecided.len() + rest.len()) as u64);
+            let open = undecided.len() + rest.len() + later.len();
+            budget.advance(decided.len() as u64, (decided.len() + open) as u64);
         }
         undecided.extend(rest);
-        let is_enough = Rational::dyadic(&Integer::from(undecided.len() as u64), u64::from(halvings)) <= *goal;
-        if stopped.is_some() || is_enough {
+        let open = undecided.iter().map(|((place, _), _)| place).chain(later.iter().map(|(place, _)| place));
+        if stopped.is_some() || area(open) <= *goal {
             break;
         }
-        if undecided.len() > most || halvings == MOST_HALVINGS {
-            stopped = Some(Stop::Boxes { undecided: undecided.len() as u64, halvings });
+        if undecided.len() > most || level == MOST_HALVINGS {
+            stopped = Some(Stop::Boxes { undecided: (undecided.len() + later.len()) as u64, halvings: level });
             break;
         }
     }
-    let verdict = BoxVerdict::Undecided;
-    decided.extend(undecided.iter().map(|((place, _), _)| PlaneBox { window: place.window(window), verdict }));
-    BoxMap::new(window.clone(), Vec::new(), decided, stopped)
+    let undecided = undecided.into_iter().map(|(cell, _)| cell).chain(later).map(|(place, _)| place).collect();
+    Levels { decided, undecided, stopped }
+}
+
+/// The area of boxes as a share of the window's.
+fn area<'p>(places: impl Iterator<Item = &'p Place>) -> Rational {
+    let mut at_level: BTreeMap<u32, u64> = BTreeMap::new();
+    places.for_each(|place| *at_level.entry(place.level()).or_default() += 1);
+    let share = |(level, count): (u32, u64)| Rational::dyadic(&Integer::from(count), u64::from(level));
+    at_level.into_iter().map(share).fold(Rational::ZERO, |sum, share| sum + share)
 }
 
 #[cfg(test)]

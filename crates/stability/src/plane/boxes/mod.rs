@@ -11,8 +11,8 @@ use jurist_algebra::limits::Stop;
 use jurist_algebra::number::Rational;
 
 pub use by_curves::stability_boxes;
-pub use levels::Seen;
 pub(crate) use levels::subdivided;
+pub use levels::{Refined, Seen, refined};
 pub use place::Place;
 
 /// A bounded rectangle of two parameters.

@@ -35,9 +35,7 @@ impl Rows {
         let fixed = |v: &Integer| {
             let magnitude = v.abs();
             let scaled = if bits > BITS { &magnitude >> (bits - BITS) } else { &magnitude << (BITS - bits) };
-            let limbs = scaled.as_limbs();
-            let limb = |i: usize| i128::from(limbs.get(i).copied().unwrap_or(0));
-            let value = limb(0) | limb(1) << 64;
+            let value = scaled.to_i128().expect("so many bits fit");
             if v.is_negative() { -value } else { value }
         };
         let values = (0..self.0.len()).flat_map(|j| columns.iter().map(move |c| fixed(&c[j]))).collect();

@@ -32,6 +32,26 @@ impl Place {
         Window { x: side(0, &whole.x), y: side(1, &whole.y) }
     }
 
+    /// The place of a box; `None` where it does not come from halving the window.
+    pub fn of(part: &Window, whole: &Window) -> Option<Place> {
+        let side = |[low, high]: &[Rational; 2], [from, to]: &[Rational; 2]| -> Option<(u128, u32)> {
+            let length = high - low;
+            let parts = (to - from).checked_div(&length)?;
+            let number = (low - from).checked_div(&length)?;
+            let bits = parts.numerator().bit_length().checked_sub(1)?;
+            let is_power = parts == Rational::from(2).pow(bits as i64)?;
+            let number = number.is_integer().then(|| number.numerator())?;
+            is_power.then_some((u128::try_from(number.to_i128()?).ok()?, bits as u32))
+        };
+        let (x, y) = (side(&part.x, &whole.x)?, side(&part.y, &whole.y)?);
+        Some(Place { at: [x.0, y.0], halvings: [x.1, y.1] })
+    }
+
+    /// How often the window was halved.
+    pub fn level(&self) -> u32 {
+        self.halvings[0] + self.halvings[1]
+    }
+
     /// The axis along which it was halved less often.
     pub fn wider(&self) -> usize {
         usize::from(self.halvings[1] < self.halvings[0])

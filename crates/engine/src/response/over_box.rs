@@ -1,0 +1,355 @@
+//! Whether a requirement is met at all points of a box of parameters at once.
+//!
+//! What [`OverBoxes`](super::over_boxes::OverBoxes) does for an interval of one parameter, for any number of them: Taylor models in all
+//! parameters enclose the coefficients ([MakinoBerz2003](jurist_algebra::bibliography#makinoberz2003)), behind a hold as well as of a
+//! rational loop. The half plane is brought to the disc, so that there is one circle to go along.
+
+use super::affine::Affine;
+use super::along_circle::{Asked, Coefficient, twice_real};
+use super::family::{Quotient, nothing_comes_back};
+use super::requirement::{Requirement, Rule};
+use crate::coverage::refusals::MARGINS_AT_POINTS;
+use crate::error::{Code, Diagnostic, Error};
+use crate::model::{Cut, Opened};
+use crate::problem::{Problem, parametric_symbols};
+use crate::stability::Shape;
+use jurist_algebra::ball::{Ball, Elementary, Enclosed, MultiTaylorModel, exp};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly, RealAlgebraic};
+use jurist_algebra::symbols::{Definition, ParametricSymbols};
+use std::sync::Arc;
+
+/// Bits of coefficients, beside those that the box's size takes away.
+const BITS: u64 = 256;
+
+/// The least total degree of the Taylor models, and the greatest number of their coefficients.
+const LEAST_DEGREE: usize = 4;
+const MOST_TERMS: usize = 60;
+
+/// What a requirement asks of a loop in some parameters.
+pub(crate) struct OverBox {
+    symbols: ParametricSymbols,
+    shape: Shape,
+    /// The total degree of the Taylor models.
+    degree: usize,
+    /// In the half plane, a frequency of the loop as a power of two.
+    octave: i64,
+    asks: Asks,
+}
+
+enum Asks {
+    /// Of the open loop: the coefficients of the denominator, of the numerator without its content, that content, the number that is asked for,
+    /// and what must not vanish.
+    OpenLoop { rule: Rule, functions: Vec<MultiPoly>, sizes: [usize; 2] },
+    /// All roots in a sector: the coefficients of the closed loop, and the cosine of the sector's edge.
+    Sector { coefficients: Vec<MultiPoly>, cosine: Rational },
+    /// All roots in a smaller disc: the coefficients of the closed loop, and the logarithm of its radius.
+    Disc { coefficients: Vec<MultiPoly>, exponent: Rational },
+}
+
+/// What is known of all stable loops of a box.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Certain {
+    /// All meet the requirement.
+    Met,
+    /// None does.
+    Unmet,
+    /// All or none: any of them tells.
+    Same,
+}
+
+impl OverBox {
+    /// Of the free parameters of a problem, margins being taken at a cut. `near` is a point that tells how fast the loop is.
+    ///
+    /// `None` for a requirement that is not asked of boxes.
+    pub fn of(
+        problem: &Arc<Problem>,
+        requirement: &Requirement,
+        at: Option<&str>,
+        near: &[Rational],
+        budget: &Budget,
+    ) -> Result<Option<OverBox>, Error> {
+        let whole = problem.without_region();
+        let shape = problem.shape();
+        let (symbols, asks) = match requirement.rule() {
+            Rule::DeadTime(_) => return Ok(None),
+            Rule::Sector(_) if shape == Shape::UnitDisc => return Ok(None),
+            Rule::Sector(_) | Rule::Modulus { .. } => {
+                let algebra = whole.algebra_over_symbols(budget)?;
+                if !algebra.symbols().delays().is_empty() {
+                    return Err(MARGINS_AT_POINTS.diagnostic(&[]).into());
+                }
+                let Some(d) = algebra.polynomial() else { return Ok(None) };
+                let (p, _) = budget.enter(|| d.cleared())?;
+                let coefficients = (0..=d.formal_degree).map(|k| p.coeff(k)).collect();
+                let asks = match requirement.rule() {
+                    Rule::Sector(cosine) => Asks::Sector { coefficients, cosine: cosine.clone() },
+                    Rule::Modulus { exponent } => Asks::Disc { coefficients, exponent: exponent.clone() },
+                    _ => unreachable!("about roots"),
+                };
+                (parametric_symbols(algebra.symbols())?, asks)
+            }
+            rule => open_loop(&whole, rule, at, budget)?,
+        };
+        let mut found = OverBox { symbols, shape, degree: LEAST_DEGREE, octave: 0, asks };
+        // What cancels is seen where no terms of the parameters are left out.
+        let own = found.functions().iter().map(|f| degree_in(f, near.len())).max().unwrap_or(0);
+        found.degree = model_degree(near.len(), LEAST_DEGREE.max(own));
+        found.octave = budget.enter(|| found.octave_at(near))?;
+        Ok(Some(found))
+    }
+
+    /// What is known of all points of a closed box whose points are stable; `None` where nothing is.
+    ///
+    /// Cost: Taylor models of the coefficients, and values on some hundred pieces of the circle.
+    pub fn certain(&self, sides: &[[Rational; 2]]) -> Option<Certain> {
+        let width = sides.iter().map(|[low, high]| high - low).filter(|w| !w.is_zero()).min().unwrap_or(Rational::ONE);
+        let small = width.denominator().bit_length().saturating_sub(width.numerator().bit_length());
+        let bits = BITS + small.min(1 << 12);
+        let line = |[low, high]: &[Rational; 2]| {
+            let middle = low.midpoint(high);
+            (Ball::from_rational(&middle, bits), Ball::from_rational(&(high - &middle), bits))
+        };
+        let parameters = MultiTaylorModel::linear(&sides.iter().map(line).collect::<Vec<_>>(), self.degree);
+        let values = self.symbols.values(&parameters)?;
+        let at = |list: &[MultiPoly]| -> Vec<MultiTaylorModel> {
+            list.iter().map(|p| self.symbols.value(p, &values)).collect()
+        };
+        match &self.asks {
+            Asks::OpenLoop { rule, functions, sizes } => {
+                let all = at(functions);
+                let (d, rest) = all.split_at(sizes[0]);
+                let (n, rest) = rest.split_at(sizes[1]);
+                let [content, alpha, undefined] = rest else { return None };
+                if Elementary::range(undefined).contains_zero() {
+                    return None;
+                }
+                let [d, n] = self.on_circle([d, n]);
+                let is_met = Asked::of(rule, &d, (&n, content), alpha).certain()?;
+                Some(if is_met { Certain::Met } else { Certain::Unmet })
+            }
+            Asks::Sector { coefficients, cosine } => {
+                let square = on_ray(&at(coefficients), cosine, self.octave);
+                Asked::positive(&square).certain()?.then_some(Certain::Same)
+            }
+            Asks::Disc { coefficients, exponent } => {
+                let radius = exp(&Ball::from_rational(exponent, bits));
+                let mut power = Ball::from_integer(&Integer::ONE, bits);
+                let mut scaled = Vec::new();
+                for c in at(coefficients) {
+                    scaled.push(c.mul(&c.constant(&power)));
+                    power = power.mul(&radius);
+                }
+                let moved = combined(&scaled, |j, k| binomial(k, j));
+                Asked::positive(&twice_real(&moved, &moved)).certain()?.then_some(Certain::Same)
+            }
+        }
+    }
+
+    /// Two polynomials along the circle: in `w = z - 1`. In the half plane `s = c w/(w + 2)`, and both are multiplied by the same power of
+    /// `w + 2`.
+    fn on_circle(&self, both: [&[MultiTaylorModel]; 2]) -> [Vec<MultiTaylorModel>; 2] {
+        let degree = both[0].len().max(both[1].len()) - 1;
+        both.map(|p| match self.shape {
+            Shape::UnitDisc => p.to_vec(),
+            Shape::LeftHalfPlane => {
+                let scaled: Vec<MultiTaylorModel> = of_octave(p, self.octave, degree);
+                // w^k (w + 2)^(degree - k)
+                let share = |j: usize, k: usize| match j.checked_sub(k) {
+                    Some(i) if i <= degree - k => binomial(degree - k, i) << (degree - k - i) as u64,
+                    _ => Integer::ZERO,
+                };
+                combined_to(&scaled, degree + 1, share)
+            }
+        })
+    }
+
+    fn functions(&self) -> &[MultiPoly] {
+        match &self.asks {
+            Asks::OpenLoop { functions, .. } => functions,
+            Asks::Sector { coefficients, .. } | Asks::Disc { coefficients, .. } => coefficients,
+        }
+    }
+
+    /// The octave of the geometric mean of the roots' moduli near a point, where that is known.
+    fn octave_at(&self, near: &[Rational]) -> i64 {
+        if self.shape == Shape::UnitDisc {
+            return 0;
+        }
+        let list = match &self.asks {
+            Asks::OpenLoop { functions, sizes, .. } => &functions[..sizes[0]],
+            _ => self.functions(),
+        };
+        let parameters: Vec<MultiTaylorModel> = {
+            let zero = Ball::zero(BITS);
+            let lines: Vec<(Ball, Ball)> = near.iter().map(|x| (Ball::from_rational(x, BITS), zero.clone())).collect();
+            MultiTaylorModel::linear(&lines, 1)
+        };
+        let Some(values) = self.symbols.values(&parameters) else { return 0 };
+        let sizes: Vec<(usize, i64)> = list
+            .iter()
+            .map(|p| Elementary::range(&self.symbols.value(p, &values)).magnitude_units().bit_length() as i64)
+            .enumerate()
+            .filter(|(_, bits)| *bits > 0)
+            .collect();
+        match (sizes.first(), sizes.last()) {
+            (Some((low, small)), Some((high, large))) if low < high => (small - large).div_euclid((high - low) as i64),
+            _ => 0,
+        }
+    }
+}
+
+/// The open loop in the free parameters and symbols, and the number that a rule asks for as the last of them.
+fn open_loop(
+    problem: &Problem,
+    rule: &Rule,
+    at: Option<&str>,
+    budget: &Budget,
+) -> Result<(ParametricSymbols, Asks), Error> {
+    let cut = problem.model().cut(at)?;
+    if let Cut::Gain(name) = &cut {
+        let message = format!("requirements on margins need a cut at a signal, and '{name}' is a parameter");
+        return Err(Diagnostic::error(Code::Require, message).into());
+    }
+    let kept: Vec<String> = problem.free().iter().map(|free| free.name.clone()).collect();
+    let Opened { system, symbols, .. } = problem.model().opened(&cut, &kept, problem.set(), budget)?;
+    if !symbols.delays().is_empty() {
+        return Err(MARGINS_AT_POINTS.diagnostic(&[]).into());
+    }
+    let (quotient, undefined) = Quotient::of(&system, problem.shape(), MultiPoly::clone, budget)?;
+    if quotient.numerator.is_zero() {
+        return Err(nothing_comes_back(&cut));
+    }
+    let content = budget.enter(|| quotient.numerator.content())?;
+    let numerator = quotient.numerator.map(|c| c.div_exact(&content).expect("the content divides"));
+    let alpha = match rule {
+        Rule::Turned { twice_cosine } => twice_cosine.clone(),
+        Rule::Factors(factor) => factor.clone(),
+        _ => RealAlgebraic::from_rational(Rational::ZERO),
+    };
+    let table = parametric_symbols(&symbols)?;
+    let place = kept.len() + table.len();
+    let table = table.with("alpha", Definition::Algebraic(alpha));
+    let one_more = Poly::new(vec![MultiPoly::one(), MultiPoly::one()]);
+    let moved = |p: &Poly<MultiPoly>| match problem.shape() {
+        // In symbols, so that what cancels at z = 1 is seen.
+        Shape::UnitDisc => p.compose(&one_more).into_coeffs(),
+        Shape::LeftHalfPlane => p.coeffs().to_vec(),
+    };
+    let parts = budget.enter(|| [&quotient.denominator, &numerator].map(moved))?;
+    let sizes = [parts[0].len(), parts[1].len()];
+    let mut functions: Vec<MultiPoly> = parts.into_iter().flatten().collect();
+    functions.extend([content, MultiPoly::variable(place), undefined]);
+    Ok((table, Asks::OpenLoop { rule: rule.clone(), functions, sizes }))
+}
+
+/// The total degree in the first variables.
+fn degree_in(f: &MultiPoly, variables: usize) -> usize {
+    let total = |exponents: &[u32]| exponents.iter().take(variables).sum::<u32>() as usize;
+    f.terms().iter().map(|(monomial, _)| total(monomial.exponents())).max().unwrap_or(0)
+}
+
+/// A degree up to this one with which a Taylor model has not too many coefficients.
+fn model_degree(variables: usize, most: usize) -> usize {
+    let terms = |degree: usize| (1..=variables).fold(1, |n, i| n * (degree + i) / i);
+    (1..=most).rev().find(|&degree| terms(degree) <= MOST_TERMS).unwrap_or(1)
+}
+
+/// The square of the modulus on the ray with an angle of this negative cosine, `s = c t exp(j phi)`, as a polynomial in `y` with
+/// `t = y/(4 - y)`, times a power of `4 - y`.
+fn on_ray(p: &[MultiTaylorModel], cosine: &Rational, octave: i64) -> Vec<MultiTaylorModel> {
+    let n = p.len() - 1;
+    let scaled = of_octave(p, octave, n);
+    // q^m cos(m phi), of cos phi = -p/q.
+    let (top, bottom) = (-cosine.numerator(), cosine.denominator());
+    let mut cosines = vec![Integer::ONE, top.clone()];
+    for m in 2..=n {
+        let next = &(&(&top * &cosines[m - 1]) << 1) - &(&(&bottom * &bottom) * &cosines[m - 2]);
+        cosines.push(next);
+    }
+    let mut in_t = vec![p[0].nothing(); 2 * n + 1];
+    for (i, x) in scaled.iter().enumerate() {
+        for (j, y) in scaled.iter().enumerate() {
+            let m = i.abs_diff(j);
+            let weight = &cosines[m] * &bottom.pow((n - m) as u64);
+            in_t[i + j] = in_t[i + j].add(&x.mul(y).scaled(&weight));
+        }
+    }
+    // t^k (4 - y)^(2n) = y^k (4 - y)^(2n - k)
+    let degree = 2 * n;
+    combined_to(&in_t, degree + 1, |j, k| match j.checked_sub(k) {
+        Some(i) if i <= degree - k => {
+            let size = binomial(degree - k, i) << (2 * (degree - k - i)) as u64;
+            if i % 2 == 0 { size } else { -size }
+        }
+        _ => Integer::ZERO,
+    })
+}
+
+/// The coefficients of `p(c s)` with the frequency `c`, a power of two; where it is small, times `c^-degree`.
+fn of_octave(p: &[MultiTaylorModel], octave: i64, degree: usize) -> Vec<MultiTaylorModel> {
+    let power = |k: usize| match octave >= 0 {
+        true => octave as u64 * k as u64,
+        false => octave.unsigned_abs() * (degree - k) as u64,
+    };
+    p.iter().enumerate().map(|(k, c)| c.scaled(&(Integer::ONE << power(k)))).collect()
+}
+
+/// Sums of multiples, as many as there are terms.
+fn combined(p: &[MultiTaylorModel], share: impl Fn(usize, usize) -> Integer) -> Vec<MultiTaylorModel> {
+    combined_to(p, p.len(), share)
+}
+
+/// Sums of multiples: the first argument of `share` is the number of the sum, the second one that of the term.
+fn combined_to(p: &[MultiTaylorModel], count: usize, share: impl Fn(usize, usize) -> Integer) -> Vec<MultiTaylorModel> {
+    let one = |j: usize| {
+        p.iter().enumerate().fold(p[0].nothing(), |sum, (k, c)| {
+            let by = share(j, k);
+            if by.is_zero() { sum } else { sum.add(&c.scaled(&by)) }
+        })
+    };
+    (0..count).map(one).collect()
+}
+
+/// The number of ways to choose `k` of `n`.
+fn binomial(n: usize, k: usize) -> Integer {
+    if k > n {
+        return Integer::ZERO;
+    }
+    (0..k).fold(Integer::ONE, |product, i| {
+        (&product * &Integer::from((n - i) as u64)).div_mod_floor(&Integer::from(i as u64 + 1)).0
+    })
+}
+
+impl Coefficient for MultiTaylorModel {
+    fn plus(&self, other: &Self) -> Self {
+        self.add(other)
+    }
+
+    /// A product is rounded, but for that with zero.
+    fn times(&self, other: &Self) -> Self {
+        if self.is_nothing() || other.is_nothing() { self.nothing() } else { self.mul(other) }
+    }
+
+    fn scaled(&self, n: &Integer) -> Self {
+        MultiTaylorModel::scaled(self, n)
+    }
+
+    fn is_zero(&self) -> bool {
+        self.is_nothing()
+    }
+
+    fn affine(&self) -> Affine {
+        let mut terms = self.terms();
+        let middle = terms.next().map(|(_, c)| c.clone()).unwrap_or(Integer::ZERO);
+        let mut affine = Affine { middle, slopes: Vec::new(), rest: self.rest_units().clone(), bits: self.bits() };
+        for (exponents, c) in terms {
+            match exponents.iter().sum::<u32>() {
+                1 => affine.slopes.push(c.clone()),
+                _ => affine.rest += &c.abs(),
+            }
+        }
+        affine
+    }
+}

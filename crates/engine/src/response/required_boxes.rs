@@ -1,0 +1,208 @@
+//! In which boxes of a window a loop meets its requirements.
+
+use super::over_box::{Certain, OverBox};
+use super::requirement::Requirement;
+use crate::answer::{Answer, MapBoxes};
+use crate::coverage::refusals::NOT_IN_A_PLANE;
+use crate::error::Error;
+use crate::problem::Problem;
+use crate::stability::plane::boxes::{BoxMap, BoxVerdict, Refined, Window, refined};
+use crate::stability::subdivision::Look;
+use jurist_algebra::limits::{Budget, Exhausted, Stop};
+use jurist_algebra::number::Rational;
+use std::sync::Arc;
+
+/// The stable boxes of a window, cut further, by whether their points meet requirements.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct RequiredBoxes {
+    /// What is required.
+    pub requirements: Vec<Requirement>,
+    /// Where margins are taken, as it was asked for.
+    pub at: Option<String>,
+    /// The boxes, which tile the stable ones; by lower `x`, then by lower `y`.
+    pub boxes: Vec<RequiredBox>,
+    /// Their areas.
+    pub areas: RequiredAreas,
+    /// Why the subdivision stopped before so little was undecided as was asked for: `None` when it did not.
+    pub stopped: Option<Stop>,
+}
+
+/// An open box of stable points.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct RequiredBox {
+    /// The box.
+    pub window: Window,
+    /// Whether all requirements are met at all points, or not all at any; `None` where neither is proved.
+    pub met: Option<bool>,
+    /// The number of a requirement that is met at no point.
+    pub unmet: Option<usize>,
+}
+
+/// Exact areas, in the product of the parameters' units: their sum is that of the stable boxes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct RequiredAreas {
+    /// Of the boxes in which all requirements are met.
+    pub met: Rational,
+    /// Of those in which one is met nowhere.
+    pub unmet: Rational,
+    /// Of the rest.
+    pub undecided: Rational,
+}
+
+impl Answer<MapBoxes> {
+    /// The boxes with those inside of the stable ones in which requirements are met, margins being taken at a cut.
+    ///
+    /// A box is decided where no crossing of the open loop comes to where the requirement forbids it, at any of its points, or where one
+    /// is there at all of them. Requirements on roots are decided where no root comes to the edge of the required region, by one point.
+    ///
+    /// Cost: Taylor models of the open loop's coefficients and some hundred values along the circle for each of about `1/h` boxes of side `h`
+    /// along each boundary.
+    ///
+    /// # Errors
+    /// [`Error::Refused`] for a requirement that is not decided in boxes, and as [`OpenLoop::of`](super::OpenLoop::of);
+    /// [`Error::Stopped`] when the budget runs out before anything was cut.
+    ///
+    /// ```
+    /// use jurist_engine::answer::{BoxRequest, MapMethod, MapOrBoxes};
+    /// use jurist_engine::model::Model;
+    /// use jurist_engine::response::Requirement;
+    /// use jurist_engine::stability::Range;
+    /// use jurist_algebra::limits::Budget;
+    /// // z - 1 + K: at K/(z - 1) the gain margin is 2/K.
+    /// let text = "time = 'discrete'\n[parameters]\nK = 1/2\na = 1\n[loop]\ninputs = ['r']\noutputs = ['y']\n\
+    ///             [blocks.c]\ngain = 'K'\ninput = 'r - y'\noutput = 'u'\n[blocks.p]\ntransfer = 'a/(z - 1)'\ninput = 'u'\noutput = 'y'\n";
+    /// let model: Model = text.parse()?;
+    /// let range = |hi: i64| Range::between(Some(0.into()), Some(hi.into()));
+    /// let request = BoxRequest::new([range(2), range(1)], "1/50".parse()?);
+    /// let budget = Budget::unlimited();
+    /// let problem = model.ask().free("K").free("a").plane_problem()?;
+    /// let MapOrBoxes::Boxes(boxes) = problem.map_by(MapMethod::Boxes, &request, 6, &budget)? else { panic!("asked for") };
+    /// let found = boxes.with_requirements(&[Requirement::modulus_margin("1/2".parse()?)?], None, &budget)?;
+    /// let required = found.value().required.as_ref().unwrap();
+    /// // |1 + L| is least at z = -1, where it is 1 - K a/2: the hyperbola K a = 1 bounds an area of 1 + ln 2.
+    /// assert!(required.areas.met < "16932/10000".parse()? && required.areas.met > "165/100".parse()?);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn with_requirements(
+        self,
+        requirements: &[Requirement],
+        at: Option<&str>,
+        budget: &Budget,
+    ) -> Result<Answer<MapBoxes>, Error> {
+        let problem = self.problem().clone();
+        let found = budget.enter(|| problem.required_boxes(requirements, at, self.value(), budget))??;
+        let mut boxes = self.into_value();
+        boxes.required = Some(found);
+        Ok(Answer::new(problem, boxes))
+    }
+}
+
+impl Problem {
+    fn required_boxes(
+        self: &Arc<Self>,
+        requirements: &[Requirement],
+        at: Option<&str>,
+        found: &MapBoxes,
+        budget: &Budget,
+    ) -> Result<RequiredBoxes, Error> {
+        let BoxMap { window, boxes, .. } = &found.boxes;
+        let stable = boxes.iter().filter(|b| b.verdict == BoxVerdict::Stable).map(|b| b.window.clone());
+        let stable: Vec<Window> = stable.collect();
+        budget.step("boundaries of the requirements");
+        let largest = stable.iter().max_by_key(|b| b.area()).unwrap_or(window);
+        let near = middle(largest);
+        let mut of_boxes = Vec::with_capacity(requirements.len());
+        for requirement in requirements {
+            let known = OverBox::of(self, requirement, at, &near, budget)?;
+            of_boxes.push(known.ok_or_else(|| not_in_boxes(requirement))?);
+        }
+        let asked = Wanted { problem: self, requirements, at, of_boxes: &of_boxes, budget };
+        budget.step("requirements in the stable boxes");
+        let open: Vec<usize> = (0..requirements.len()).collect();
+        let refined = refined(window, &stable, open, &found.goal, budget, |place, open| {
+            asked.look(&place.window(window), open).map(|seen| seen.unwrap_or(Look::Cut(place.wider())))
+        });
+        Ok(RequiredBoxes::new(requirements, at, refined))
+    }
+}
+
+/// What is asked of each box.
+struct Wanted<'a> {
+    problem: &'a Arc<Problem>,
+    requirements: &'a [Requirement],
+    at: Option<&'a str>,
+    of_boxes: &'a [OverBox],
+    budget: &'a Budget,
+}
+
+impl Wanted<'_> {
+    /// The number of a requirement that no point of a box meets, or that all meet all; what is met everywhere leaves the list. `None` where
+    /// nothing is known of some requirement.
+    fn look<O>(&self, window: &Window, open: &mut Vec<usize>) -> Result<Option<Look<Option<usize>, O>>, Exhausted> {
+        let sides = [window.x.clone(), window.y.clone()];
+        let mut rest = Vec::new();
+        for &k in open.iter() {
+            self.budget.check()?;
+            let is_met = match self.of_boxes[k].certain(&sides) {
+                Some(Certain::Met) => Some(true),
+                Some(Certain::Unmet) => Some(false),
+                Some(Certain::Same) => self.is_met_at(k, &middle(window))?,
+                None => None,
+            };
+            match is_met {
+                Some(true) => {}
+                Some(false) => return Ok(Some(Look::Decided(Some(k)))),
+                None => rest.push(k),
+            }
+        }
+        *open = rest;
+        Ok(open.is_empty().then_some(Look::Decided(None)))
+    }
+
+    /// Whether a requirement is met at a stable point; `None` where that is not told.
+    fn is_met_at(&self, k: usize, point: &[Rational]) -> Result<Option<bool>, Exhausted> {
+        let names = self.problem.free().iter().map(|free| free.name.clone());
+        let question = self.problem.model().ask().set_all(self.problem.set().to_vec());
+        let question = question.set_all(names.zip(point.iter().cloned()));
+        let one = std::slice::from_ref(&self.requirements[k]);
+        let met = question.problem().and_then(|problem| problem.requirements_met(one, self.at, self.budget));
+        match met {
+            Ok(met) => Ok(Some(met.iter().all(|found| found.met))),
+            Err(Error::Stopped(stopped)) if !stopped.stop.is_precision() => Err(stopped),
+            Err(_) => Ok(None),
+        }
+    }
+}
+
+fn middle(window: &Window) -> Vec<Rational> {
+    [&window.x, &window.y].map(|[low, high]| low.midpoint(high)).into()
+}
+
+impl RequiredBoxes {
+    fn new(requirements: &[Requirement], at: Option<&str>, found: Refined<Option<usize>>) -> RequiredBoxes {
+        let decided =
+            found.decided.into_iter().map(|(window, unmet)| RequiredBox { window, met: Some(unmet.is_none()), unmet });
+        let open = found.undecided.into_iter().map(|window| RequiredBox { window, met: None, unmet: None });
+        let mut boxes: Vec<RequiredBox> = decided.chain(open).collect();
+        boxes.sort_by_cached_key(|b| (b.window.x[0].clone(), b.window.y[0].clone()));
+        let area = |met: Option<bool>| {
+            boxes.iter().filter(|b| b.met == met).fold(Rational::ZERO, |sum, b| sum + b.window.area())
+        };
+        let areas = RequiredAreas { met: area(Some(true)), unmet: area(Some(false)), undecided: area(None) };
+        RequiredBoxes {
+            requirements: requirements.to_vec(),
+            at: at.map(str::to_owned),
+            boxes,
+            areas,
+            stopped: found.stopped,
+        }
+    }
+}
+
+fn not_in_boxes(requirement: &Requirement) -> Error {
+    let help = "ask 'intervals' for one parameter, or 'verdict' with a value for every parameter";
+    NOT_IN_A_PLANE.diagnostic(&[("name", requirement.name()), ("help", help)]).into()
+}

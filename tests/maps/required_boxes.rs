@@ -1,0 +1,189 @@
+//! Boxes of two parameters in which requirements are met, against decisions at points.
+
+use crate::helpers::model::{keeping, load, read};
+use crate::helpers::number::{number, ratio};
+use crate::helpers::random::Random;
+use crate::helpers::required::{Known, is_met};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_engine::answer::{Answer, BoxRequest, MapBoxes, MapMethod, MapOrBoxes};
+use jurist_engine::error::Error;
+use jurist_engine::model::Model;
+use jurist_engine::response::{RequiredBox, Requirement};
+use jurist_engine::stability::Range;
+
+fn diagram(time: &str, names: [&str; 2], controller: &str, plant: &str, held: bool) -> Model {
+    let [x, y] = names;
+    let hold = if held { "discretize = 'zoh'\n" } else { "" };
+    read(&format!(
+        "time = '{time}'\nsample_time = 'T'\n[constants]\nT = 0.1\n[parameters]\n{x} = 1\n{y} = 1\n[loop]\ninputs = ['r']\n\
+         outputs = ['y']\n[[block]]\nname = 'c'\ninput = 'r - y'\noutput = 'u'\ntransfer = '{controller}'\n[[block]]\nname = 'p'\n\
+         input = 'u'\noutput = 'y'\ntransfer = '{plant}'\n{hold}"
+    ))
+}
+
+fn boxes(
+    model: &Model,
+    names: [&str; 2],
+    sides: [[&str; 2]; 2],
+    undecided: &str,
+    requirements: &[Requirement],
+) -> Answer<MapBoxes> {
+    let budget = Budget::unlimited();
+    let range = |[lower, upper]: [&str; 2]| Range::between(Some(number(lower)), Some(number(upper)));
+    let request = BoxRequest::new(sides.map(range), number(undecided));
+    let problem = keeping(model, &names).plane_problem().unwrap();
+    match problem.required_map_by((MapMethod::Boxes, &request), (requirements, Some("u")), 6, &budget) {
+        Ok(MapOrBoxes::Boxes(found)) => *found,
+        Ok(MapOrBoxes::Exact(_)) => panic!("boxes were asked for"),
+        Err(e) => panic!("{e}"),
+    }
+}
+
+fn required(answer: &Answer<MapBoxes>) -> &[RequiredBox] {
+    &answer.value().required.as_ref().unwrap().boxes
+}
+
+/// A point strictly inside of a box.
+fn inside(b: &RequiredBox, random: &mut Random) -> [Rational; 2] {
+    [&b.window.x, &b.window.y].map(|[low, high]| {
+        let share = ratio(1 + random.below(998) as i64, 1000);
+        low + &(&(high - low) * &share)
+    })
+}
+
+/// Boxes that say something of their points, and how many met and unmet ones were asked at a point.
+fn agrees(
+    answer: &Answer<MapBoxes>,
+    random: &mut Random,
+    points: usize,
+    met: impl Fn(&[Rational; 2]) -> bool,
+) -> [usize; 2] {
+    let told: Vec<&RequiredBox> = required(answer).iter().filter(|b| b.met.is_some()).collect();
+    let mut seen = [0; 2];
+    for _ in 0..points.min(told.len()) {
+        let b = told[random.below(told.len())];
+        let point = inside(b, random);
+        let found = met(&point);
+        assert_eq!(Some(found), b.met, "{} {}", point[0], point[1]);
+        seen[usize::from(found)] += 1;
+    }
+    seen
+}
+
+fn decided(model: &Model, names: [&str; 2], point: &[Rational; 2], requirement: &Requirement) -> bool {
+    let question = names.iter().zip(point).fold(model.ask(), |q, (name, x)| q.set(*name, x.clone()));
+    let problem = question.problem().unwrap();
+    problem.requirements_met(std::slice::from_ref(requirement), Some("u"), &Budget::unlimited()).unwrap()[0].met
+}
+
+/// Rational loops, in both times, against stable sets of factors and rotations.
+#[test]
+fn boxes_of_rational_loops_agree_with_a_second_decision() {
+    let mut random = Random::new(37);
+    let loops = [
+        ("continuous", "K + L/s", "2/((s + 1)*(s + 2))", [["0", "6"], ["0", "9"]]),
+        ("continuous", "K*(s + L)/s", "1000/(s*(s + 200))", [["0", "6"], ["0", "200"]]),
+        ("continuous", "K*(s - L)/(s + 3)", "1/(s + 1)", [["-2", "2"], ["-3", "3"]]),
+        ("discrete", "K", "(z - L)/(z - 1)^2", [["0", "2"], ["0", "1"]]),
+        ("discrete", "K + L/(z - 1)", "0.01/((z - 0.99)*(z - 0.5))", [["0", "50"], ["0", "2"]]),
+    ];
+    let kinds = [
+        (Requirement::gain_margin(&number("3/2")).unwrap(), Known::Gain(number("3/2"))),
+        (Requirement::phase_margin(&number("60")).unwrap(), Known::Phase(ratio(1, 3))),
+        (Requirement::modulus_margin(number("1/2")).unwrap(), Known::Circle([1, 0], number("1/2"))),
+        (Requirement::complementary_peak(number("3/2")).unwrap(), Known::Circle([0, 1], number("2/3"))),
+        (Requirement::disk_margin(number("1/2")).unwrap(), Known::Circle([1, -1], number("1/4"))),
+    ];
+    let mut seen = [0; 2];
+    for (time, controller, plant, sides) in loops {
+        let model = diagram(time, ["K", "L"], controller, plant, false);
+        for (requirement, known) in &kinds {
+            let answer = boxes(&model, ["K", "L"], sides, "1/10", std::slice::from_ref(requirement));
+            assert!(answer.value().stopped().is_none(), "{controller} {plant} {}", requirement.text());
+            let at = |p: &[Rational; 2]| is_met(&model, &[("K", &p[0]), ("L", &p[1])], Some("u"), known);
+            let [unmet, met] = agrees(&answer, &mut random, 16, at);
+            seen = [seen[0] + unmet, seen[1] + met];
+        }
+    }
+    assert!(seen[0] > 60 && seen[1] > 60, "{seen:?}");
+}
+
+/// Behind a hold with gains, with a constant of the plant and with the sample time, against crossings at points.
+#[test]
+fn boxes_behind_a_hold_agree_with_decisions_at_points() {
+    let mut random = Random::new(38);
+    let loops = [
+        (["K", "L"], "K + L*T/(z - 1)", "1/(0.5*s + 1)", [["0", "8"], ["0", "20"]]),
+        (["K", "L"], "K", "1/(s*(L*s + 1))", [["0", "8"], ["1/10", "2"]]),
+        (["K", "T"], "K", "1/((s + 1)*(s + 3))", [["0", "40"], ["1/10", "1"]]),
+    ];
+    let kinds = [
+        Requirement::phase_margin(&number("40")).unwrap(),
+        Requirement::gain_margin(&number("2")).unwrap(),
+        Requirement::modulus_margin(number("1/2")).unwrap(),
+    ];
+    let mut seen = [0; 2];
+    for (names, controller, plant, sides) in loops {
+        let model = match names[1] {
+            "T" => load(
+                "time = 'discrete'\nsample_time = 'T'\n[parameters]\nK = 1\nT = 0.5\n[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\n\
+                 name = 'c'\ninput = 'r - y'\noutput = 'u'\ntransfer = 'K'\n[[block]]\nname = 'p'\ninput = 'u'\noutput = 'y'\n\
+                 transfer = '1/((s + 1)*(s + 3))'\ndiscretize = 'zoh'\n",
+            ),
+            _ => diagram("discrete", names, controller, plant, true),
+        };
+        for requirement in &kinds {
+            let answer = boxes(&model, names, sides, "1/12", std::slice::from_ref(requirement));
+            let [unmet, met] = agrees(&answer, &mut random, 12, |p| decided(&model, names, p, requirement));
+            seen = [seen[0] + unmet, seen[1] + met];
+        }
+    }
+    assert!(seen[0] > 25 && seen[1] > 25, "{seen:?}");
+}
+
+/// Requirements on roots: damping of continuous loops, settling of discrete ones.
+#[test]
+fn boxes_of_requirements_on_roots_agree_with_decisions_at_points() {
+    let mut random = Random::new(39);
+    let damping = Requirement::damping(number("1/2")).unwrap();
+    let model = diagram("continuous", ["K", "L"], "K + L/s", "2/((s + 1)*(s + 2))", false);
+    let answer = boxes(&model, ["K", "L"], [["0", "6"], ["0", "9"]], "1/20", std::slice::from_ref(&damping));
+    let seen = agrees(&answer, &mut random, 40, |p| decided(&model, ["K", "L"], p, &damping));
+    assert!(seen[0] > 5 && seen[1] > 5, "{seen:?}");
+    let model = diagram("discrete", ["K", "L"], "K + L*T/(z - 1)", "1/(0.5*s + 1)", true);
+    let settling = [Requirement::settling_time(number("0.8"), &number("0.1")).unwrap()];
+    let answer = boxes(&model, ["K", "L"], [["0", "8"], ["0", "20"]], "1/20", &settling);
+    let seen = agrees(&answer, &mut random, 40, |p| decided(&model, ["K", "L"], p, &settling[0]));
+    assert!(seen[0] > 5 && seen[1] > 5, "{seen:?}");
+}
+
+/// `K/(s + a)`: `|1 + L|` is at least 1 for all positive gains, and the distance from -1 of `-K/(s + a)` is `1 - K/a`.
+#[test]
+fn a_requirement_that_is_known_by_hand() {
+    let half = Requirement::modulus_margin(number("1/2")).unwrap();
+    let model = diagram("continuous", ["K", "L"], "K", "1/(s + L)", false);
+    let met = |lower: &str, upper: &str| {
+        let answer = boxes(&model, ["K", "L"], [[lower, upper], ["1", "3"]], "1/100", std::slice::from_ref(&half));
+        let areas = &answer.value().required.as_ref().unwrap().areas;
+        (areas.met.clone(), &areas.met + &areas.undecided)
+    };
+    // All of it.
+    assert_eq!(met("0", "2").0, number("4"));
+    // K > -L/2: the triangle between K = -3/2 and K = -1/2 and the rectangle beside it, of the areas 1 and 1.
+    let (least, most) = met("-2", "0");
+    assert!(least <= number("2") && number("2") <= most && least > number("1.9"), "{least} {most}");
+}
+
+/// A requirement that boxes do not decide is refused in words, not left undecided.
+#[test]
+fn a_delay_margin_is_refused() {
+    let model = diagram("discrete", ["K", "L"], "K + L*T/(z - 1)", "1/(0.5*s + 1)", true);
+    let problem = keeping(&model, &["K", "L"]).plane_problem().unwrap();
+    let side = || Range::between(Some(0.into()), Some(1.into()));
+    let request = BoxRequest::new([side(), side()], number("1/10"));
+    let delay = Requirement::delay_margin(number("1/10")).unwrap();
+    let found = problem.required_map_by((MapMethod::Boxes, &request), (&[delay], Some("u")), 6, &Budget::unlimited());
+    let Err(Error::Refused(all)) = found else { panic!("a set was found") };
+    assert!(format!("{all}").contains("delay_margin"), "{all}");
+}
