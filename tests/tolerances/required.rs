@@ -9,7 +9,7 @@ use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, ToleranceAnswer, ToleranceRequest};
 use jurist_engine::error::Error;
 use jurist_engine::model::Model;
-use jurist_engine::response::Requirement;
+use jurist_engine::response::{RequiredEnd, Requirement};
 use jurist_engine::stability::boxes::BoxDecision;
 
 /// `K/(s (a s + 1)(s + 1))` in a loop.
@@ -250,4 +250,62 @@ fn a_requirement_over_constants_ends_where_its_set_does() {
         assert!(end.compare_rational(&upper).is_le(), "{}", requirement.text());
         assert!(&upper - &value(&factor.lower) < number("1/10000"), "{}", requirement.text());
     }
+}
+
+/// A PI controller of a lag behind a hold: constants of the plant and the sample time are inside of functions.
+const HELD: &str = "time = 'discrete'\nsample_time = 'T'\n[parameters]\ntau = { nominal = '1/2', tolerance = '20%' }\n\
+    T = { nominal = '1/10', tolerance = '10%' }\n[constants]\nL = 2\n[loop]\ninputs = ['r']\noutputs = ['y']\n\
+    [[block]]\nname = 'c'\ninput = 'r - y'\noutput = 'u'\ntransfer = '1 + L*T/(z - 1)'\n\
+    [[block]]\nname = 'p'\ninput = 'u'\noutput = 'y'\ntransfer = '1/(tau*s + 1)'\ndiscretize = 'zoh'\n";
+
+/// Corners and random points of the proved box meet the requirement, decided by crossings at each; the point beyond does not.
+#[test]
+fn requirements_behind_a_hold_hold_for_constants_of_the_plant() {
+    let model = load(HELD);
+    let mut random = Random::new(15);
+    for (name, text) in
+        [("phase_margin", "70 deg"), ("gain_margin", "5"), ("modulus_margin", "0.6"), ("disk_margin", "1")]
+    {
+        let requirement = requirement(&model, name, text);
+        let answer = asked(&model, &request(&model, &["tau", "T"], requirement.clone()));
+        let required = &answer.value().required[0];
+        let factor = required.factor.as_ref().unwrap();
+        assert!(factor.lower.sign().is_gt(), "{name} {text}");
+        let sides: Vec<[Rational; 2]> = answer.value().sides.iter().map(|side| side.at(&factor.lower)).collect();
+        for k in 0..8 {
+            let share = |i: usize, random: &mut Random| match k {
+                0..4 => Rational::from(i64::from(k >> i & 1 == 1)),
+                _ => Rational::new((random.below(1 << 16) as i64).into(), (1i64 << 16).into()),
+            };
+            let point: Vec<Rational> =
+                (0..2).map(|i| &sides[i][0] + &(&(&sides[i][1] - &sides[i][0]) * &share(i, &mut random))).collect();
+            assert!(is_met(&answer, &requirement, &point, None), "{name} {text}: {point:?}");
+        }
+        let upper = factor.upper.as_ref().unwrap();
+        assert!(upper - &factor.lower <= upper * &number("1e-3"), "{name} {text}: {} {upper}", factor.lower);
+        assert!(!is_met(&answer, &requirement, &factor.witness.as_ref().unwrap().point, None), "{name} {text}");
+        assert_eq!(required.decision.is_stable(), *upper > Rational::ONE, "{name} {text}");
+    }
+}
+
+/// Of one constant inside of functions the box grows to the end of the set in which the requirement is met.
+#[test]
+fn a_requirement_in_one_constant_behind_a_hold_ends_where_its_set_does() {
+    let model = load(HELD);
+    let requirement = requirement(&model, "phase_margin", "70 deg");
+    let problem = model.ask().free("tau").problem().unwrap();
+    let set =
+        problem.required_set(std::slice::from_ref(&requirement), None, &Budget::unlimited()).unwrap().into_value();
+    let around = set.intervals.iter().find(|i| i.contains(&number("1/2"))).expect("met at the nominal value");
+    let answer = asked(&model, &request(&model, &["tau"], requirement));
+    let factor = answer.value().required[0].factor.as_ref().unwrap();
+    let reaches = |factor: &Rational| {
+        let [low, high] = answer.value().sides[0].at(factor);
+        let is_beyond = |end: &Option<RequiredEnd>, x: &Rational, is_lower: bool| {
+            let order = end.as_ref().map(|end| end.value().compare_rational(x));
+            order.is_some_and(|order| if is_lower { order.is_ge() } else { order.is_le() })
+        };
+        is_beyond(&around.lower, &low, true) || is_beyond(&around.upper, &high, false)
+    };
+    assert!(!reaches(&factor.lower) && reaches(factor.upper.as_ref().unwrap()));
 }

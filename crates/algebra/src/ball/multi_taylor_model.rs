@@ -84,12 +84,18 @@ impl MultiTaylorModel {
         assert!(degree > 0, "a line has degree one");
         let monomials = Arc::new(Monomials::new(lines.len(), degree));
         let bits = lines.first().map_or(0, |(c, _)| c.bits());
-        let zero = MultiTaylorModel {
-            bits,
-            coefficients: vec![Integer::ZERO; monomials.exponents.len()],
-            rest: Integer::ZERO,
-            monomials,
-        };
+        let coefficients = vec![Integer::ZERO; monomials.exponents.len()];
+        MultiTaylorModel { bits, coefficients, rest: Integer::ZERO, monomials }.lines(lines)
+    }
+
+    /// The same in the variables and up to the degree of a known model: what does not depend on the lines is not computed again.
+    ///
+    /// # Panics
+    /// When the numbers of bits, or of variables, differ.
+    pub fn lines(&self, lines: &[(Ball, Ball)]) -> Vec<MultiTaylorModel> {
+        let bits = lines.first().map_or(0, |(c, _)| c.bits());
+        let zero = MultiTaylorModel { bits, ..self.nothing() };
+        assert!(zero.coefficients.len() > lines.len(), "each line has its variable");
         let line = |(i, (c, r)): (usize, &(Ball, Ball))| {
             assert!(c.bits() == bits && r.bits() == bits, "all balls have the same bits");
             let mut out = zero.constant(c);

@@ -31,8 +31,8 @@ const MOST_TERMS: usize = 60;
 pub(crate) struct OverBox {
     symbols: ParametricSymbols,
     shape: Shape,
-    /// The total degree of the Taylor models.
-    degree: usize,
+    /// A Taylor model in the parameters, of the degree that all have.
+    like: MultiTaylorModel,
     /// In the half plane, a frequency of the loop as a power of two.
     octave: i64,
     asks: Asks,
@@ -92,10 +92,10 @@ impl OverBox {
             }
             rule => open_loop(&whole, rule, at, budget)?,
         };
-        let mut found = OverBox { symbols, shape, degree: LEAST_DEGREE, octave: 0, asks };
+        let mut found = OverBox { symbols, shape, like: model(near.len(), 1), octave: 0, asks };
         // What cancels is seen where no terms of the parameters are left out.
         let own = found.functions().iter().map(|f| degree_in(f, near.len())).max().unwrap_or(0);
-        found.degree = model_degree(near.len(), LEAST_DEGREE.max(own));
+        found.like = model(near.len(), model_degree(near.len(), LEAST_DEGREE.max(own)));
         found.octave = budget.enter(|| found.octave_at(near))?;
         Ok(Some(found))
     }
@@ -111,7 +111,7 @@ impl OverBox {
             let middle = low.midpoint(high);
             (Ball::from_rational(&middle, bits), Ball::from_rational(&(high - &middle), bits))
         };
-        let parameters = MultiTaylorModel::linear(&sides.iter().map(line).collect::<Vec<_>>(), self.degree);
+        let parameters = self.like.lines(&sides.iter().map(line).collect::<Vec<_>>());
         let values = self.symbols.values(&parameters)?;
         let at = |list: &[MultiPoly]| -> Vec<MultiTaylorModel> {
             list.iter().map(|p| self.symbols.value(p, &values)).collect()
@@ -248,6 +248,13 @@ fn open_loop(
 fn degree_in(f: &MultiPoly, variables: usize) -> usize {
     let total = |exponents: &[u32]| exponents.iter().take(variables).sum::<u32>() as usize;
     f.terms().iter().map(|(monomial, _)| total(monomial.exponents())).max().unwrap_or(0)
+}
+
+/// A Taylor model in so many parameters up to this degree.
+fn model(parameters: usize, degree: usize) -> MultiTaylorModel {
+    let zero = || (Ball::zero(BITS), Ball::zero(BITS));
+    let lines: Vec<(Ball, Ball)> = (0..parameters).map(|_| zero()).collect();
+    MultiTaylorModel::linear(&lines, degree).swap_remove(0)
 }
 
 /// A degree up to this one with which a Taylor model has not too many coefficients.

@@ -51,7 +51,8 @@ pub struct BoxProof {
 
 impl BoxProof {
     /// The proof by so many cells that are in no tree.
-    pub(super) fn of_cells(scale: i64, beside: usize) -> BoxProof {
+    /// A proof by cells that are not kept.
+    pub fn of_cells(scale: i64, beside: usize) -> BoxProof {
         BoxProof { certain: Vec::new(), scale, weight: 0, pair: Tree::default(), beside }
     }
 
@@ -74,7 +75,12 @@ pub enum Outcome {
     /// On the way from the nominal point to this one stability is lost.
     Refuted(Vec<Rational>),
     /// Not decided with so many cells; the box of the cell that was looked at last.
-    Open { why: OpenReason, cell: Vec<[Rational; 2]> },
+    Open {
+        /// What ran out.
+        why: OpenReason,
+        /// The cell.
+        cell: Vec<[Rational; 2]>,
+    },
 }
 
 /// A cell of the search.

@@ -53,7 +53,7 @@ impl Problem {
             return Ok(self.answered(sides, AtPoint::Undefined, decision));
         };
         if !algebra.symbols().delays().is_empty() {
-            refuse_beside_functions(request)?;
+            refuse_beside_dead_time(request)?;
             let Some(p) = self.delayed_family(&nominal, budget)? else {
                 let decision = BoxDecision::NotStable { witness: None };
                 return Ok(self.answered(sides, AtPoint::Zero, decision));
@@ -61,7 +61,7 @@ impl Problem {
             return self.tolerance_of(&p, &Truth::of_points(self), sides, asked, budget);
         }
         if let Some(p) = self.moving_family(budget)? {
-            refuse_beside_functions(request)?;
+            refuse_exact(request)?;
             return self.tolerance_of(&p, &Truth::of_points(self), sides, asked, budget);
         }
         let truth = Truth::of(self, budget)?;
@@ -89,6 +89,7 @@ impl Problem {
             && at.is_stable(degree)
             && p.as_polynomial().is_none()
             && request.limit.is_none()
+            && request.requirements.is_empty()
             && let Some(answer) = self.tolerance_of_one(p, truth, (side, &at), asked, budget)?
         {
             return Ok(answer);
@@ -130,7 +131,23 @@ impl Problem {
             (asked.told)(&self.answered(sides.clone(), at.clone(), decision.clone()));
         }
         let part = budget.share(BRACKET_SHARE.0, BRACKET_SHARE.1);
-        let factor = boxes.bracket(search, known, &|_| request.gap.clone(), domain_factor.as_ref(), &part)?;
+        // Of functions a requirement is decided sooner than stability is lost: no box beyond its end is asked for.
+        let is_first = p.as_polynomial().is_none();
+        let mut earlier = Vec::new();
+        for requirement in request.requirements.iter().filter(|_| is_first) {
+            earlier.push(self.required_box(
+                requirement,
+                (&sides, truth),
+                request,
+                domain_factor.as_ref(),
+                p,
+                budget,
+            )?);
+        }
+        let ends = earlier.iter().filter_map(|found| found.factor.as_ref()?.upper.as_ref());
+        let most = ends.chain(&domain_factor).min().cloned();
+        let mut earlier = earlier.into_iter();
+        let factor = boxes.bracket(search, known, &|_| request.gap.clone(), most.as_ref(), &part)?;
         let factor = truth.factor(p, factor, budget)?;
         let decision = agreed(decision, &factor, None);
         let factor = bounded_by(&decision, factor, &sides);
@@ -139,8 +156,10 @@ impl Problem {
         for (k, requirement) in request.requirements.iter().enumerate() {
             let nearest = factor.as_ref().and_then(|factor| factor.upper.as_ref());
             let most = nearest.into_iter().chain(&domain_factor).min().cloned();
-            let Some(base) = p.as_polynomial() else { unreachable!("refused beside functions") };
-            let found = self.required_box(requirement, (&sides, truth), request, most.as_ref(), base, budget)?;
+            let found = match earlier.next() {
+                Some(found) => found,
+                None => self.required_box(requirement, (&sides, truth), request, most.as_ref(), p, budget)?,
+            };
             decision = worse(decision, found.decision.clone());
             factor = match (factor, found.factor.clone()) {
                 (Some(known), Some(own)) => {
@@ -339,12 +358,19 @@ fn refuse_volume(parameters: usize, request: &ToleranceRequest) -> Result<(), Er
         .into())
 }
 
-/// What is not asked of loops with functions of parameters, and with dead time.
-fn refuse_beside_functions(request: &ToleranceRequest) -> Result<(), Error> {
-    let what = match (request.requirements.first(), &request.volume, request.exact) {
-        (Some(_), ..) => "requirements on margins, damping or settling are",
-        (_, Some(_), _) => "the volume of a box is",
-        (.., true) => "the factor as an algebraic number is",
+/// What is not asked of loops with dead time.
+fn refuse_beside_dead_time(request: &ToleranceRequest) -> Result<(), Error> {
+    if request.requirements.is_empty() {
+        return refuse_exact(request);
+    }
+    Err(ONLY_THE_BOX.diagnostic(&[("what", "requirements on margins, damping or settling are")]).into())
+}
+
+/// What is not asked of loops with functions of parameters.
+fn refuse_exact(request: &ToleranceRequest) -> Result<(), Error> {
+    let what = match (&request.volume, request.exact) {
+        (Some(_), _) => "the volume of a box is",
+        (_, true) => "the factor as an algebraic number is",
         _ => return Ok(()),
     };
     Err(ONLY_THE_BOX.diagnostic(&[("what", what)]).into())

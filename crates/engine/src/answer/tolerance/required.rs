@@ -6,9 +6,11 @@ use super::{RequiredBox, ToleranceRequest};
 use crate::coverage::refusals::{MARGINS_IN_ONE, NOT_OVER_A_BOX};
 use crate::error::Error;
 use crate::problem::Problem;
-use crate::response::{Family, Requirement, Rule, half_tangent, radius_below};
+use crate::response::{Family, OverBox, RequiredFamily, Requirement, Rule, half_tangent, radius_below};
 use crate::stability::Shape;
-use crate::stability::boxes::{BoxDecision, BoxPolynomial, LargestFactor, OpenReason, Side, ToleranceProblem, Witness};
+use crate::stability::boxes::{
+    BoxDecision, BoxPolynomial, Family as StableFamily, LargestFactor, OpenReason, Side, ToleranceProblem, Witness,
+};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly};
@@ -17,6 +19,9 @@ use std::sync::Arc;
 
 /// Required numbers that are not rational are replaced by ones that ask for more, by a part in ten to this.
 const DIGITS: usize = 30;
+
+/// A bracket by Taylor models is not narrower than one part in so many.
+const LEAST_GAP: i64 = 10_000;
 
 /// The same of exponentials, in binary digits.
 const BITS: u64 = 100;
@@ -29,81 +34,47 @@ impl Problem {
     ///
     /// What is proved is proved of a number that asks for a little more where the required one is irrational; a point that does not
     /// meet the requirement is confirmed with the required number itself.
-    pub(super) fn required_box(
+    pub(super) fn required_box<F: StableFamily>(
         self: &Arc<Self>,
         requirement: &Requirement,
         (sides, truth): (&[Side], &Truth<'_>),
         request: &ToleranceRequest,
         most: Option<&Rational>,
-        base: &BoxPolynomial,
+        base: &F,
         budget: &Budget,
     ) -> Result<RequiredBox, Error> {
-        let of = |point: &[Rational]| self.breaks(requirement, &point[..sides.len()], request, (base, truth), budget);
+        let breaks =
+            |point: &[Rational]| self.breaks(requirement, &point[..sides.len()], request, (base, truth), budget);
+        let mut asked =
+            BoxAsked { sides, request, most, breaks: &breaks, budget, found: RequiredBox::new(requirement) };
+        if base.as_polynomial().is_none() {
+            let at = request.at.as_deref();
+            let over = OverBox::of(self, requirement, at, &asked.nominal(), budget)?;
+            let over = over.ok_or_else(|| not_over_a_box(requirement, "ask 'verdict' at points"))?;
+            let is_met = |point: &[Rational]| matches!(breaks(point), Ok(None));
+            let family = RequiredFamily::new(over, sides.len(), is_met);
+            asked.add(&family, sides.to_vec())?;
+            return Ok(asked.found);
+        }
         let beside = truth.beside(sides);
-        let mut found = RequiredBox {
-            requirement: requirement.clone(),
-            decision: BoxDecision::Undecided { why: OpenReason::Untried, cell: Vec::new() },
-            factor: None,
-            cells: 0,
-        };
         let families = self.families(requirement, request.at.as_deref(), beside.len(), budget)?;
-        let nominal: Vec<Rational> = sides.iter().map(|side| side.nominal().clone()).collect();
         // An open loop that crosses a circle nowhere over the box can lie on its wrong side.
         if matches!(requirement.rule(), Rule::Circle(_))
-            && let Some(witness) = of(&nominal)?
+            && let Some(witness) = breaks(&asked.nominal())?
         {
-            found.decision = BoxDecision::NotStable { witness: Some(witness) };
-            return Ok(found);
+            asked.found.decision = BoxDecision::NotStable { witness: Some(witness) };
+            return Ok(asked.found);
         }
-        for (index, (p, own)) in families.iter().enumerate() {
+        for (p, own) in &families {
             let all: Vec<Side> = beside.iter().chain(own).cloned().collect();
-            let Some(boxes) = budget.enter(|| ToleranceProblem::new(p, all.clone()))? else {
-                found.decision = match of(&nominal)? {
-                    Some(witness) => BoxDecision::NotStable { witness: Some(witness) },
-                    None => BoxDecision::Undecided { why: OpenReason::NoRoom, cell: Vec::new() },
-                };
-                found.factor = None;
-                return Ok(found);
-            };
-            if boxes.coefficients().is_none() {
+            if let Some(boxes) = ToleranceProblem::new(p, all.clone()).filter(|boxes| boxes.coefficients().is_none()) {
                 return Err(too_many(&boxes));
             }
-            let search = boxes.searched(budget)?;
-            let refuted = match boxes.refuted(&search, &Rational::ONE) {
-                Some(witness) => of(&witness.point)?,
-                None => None,
-            };
-            let at_edge = || BoxDecision::Undecided { why: OpenReason::Edge, cell: Vec::new() };
-            let decision = match refuted {
-                Some(witness) => BoxDecision::NotStable { witness: Some(witness) },
-                None => match boxes.decide(&Rational::ONE, budget)? {
-                    BoxDecision::NotStable { witness: Some(witness) } => match of(&witness.point)? {
-                        Some(witness) => BoxDecision::NotStable { witness: Some(witness) },
-                        None => at_edge(),
-                    },
-                    BoxDecision::NotStable { witness: None } => at_edge(),
-                    BoxDecision::Undecided { why, mut cell } => {
-                        cell.truncate(sides.len());
-                        BoxDecision::Undecided { why, cell }
-                    }
-                    stable => stable,
-                },
-            };
-            if let BoxDecision::Stable(proof) = &decision {
-                found.cells += proof.cells();
+            if !asked.add(p, all)? {
+                break;
             }
-            let nearest = found.factor.as_ref().and_then(|factor| factor.upper.as_ref());
-            let most = most.into_iter().chain(nearest).min().cloned();
-            let bracket = boxes.bracket(search, None, &|_| request.gap.clone(), most.as_ref(), budget)?;
-            let bracket = of_parameters(&boxes, bracket, sides.len(), of)?;
-            let decision = agreed(decision, &bracket, None);
-            found.factor = Some(match found.factor.take() {
-                None => bracket,
-                Some(known) => nearer(known, bracket).0,
-            });
-            found.decision = if index == 0 { decision } else { worse(found.decision, decision) };
         }
-        Ok(found)
+        Ok(asked.found)
     }
 
     /// The point as a witness, if a requirement is not met there.
@@ -112,7 +83,7 @@ impl Problem {
         requirement: &Requirement,
         point: &[Rational],
         request: &ToleranceRequest,
-        (base, truth): (&BoxPolynomial, &Truth<'_>),
+        (base, truth): (&impl StableFamily, &Truth<'_>),
         budget: &Budget,
     ) -> Result<Option<Witness>, Error> {
         let names = self.free().iter().map(|free| free.name.clone());
@@ -206,6 +177,90 @@ impl Problem {
     }
 }
 
+impl RequiredBox {
+    fn new(requirement: &Requirement) -> RequiredBox {
+        RequiredBox {
+            requirement: requirement.clone(),
+            decision: BoxDecision::Undecided { why: OpenReason::Untried, cell: Vec::new() },
+            factor: None,
+            cells: 0,
+        }
+    }
+}
+
+/// What is asked of a requirement over a box, and what is found so far.
+struct BoxAsked<'a, B> {
+    sides: &'a [Side],
+    request: &'a ToleranceRequest,
+    most: Option<&'a Rational>,
+    /// The point as a witness, if the requirement is not met there.
+    breaks: &'a B,
+    budget: &'a Budget,
+    found: RequiredBox,
+}
+
+impl<B: Fn(&[Rational]) -> Result<Option<Witness>, Error>> BoxAsked<'_, B> {
+    fn nominal(&self) -> Vec<Rational> {
+        self.sides.iter().map(|side| side.nominal().clone()).collect()
+    }
+
+    /// Asks one more family whose stability is required, over these sides: its own parameters may follow. False where its nominal point
+    /// is not stable.
+    fn add<F: StableFamily>(&mut self, p: &F, all: Vec<Side>) -> Result<bool, Error> {
+        let is_first = matches!(self.found.decision, BoxDecision::Undecided { why: OpenReason::Untried, .. });
+        let Some(boxes) = self.budget.enter(|| ToleranceProblem::new(p, all))? else {
+            self.found.decision = match (self.breaks)(&self.nominal())? {
+                Some(witness) => BoxDecision::NotStable { witness: Some(witness) },
+                None => BoxDecision::Undecided { why: OpenReason::NoRoom, cell: Vec::new() },
+            };
+            self.found.factor = None;
+            return Ok(false);
+        };
+        let search = boxes.searched(self.budget)?;
+        let refuted = match boxes.refuted(&search, &Rational::ONE) {
+            Some(witness) => (self.breaks)(&witness.point)?,
+            None => None,
+        };
+        let at_edge = || BoxDecision::Undecided { why: OpenReason::Edge, cell: Vec::new() };
+        let decision = match refuted {
+            Some(witness) => BoxDecision::NotStable { witness: Some(witness) },
+            None => match boxes.decide(&Rational::ONE, self.budget)? {
+                BoxDecision::NotStable { witness: Some(witness) } => match (self.breaks)(&witness.point)? {
+                    Some(witness) => BoxDecision::NotStable { witness: Some(witness) },
+                    None => at_edge(),
+                },
+                BoxDecision::NotStable { witness: None } => at_edge(),
+                BoxDecision::Undecided { why, mut cell } => {
+                    cell.truncate(self.sides.len());
+                    BoxDecision::Undecided { why, cell }
+                }
+                stable => stable,
+            },
+        };
+        if let BoxDecision::Stable(proof) = &decision {
+            self.found.cells += proof.cells();
+        }
+        let nearest = self.found.factor.as_ref().and_then(|factor| factor.upper.as_ref());
+        let most = self.most.into_iter().chain(nearest).min().cloned();
+        let gap = |_: &Rational| match p.as_polynomial() {
+            Some(_) => self.request.gap.clone(),
+            None => self.request.gap.clone().max(Rational::new(1.into(), LEAST_GAP.into())),
+        };
+        let bracket = boxes.bracket(search, None, &gap, most.as_ref(), self.budget)?;
+        let bracket = of_parameters(&boxes, bracket, self.sides.len(), self.breaks)?;
+        let decision = agreed(decision, &bracket, None);
+        self.found.factor = Some(match self.found.factor.take() {
+            None => bracket,
+            Some(known) => nearer(known, bracket).0,
+        });
+        self.found.decision = match is_first {
+            true => decision,
+            false => worse(self.found.decision.clone(), decision),
+        };
+        Ok(true)
+    }
+}
+
 fn not_over_a_box(requirement: &Requirement, help: &str) -> Error {
     NOT_OVER_A_BOX.diagnostic(&[("name", requirement.name()), ("help", help)]).into()
 }
@@ -238,8 +293,8 @@ pub(super) fn nearer(a: LargestFactor, b: LargestFactor) -> (LargestFactor, bool
 
 /// The bracket without the family's own parameter; its upper end only where the point there, or one just beyond, is confirmed: at the
 /// edge itself a requirement may be met.
-fn of_parameters(
-    boxes: &ToleranceProblem,
+fn of_parameters<F: StableFamily>(
+    boxes: &ToleranceProblem<'_, F>,
     mut bracket: LargestFactor,
     parameters: usize,
     confirmed: impl Fn(&[Rational]) -> Result<Option<Witness>, Error>,
