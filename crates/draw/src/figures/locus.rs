@@ -233,10 +233,9 @@ fn outlined(whole: &mut Panel, window: &Square, near: &Square) {
     let (x, y) = (near.x(), near.y());
     whole.curves.push(Curve {
         points: vec![(x.0, y.0), (x.1, y.0), (x.1, y.1), (x.0, y.1), (x.0, y.0)],
-        label: None,
         colour: "#555555".into(),
         width: 0.9,
-        dashed: false,
+        ..Curve::default()
     });
     // Towards the middle of the picture, where there is room.
     let (right, up) = (near.centre.0 > window.centre.0, near.centre.1 > window.centre.1);
@@ -293,7 +292,7 @@ fn frame(figure: &LocusFigure<'_>, window: &Square, title: String) -> Panel {
                 label: Some(word.into()),
                 colour: colour.into(),
                 width: 1.8,
-                dashed: false,
+                ..Curve::default()
             });
         }
     }
@@ -319,7 +318,7 @@ fn boundary(discrete: bool, window: &Square) -> Curve {
         label: Some(if discrete { "unit circle" } else { "imaginary axis" }.into()),
         colour: "#777777".into(),
         width: 1.0,
-        dashed: false,
+        ..Curve::default()
     }
 }
 

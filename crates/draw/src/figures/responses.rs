@@ -32,7 +32,7 @@ pub fn response_panel(title: &str, time_unit: &str, y_label: &str, curves: &[Res
             label: (!c.label.is_empty()).then(|| c.label.to_string()),
             colour: COLOURS[k % COLOURS.len()].into(),
             width: if k == 0 { 1.3 } else { 1.1 },
-            dashed: false,
+            ..Curve::default()
         })
         .collect();
     let all = || drawn.iter().flat_map(|c| c.points.iter());
