@@ -1,5 +1,6 @@
 //! The root locus: the whole of it, and magnified where roots cross the boundary.
 
+mod beyond;
 mod marks;
 mod range;
 mod windows;
@@ -32,6 +33,8 @@ pub struct LocusFigure<'a> {
     pub time: Time,
     /// The roots.
     pub locus: &'a RootLocus,
+    /// The same outside of the range, drawn thin.
+    pub beyond: &'a RootLocus,
     /// Parameter ranges that are certified stable (ends rounded), lower and upper.
     pub stable: &'a [(f64, f64)],
     /// Certified points of the boundary.
@@ -58,10 +61,10 @@ pub struct DrawnLocus {
     pub locus: RootLocus,
     /// The certified crossings that lie in the range.
     pub crossings: Vec<Crossing>,
-    /// The whole picture and the magnified one, side by side.
+    /// The whole picture and the magnified one, if anything crosses, side by side.
     pub figure: Figure,
-    /// The two pictures, each alone, for a page that may be narrow.
-    pub parts: [Figure; 2],
+    /// The same pictures, each alone, for a page that may be narrow.
+    pub parts: Vec<Figure>,
 }
 
 /// The characteristic polynomial, exact or with constants rounded far beyond what is seen.
@@ -120,7 +123,7 @@ pub fn locus_of(
     let focus = Complex::new(if discrete { 1.0 } else { 0.0 }, 0.0);
     let (mut through, mut crossings, mut stable) = (Vec::new(), Vec::new(), Vec::new());
     for interval in answer.value().intervals() {
-        let mut ends = [range.0.to_f64_approximate(), range.1.to_f64_approximate()];
+        let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
         for (end, slot) in [(&interval.lower, 0), (&interval.upper, 1)] {
             let Some(end) = end else { continue };
             let (lo, hi) = end.value.refined_to_digits(15).enclosure();
@@ -151,21 +154,39 @@ pub fn locus_of(
     through.extend(problem.parameter().nominal.clone());
     let options = LocusOptions { lower: range.0.clone(), upper: range.1.clone(), scale, focus, through, reach };
     let locus = trace_root_locus(of, &options, budget)?;
-    let name = &problem.parameter().name;
-    let unit = visible(problem.parameter().unit.as_deref().unwrap_or_default()).into_owned();
-    let shown = |value: &Rational| quantity(&to_decimal(value, 4), &unit);
+    let whole = polynomial.whole();
+    let gain = whole.as_deref().and_then(marks::as_gain);
+    let beyond = match &gain {
+        Some((_, zeros)) => beyond::of(of, zeros, &problem.parameter().domain, &options, budget)?,
+        None => RootLocus::default(),
+    };
+    let shown = |value: &Rational| quantity(&to_decimal(value, 4), &unit_of(problem));
     let nominal = problem.parameter().nominal.as_ref().and_then(|value| Some((value, of(value)?)));
-    let nominal = nominal.map(|(value, p)| (format!("closed loop at {name} = {}", quantity(&short(value), &unit)), p));
+    let name = &problem.parameter().name;
+    let nominal = nominal
+        .map(|(value, p)| (format!("closed loop at {name} = {}", quantity(&short(value), &unit_of(problem))), p));
     let ends = Ends { parameter: name, range: [shown(&range.0), shown(&range.1)] };
-    let marks = marks::of(polynomial.whole().as_deref(), nominal, &locus, &ends);
+    let marks = marks::of(gain.as_ref(), nominal, &locus, &ends);
     let mut heading = heading(&format!("Root locus in {name}"), problem);
-    heading.notes.insert(0, format!("{name} from {} to {}", shown(&range.0), shown(&range.1)));
-    let figure =
-        LocusFigure { time: problem.time(), locus: &locus, stable: &stable, crossings: &crossings, marks: &marks };
+    let thin = if beyond.pieces.is_empty() { "" } else { "; thin lines are beyond" };
+    heading.notes.insert(0, format!("{name} from {} to {}{thin}", shown(&range.0), shown(&range.1)));
+    let figure = LocusFigure {
+        time: problem.time(),
+        locus: &locus,
+        beyond: &beyond,
+        stable: &stable,
+        crossings: &crossings,
+        marks: &marks,
+    };
     let panels = locus_panels(&figure);
     let figure = side_by_side(&panels, SIDE, HEIGHT).headed(&heading);
-    let parts = panels.map(|p| p.figure(SIDE, HEIGHT).headed(&heading));
+    let parts = panels.iter().map(|p| p.figure(SIDE, HEIGHT).headed(&heading)).collect();
     Ok(DrawnLocus { locus, crossings, figure, parts })
+}
+
+/// The unit of the parameter, empty if it has none.
+fn unit_of(problem: &Problem) -> String {
+    visible(problem.parameter().unit.as_deref().unwrap_or_default()).into_owned()
 }
 
 /// Where on the boundary the roots are at an end, and its label; nothing for ends without a root
@@ -198,34 +219,41 @@ fn crossing(end: &End, value: &Rational, problem: &Problem) -> Option<Crossing> 
 const STABLE: &str = COLOURS[0];
 const OTHER: &str = COLOURS[1];
 
+/// Width of what lies outside of the range.
+const THIN: f64 = 0.9;
+
 /// Width and height of a panel.
 const SIDE: f64 = 520.0;
 const HEIGHT: f64 = 580.0;
 
-/// The locus in two panels of equal axes, first the whole, then magnified where roots cross the boundary.
+/// The locus in panels of equal axes, first the whole, then magnified where roots cross the boundary, if they do.
 ///
 /// The colour follows the certified intervals, not the drawn roots; crossings are drawn where the
 /// certified answer has them, on the circle or the axis. Each is labelled in one panel.
-pub fn locus_panels(figure: &LocusFigure<'_>) -> [Panel; 2] {
+pub fn locus_panels(figure: &LocusFigure<'_>) -> Vec<Panel> {
     let whole_window = windows::whole(figure);
+    let outside = windows::outside(figure, &whole_window);
+    let mut whole = frame(figure, &whole_window, "whole locus".to_owned());
+    whole.legend = Some(Corner::Above);
+    if outside > 0 {
+        let lie = if outside == 1 { "mark lies" } else { "marks lie" };
+        whole.notes.push(format!("{outside} {lie} outside the picture"));
+    }
+    if figure.crossings.is_empty() {
+        whole.title = String::new();
+        return vec![whole];
+    }
     let near_window = windows::near(figure, &whole_window);
     let times = whole_window.half / near_window.half;
     let times = if times < 9.5 { format!("{times:.1}") } else { format!("{times:.0}") };
-    let mut whole = frame(figure, &whole_window, "whole locus".to_owned());
     let mut near = frame(figure, &near_window, format!("{times} times larger"));
     whole.texts = labels(figure, &whole_window, |z| !near_window.contains(z));
     near.texts = labels(figure, &near_window, |z| near_window.contains(z));
     if whole_window.half > 1.5 * near_window.half {
         outlined(&mut whole, &whole_window, &near_window);
     }
-    whole.legend = Some(Corner::Above);
     near.legend = Some(Corner::Above);
-    let outside = windows::outside(figure, &whole_window);
-    if outside > 0 {
-        let lie = if outside == 1 { "mark lies" } else { "marks lie" };
-        whole.notes.push(format!("{outside} {lie} outside the picture"));
-    }
-    [whole, near]
+    vec![whole, near]
 }
 
 /// What the other panel shows, as a rectangle with its name.
@@ -284,16 +312,13 @@ fn frame(figure: &LocusFigure<'_>, window: &Square, title: String) -> Panel {
     };
     panel.curves.push(boundary(discrete, window));
     let is_stable = |value: f64| figure.stable.iter().any(|(a, b)| value >= *a && value <= *b);
-    for branch in figure.locus.branches() {
-        for (inside, points) in runs(&branch.points, is_stable) {
-            let (colour, word) = if inside { (STABLE, "stable (certified)") } else { (OTHER, "not stable") };
-            panel.curves.push(Curve {
-                points,
-                label: Some(word.into()),
-                colour: colour.into(),
-                width: 1.8,
-                ..Curve::default()
-            });
+    for (locus, width) in [(figure.beyond, THIN), (figure.locus, 1.8)] {
+        for branch in locus.branches() {
+            for (inside, points) in runs(&branch.points, is_stable) {
+                let (colour, word) = if inside { (STABLE, "stable (certified)") } else { (OTHER, "not stable") };
+                let label = (width > THIN).then(|| word.to_owned());
+                panel.curves.push(Curve { points, label, colour: colour.into(), width, ..Curve::default() });
+            }
         }
     }
     panel.marks = marks::drawn(figure);

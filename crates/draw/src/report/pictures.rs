@@ -37,13 +37,12 @@ pub(super) fn locus(limits: &[Limits], parts: &Parts<'_>) -> String {
         Err(missing) => return missing.html(),
         Ok(drawn) => drawn,
     };
-    let [whole, near] = &drawn.parts;
-    let caption = "The roots are floating point; colours and crossings are those of the exact answer";
-    let mut html = format!(
-        "<div class=\"grid two\">{}{}</div>\n",
-        figure("locus-whole", whole, caption),
-        figure("locus-near", near, "The same, magnified where roots cross the boundary")
-    );
+    let captions = [
+        ("locus-whole", "The roots are floating point; colours and crossings are those of the exact answer"),
+        ("locus-near", "The same, magnified where roots cross the boundary"),
+    ];
+    let parts = drawn.parts.iter().zip(captions).map(|(part, (name, caption))| figure(name, part, caption));
+    let mut html = format!("<div class=\"grid two\">{}</div>\n", parts.collect::<String>());
     if !drawn.crossings.is_empty() {
         let lines: String = drawn.crossings.iter().map(|c| format!("<li>{}</li>", math(&c.label))).collect();
         html.push_str(&format!("<p>The boundary is crossed at</p><ul>{lines}</ul>\n"));
