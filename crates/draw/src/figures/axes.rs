@@ -176,6 +176,10 @@ fn step_among(series: &[f64], range: (f64, f64), count: f64) -> f64 {
 const TICK_SIZE: f64 = 11.0;
 const TITLE_SIZE: f64 = 12.0;
 
+/// Fewer labelled ticks than these are few on an axis along y; how far apart two are at least.
+const FEW_TICKS: usize = 5;
+const LEAST_BETWEEN: f64 = 15.0;
+
 /// What the words at a tick keep free of the edge of the figure.
 const EDGE: f64 = 4.0;
 /// Below the axes: numbers and the title.
@@ -203,8 +207,21 @@ impl Frame {
     }
 
     fn y_ticks(&self) -> Vec<Tick> {
-        let count = if self.equal { self.plot.width / 80.0 } else { self.plot.height / 40.0 };
-        self.y.ticks(count.max(2.0))
+        if self.equal {
+            return self.y.ticks((self.plot.width / 80.0).max(2.0));
+        }
+        // More of them where there are few and they have room.
+        let count = (self.plot.height / 40.0).max(2.0);
+        let labelled = |ticks: &[Tick]| ticks.iter().filter(|t| t.label.is_some()).count();
+        let mut ticks = self.y.ticks(count);
+        for times in [1.4, 2.0, 2.6] {
+            let finer = self.y.ticks(times * count);
+            if labelled(&ticks) >= FEW_TICKS || self.plot.height < LEAST_BETWEEN * labelled(&finer) as f64 {
+                break;
+            }
+            ticks = finer;
+        }
+        ticks
     }
 
     /// How much room the numbers and the title on the left need.

@@ -59,12 +59,18 @@ pub fn axis_label(name: &str, unit: &str) -> String {
     }
 }
 
-/// One panel for each of these signals of a run; of a run that is `sampled` each value holds until the next.
-pub fn response_panels(time_unit: &str, trace: &Trace, signals: &[String], sampled: bool) -> Vec<Panel> {
-    let held = if sampled { stairs(trace) } else { trace.clone() };
+/// One panel for each of these signals of a run; of those that are `sampled` each value holds until the next.
+pub fn response_panels(
+    time_unit: &str,
+    trace: &Trace,
+    signals: &[String],
+    sampled: impl Fn(&str) -> bool,
+) -> Vec<Panel> {
+    let in_stairs = stairs(trace);
     let panel = |name: &String| {
+        let held = if sampled(name) { &in_stairs } else { trace };
         let label = axis_label(name, trace.signal(name).map_or("", |s| &s.unit));
-        response_panel("", time_unit, &label, &[ResponseCurve { trace: &held, signal: name, label: "" }])
+        response_panel("", time_unit, &label, &[ResponseCurve { trace: held, signal: name, label: "" }])
     };
     signals.iter().map(panel).collect()
 }

@@ -88,5 +88,5 @@ fn draw_response(
     let said = if said.is_empty() { "All inputs are 0.".to_owned() } else { format!("With {}.", said.join(", ")) };
     let run = course.run_within(problem, MOST_SAMPLES, budget)?;
     let answer = SimulationAnswer { trace: run.trace, sample_time: run.sample_time, circuit: None };
-    Ok((response_figure(problem, &answer, &run.finals, verdict.value().verdict), said))
+    Ok((response_figure(problem, &answer, &run.finals, verdict.value().verdict, course.is_duration_asked()), said))
 }

@@ -76,6 +76,11 @@ impl Course {
         Ok(Course { inputs, initial, duration, least_samples })
     }
 
+    /// Whether the model or the caller named the duration.
+    pub fn is_duration_asked(&self) -> bool {
+        self.least_samples < LEAST_SAMPLES
+    }
+
     /// Whether nothing moves the loop.
     pub fn is_at_rest(&self) -> bool {
         self.inputs.is_empty() && self.initial.is_empty()
