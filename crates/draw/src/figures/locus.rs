@@ -59,6 +59,10 @@ pub struct LocusMark {
 pub struct DrawnLocus {
     /// The roots.
     pub locus: RootLocus,
+    /// The same of a gain outside of the range.
+    pub beyond: RootLocus,
+    /// The poles and the zeros of the open loop, each once, where the parameter is a gain.
+    pub open_loop: Option<[Vec<Complex<f64>>; 2]>,
     /// The certified crossings that lie in the range.
     pub crossings: Vec<Crossing>,
     /// The whole picture and the magnified one, if anything crosses, side by side.
@@ -181,7 +185,8 @@ pub fn locus_of(
     let panels = locus_panels(&figure);
     let figure = side_by_side(&panels, SIDE, HEIGHT).headed(&heading);
     let parts = panels.iter().map(|p| p.figure(SIDE, HEIGHT).headed(&heading)).collect();
-    Ok(DrawnLocus { locus, crossings, figure, parts })
+    let open_loop = gain.as_ref().map(|(poles, zeros)| [marks::places(poles), marks::places(zeros)]);
+    Ok(DrawnLocus { locus, beyond, open_loop, crossings, figure, parts })
 }
 
 /// The unit of the parameter, empty if it has none.

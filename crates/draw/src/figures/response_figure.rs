@@ -5,9 +5,8 @@ use super::panel::stacked;
 use super::responses::response_panels;
 use super::{Figure, heading};
 use crate::document::{SimulationAnswer, TimeUnit};
-use crate::simulate::{StepMeasures, Trace};
+use crate::simulate::{StepMeasures, Trace, is_sampled};
 use jurist_engine::answer::Verdict;
-use jurist_engine::model::{Form, Model, Time};
 use jurist_engine::problem::Problem;
 
 /// Width of a panel and its height.
@@ -33,8 +32,7 @@ pub fn response_figure(
         None => (outputs, "Response"),
     };
     let unit = TimeUnit::of(model, answer.sample_time).name();
-    let is_sampled = model.time() == Time::Discrete && answer.circuit.is_none();
-    let sampled = |name: &str| is_sampled && !is_continuous(model, name);
+    let sampled = |name: &str| answer.circuit.is_none() && is_sampled(model, name);
     let whole = &answer.trace;
     let end = if is_duration_asked { None } else { settled_end(whole, &shown, finals) };
     let part = end.map(|end| whole.between(f64::NEG_INFINITY, end));
@@ -54,14 +52,6 @@ pub fn response_figure(
         heading.notes.push(format!("the loop is {}", verdict.name()));
     }
     stacked(&panels, PANEL.0, PANEL.1).headed(&heading)
-}
-
-/// Whether a signal of a discrete loop is the response of a continuous plant behind a hold.
-fn is_continuous(model: &Model, name: &str) -> bool {
-    let Form::Blocks(diagram) = model.form() else { return false };
-    let is_held = |method: &jurist_engine::model::Discretization| method.method.is_hold();
-    let held = diagram.blocks.iter().filter(|b| b.discretization.as_ref().is_some_and(is_held));
-    held.flat_map(|b| &b.outputs).any(|output| output.name == name)
 }
 
 /// A signal has settled where it stays within this share of its largest distance from its final value.

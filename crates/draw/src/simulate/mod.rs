@@ -29,7 +29,7 @@ pub use course::{Course, LinearRun};
 pub use delayed::DelayedModel;
 pub use exact::exact_response;
 pub use exponential::{Exponential, StateIntegral};
-pub use from_loop::{excitation, signal_unit};
+pub use from_loop::{excitation, is_sampled, signal_unit};
 pub use root_locus::{Branch, Crossing, LocusOptions, LocusSample, ParameterScale, RootLocus, trace_root_locus};
 pub use roots::{ApproximateRoot, roots};
 pub use sampled::{Excitation, SampledModel, Step};

@@ -49,7 +49,7 @@ fn mark(label: String, shape: Shape, at: Vec<Complex<f64>>) -> LocusMark {
     LocusMark { label, shape, at }
 }
 
-fn places(p: &UniPoly) -> Vec<Complex<f64>> {
+pub(super) fn places(p: &UniPoly) -> Vec<Complex<f64>> {
     roots(p).into_iter().map(|r| r.value).collect()
 }
 
