@@ -30,10 +30,10 @@ pub fn boxes_figure(answer: &Answer<MapBoxes>, width: f64, height: f64) -> Figur
     let left = Frame::left_of(&y, height - top - BELOW);
     let plot = Rectangle { left, top, width: width - left - 18.0, height: height - top - BELOW };
     let frame = Frame { x, y, plot, equal: false };
-    for (verdict, fill, edge) in [
-        (BoxVerdict::Unstable { outside: None }, UNSTABLE, Colour::WHITE),
-        (BoxVerdict::Stable, REGION, Colour::WHITE),
-        (BoxVerdict::Undecided, UNDECIDED, UNDECIDED),
+    for (verdict, fill) in [
+        (BoxVerdict::Unstable { outside: None }, UNSTABLE),
+        (BoxVerdict::Stable, REGION),
+        (BoxVerdict::Undecided, UNDECIDED),
     ] {
         let mut segments = Vec::new();
         for b in map.boxes.iter().filter(|b| b.verdict.name() == verdict.name()) {
@@ -42,7 +42,8 @@ pub fn boxes_figure(answer: &Answer<MapBoxes>, width: f64, height: f64) -> Figur
             segments.extend(through(&[(x0, y0), (x1, y0), (x1, y1), (x0, y1)], true));
         }
         if !segments.is_empty() {
-            scene.add(Item::Path { segments, fill: Some(fill), stroke: Some(Stroke::new(edge, 0.3)) });
+            // A thin edge of the same colour leaves no seams between neighbouring boxes.
+            scene.add(Item::Path { segments, fill: Some(fill), stroke: Some(Stroke::new(fill, 0.5)) });
         }
     }
     frame.draw(&mut scene);
