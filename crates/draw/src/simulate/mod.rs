@@ -21,6 +21,7 @@ mod from_loop;
 mod root_locus;
 mod roots;
 mod sampled;
+mod several_rates;
 mod step;
 mod switched;
 mod trace;
