@@ -112,6 +112,38 @@ impl Polynomial<'_> {
 /// Bits to which the ends of the stable set are known for a picture.
 const PICTURE_BITS: u64 = 60;
 
+/// What a picture has of the answer.
+struct Certified {
+    /// Ranges that are stable, rounded.
+    stable: Vec<(f64, f64)>,
+    /// Points of the boundary with an end in the range, and the ends.
+    crossings: Vec<Crossing>,
+    through: Vec<Rational>,
+}
+
+impl Certified {
+    fn of(answer: &Answer<StableSet>, range: &(Rational, Rational)) -> Certified {
+        let problem = answer.problem();
+        let (mut through, mut crossings, mut stable) = (Vec::new(), Vec::new(), Vec::new());
+        for interval in answer.value().intervals() {
+            let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
+            for (end, slot) in [(&interval.lower, 0), (&interval.upper, 1)] {
+                let Some(end) = end else { continue };
+                let (lo, hi) = end.value.refined_to_digits(15).enclosure();
+                let value = lo.midpoint(&hi);
+                ends[slot] = value.to_f64_approximate();
+                if value < range.0 || value > range.1 {
+                    continue;
+                }
+                crossings.extend(crossing(end, &value, problem));
+                through.push(value);
+            }
+            stable.push((ends[0], ends[1]));
+        }
+        Certified { stable, crossings, through }
+    }
+}
+
 /// The locus of the parameter of a decided question over a range, with all certified ends in it.
 ///
 /// # Errors
@@ -125,22 +157,7 @@ pub fn locus_of(
     let problem = answer.problem();
     let discrete = problem.time() == Time::Discrete;
     let focus = Complex::new(if discrete { 1.0 } else { 0.0 }, 0.0);
-    let (mut through, mut crossings, mut stable) = (Vec::new(), Vec::new(), Vec::new());
-    for interval in answer.value().intervals() {
-        let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
-        for (end, slot) in [(&interval.lower, 0), (&interval.upper, 1)] {
-            let Some(end) = end else { continue };
-            let (lo, hi) = end.value.refined_to_digits(15).enclosure();
-            let value = lo.midpoint(&hi);
-            ends[slot] = value.to_f64_approximate();
-            if value < range.0 || value > range.1 {
-                continue;
-            }
-            crossings.extend(crossing(end, &value, problem));
-            through.push(value);
-        }
-        stable.push((ends[0], ends[1]));
-    }
+    let Certified { stable, crossings, mut through } = Certified::of(answer, range);
     let wide = {
         let (a, b) = (range.0.to_f64_approximate(), range.1.to_f64_approximate());
         a > 0.0 && b / a > 100.0
