@@ -3634,6 +3634,15 @@ def exact(q):
     """A number: its fraction if that is short; its decimal; or the first digits of that and three dots."""
     if is_short(q):
         return str(q)
+    return decimal_of(q)
+
+def with_decimal(q):
+    """An end of a set: a short fraction has its decimal behind it."""
+    shown = exact(q)
+    return f"{shown} ({decimal_of(q)})" if "/" in shown else shown
+
+def decimal_of(q):
+    """The decimal of a number other than 0, or the first digits of it and three dots."""
     power = exponent(q) - DIGITS + 1
     digits = over_power(abs(q), power)
     text = layout(int(digits), power, "" if digits.denominator == 1 else "...")
@@ -3691,7 +3700,7 @@ def root_counts(inside, on, outside, infinite):
 def end_in_words(e, parameter):
     """An end of an interval, and for an irrational one what it is; None where it is infinite."""
     if e is None or isinstance(e, Fraction):
-        return (None if e is None else exact(e)), None
+        return (None if e is None else with_decimal(e)), None
     if isinstance(e[0], Fraction):
         return shared_digits(*e), "a dead time with roots on the axis"
     if any(k >> 2 * FIELD for k in e[0]):

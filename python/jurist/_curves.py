@@ -162,13 +162,29 @@ class Locus(Document):
     @property
     def branches(self) -> list[tuple[Any, Any]]:
         """Values of the parameter and complex roots, as arrays, branch by branch."""
+        return self._curves("branches")
+
+    @property
+    def beyond(self) -> list[tuple[Any, Any]]:
+        """The same of a gain outside of the range: from the poles of the open loop, and to its zeros."""
+        return self._curves("beyond")
+
+    def _curves(self, key: str) -> list[tuple[Any, Any]]:
         import numpy
 
-        out = []
-        for b in self._document["branches"]:
-            points = numpy.array([[_float(re), _float(im)] for re, im in b["roots"]])
-            out.append((numpy.array(b["values"], dtype=float), points[:, 0] + 1j * points[:, 1]))
-        return out
+        return [(numpy.array(b["values"], dtype=float), _complex(b["roots"])) for b in self._document[key]]
+
+    @property
+    def poles(self) -> Any:
+        """The poles of the open loop, each once, an array; ``None`` where the parameter is no gain."""
+        points = self._document["poles"]
+        return None if points is None else _complex(points)
+
+    @property
+    def zeros(self) -> Any:
+        """The zeros of the open loop, each once, an array; ``None`` where the parameter is no gain."""
+        points = self._document["zeros"]
+        return None if points is None else _complex(points)
 
     @property
     def crossings(self) -> tuple[dict[str, Any], ...]:
@@ -176,7 +192,7 @@ class Locus(Document):
         return tuple(self._document["crossings"])
 
     def plot(self, ax: Axes | None = None, *, grid: bool = True, **kw: Any) -> Axes:
-        """Draws the branches, the boundary and the crossings on it; returns the Axes."""
+        """Draws the branches, the boundary and the crossings on it, poles and zeros; returns the Axes."""
         from ._plot import plot_locus
 
         return plot_locus(self, ax, grid, kw)
@@ -184,6 +200,12 @@ class Locus(Document):
 
 def _float(x: float | None) -> float:
     return float("nan") if x is None else x
+
+
+def _complex(points: list[list[float | None]]) -> Any:
+    import numpy
+
+    return numpy.array([complex(_float(re), _float(im)) for re, im in points], dtype=complex)
 
 
 class Simulation(Document):
@@ -222,6 +244,10 @@ class Simulation(Document):
     def unit(self, name: str) -> str | None:
         """The unit of a signal."""
         return next((s["unit"] for s in self._document["signals"] if s["name"] == name), None)
+
+    def is_sampled(self, name: str) -> bool:
+        """Whether each value of a signal holds until the next instant; else it is continuous in between."""
+        return next((bool(s["sampled"]) for s in self._document["signals"] if s["name"] == name), False)
 
     def to_control(self) -> Any:
         """As python-control's `TimeResponseData`."""

@@ -223,7 +223,7 @@ def _window(document: dict[str, Any], axis: str, given: Any, limits: list[float]
 
 
 def plot_locus(locus: Locus, ax: Axes | None, grid: bool, kw: dict[str, Any]) -> Axes:
-    """Branches, the boundary, and the crossings."""
+    """Branches, thin outside of the range, the boundary, poles and zeros, and the crossings."""
     import numpy
 
     ax = axes(ax)
@@ -234,8 +234,16 @@ def plot_locus(locus: Locus, ax: Axes | None, grid: bool, kw: dict[str, Any]) ->
         ax.set_aspect("equal", "datalim")
     else:
         ax.axvline(0, color="gray", linewidth=0.8, label="imaginary axis")
+    colours = []
     for _, roots in locus.branches:
-        ax.plot(roots.real, roots.imag, **{"linewidth": 1.5, **kw})
+        (line,) = ax.plot(roots.real, roots.imag, **{"linewidth": 1.5, **kw})
+        colours.append(line.get_color())
+    for k, (_, roots) in enumerate(locus.beyond):
+        ax.plot(roots.real, roots.imag, **{"color": colours[k % len(colours)], **kw, "linewidth": 0.7})
+    for name, marker, points in (("poles", "x", locus.poles), ("zeros", "o", locus.zeros)):
+        if points is not None and len(points):
+            label = f"{name} of the open loop"
+            ax.plot(points.real, points.imag, marker, color="black", markersize=7, fillstyle="none", label=label)
     label = "crossing, exact"
     for crossing in locus.crossings:
         for re, im in crossing["at"]:
@@ -248,6 +256,7 @@ def plot_locus(locus: Locus, ax: Axes | None, grid: bool, kw: dict[str, Any]) ->
             # Lines go on behind the words.
             plate = {"boxstyle": "square,pad=0.1", "facecolor": ax.get_facecolor(), "edgecolor": "none", "alpha": 0.85}
             ax.annotate(crossing["label"], crossing["at"][0], offset, textcoords="offset points", ha=side, fontsize="small", bbox=plate)
+    _around(ax, locus)
     ax.grid(grid, alpha=0.3)
     ax.set_xlabel("real")
     ax.set_ylabel("imaginary")
@@ -256,14 +265,42 @@ def plot_locus(locus: Locus, ax: Axes | None, grid: bool, kw: dict[str, Any]) ->
     return ax
 
 
+def _around(ax: Axes, locus: Locus) -> None:
+    """The window: poles, zeros and crossings well inside, and what is not too far from them of the branches."""
+    import numpy
+
+    points = [complex(re, im) for c in locus.crossings for re, im in c["at"]]
+    scale = max((abs(z) for z in points), default=0.0)
+    for found in (locus.poles, locus.zeros):
+        points.extend(z for z in (() if found is None else found) if not scale or abs(z) <= 8 * scale)
+    reach = max((abs(z) for z in points), default=0.0)
+    if not reach:
+        return
+    if locus.to_dict()["time"] == "discrete":
+        reach = max(reach, 1.0)
+        points.extend((complex(-1, 1), complex(1, -1)))
+    points.append(0j)
+    left, right, top = min(z.real for z in points), max(z.real for z in points), max(abs(z.imag) for z in points)
+    room = 0.25 * max(right - left, 2 * top)
+    left, right, top = left - room, right + room, top + room
+    for _, roots in locus.branches:
+        shown = roots[numpy.abs(roots) <= (1.6 if locus.to_dict()["time"] == "discrete" else 3.3) * reach]
+        if len(shown):
+            left, right = min(left, shown.real.min()), max(right, shown.real.max())
+            top = max(top, numpy.abs(shown.imag).max())
+    ax.set_xlim(left, right)
+    ax.set_ylim(-top, top)
+
+
 def plot_simulation(r: Simulation, ax: Axes | None, signals: list[str] | None, kw: dict[str, Any]) -> Axes:
-    """Signals over time: without a word the outputs, beside which states may be large."""
+    """Signals over time, sampled ones in stairs: without a word the outputs, beside which states may be large."""
     ax = axes(ax)
     if signals is None:
         outputs = () if r._loop is None else r._loop.outputs
         signals = [name for name in r.names if name in outputs] or r.names
     for name in signals:
-        ax.plot(r.time, r[name], label=_named(name, r.unit(name)), **kw)
+        style = {"drawstyle": "steps-post", **kw} if r.is_sampled(name) else kw
+        ax.plot(r.time, r[name], label=_named(name, r.unit(name)), **style)
     ax.set_xlabel("time (s)" if r.to_dict()["time_unit"] == "s" else "samples")
     ax.legend()
     entitled(ax, r.title)

@@ -72,11 +72,35 @@ def _angle_named(degrees: float, found: Margins) -> str:
     return f"{'phase margin ' if is_margin else ''}{degrees:.5g}°"
 
 
+_MOST_NOTES = 4
+"""More words than these hide each other: then only margins have some."""
+
+
+def _noted(notes: list[tuple[float, float, str]]) -> list[tuple[float, float, str]]:
+    """The notes that are written: all where they are few, else those that are margins."""
+    return notes if len(notes) <= _MOST_NOTES else [note for note in notes if "margin" in note[2]][:_MOST_NOTES]
+
+
+def _annotate(ax: Axes, notes: list[tuple[float, float, str]], low: float, high: float, is_logarithmic: bool = True) -> None:
+    """Words beside points, towards the middle of the axis; those of neighbours one above and one below."""
+    last, is_above = None, True
+    for x, y, note in sorted(notes):
+        share = math.log(x / low) / math.log(high / low) if is_logarithmic else (x - low) / (high - low)
+        is_above = not is_above if last is not None and share - last < 0.3 else True
+        last = share
+        offset = (-7 if share > 0.5 else 7, 7 if is_above else -13)
+        side = "right" if share > 0.5 else "left"
+        # Lines go on behind the words.
+        plate = {"boxstyle": "square,pad=0.1", "facecolor": ax.get_facecolor(), "edgecolor": "none", "alpha": 0.85}
+        ax.annotate(note, (x, y), offset, textcoords="offset points", ha=side, fontsize="small", bbox=plate)
+
+
 def plot_bode(
     response: FrequencyResponse, ax: Axes | Sequence[Axes] | None, exact: bool, kw: dict[str, Any]
 ) -> tuple[Axes, Axes]:
-    """Magnitude above, phase below."""
+    """Magnitude above, phase below; the crossings of both lines in both."""
     import numpy
+    from matplotlib.ticker import MultipleLocator
 
     upper, lower = _pair(ax)
     x = response.frequency
@@ -85,17 +109,14 @@ def plot_bode(
     lower.semilogx(x, response.phase_degrees, **{"color": line.get_color(), **kw})
     upper.axhline(0, color="gray", linewidth=0.8)
     found = response.margins() if exact else None
+    levels = set()
     if found is not None:
+        notes = []
         for phase_crossing in found.phase_crossings:
             place = _place(response, phase_crossing.at)
             if place and phase_crossing.factor:
-                height = -20 * math.log10(abs(phase_crossing.factor))
-                upper.plot([place], [height], "o", color=CROSSING)
-                # In the right half of the axis the words are on the left.
-                is_right = place * place > x[0] * x[-1]
-                offset, side = ((-6, 6), "right") if is_right else ((6, 6), "left")
-                note = _factor_named(phase_crossing.factor, found)
-                upper.annotate(note, (place, height), offset, textcoords="offset points", ha=side, fontsize="small")
+                notes.append((place, -20 * math.log10(abs(phase_crossing.factor)), _factor_named(phase_crossing.factor, found)))
+        angles = []
         for crossing in found.gain_crossings:
             place = _place(response, crossing.at)
             if place:
@@ -103,9 +124,20 @@ def plot_bode(
                 near = float(numpy.interp(place, x, response.phase_degrees))
                 degrees = crossing.phase_margin_degrees - 180
                 degrees += 360 * round((near - degrees) / 360)
-                lower.plot([place], [degrees], "o", color=CROSSING)
-                note = _angle_named(crossing.phase_margin_degrees, found)
-                lower.annotate(note, (place, degrees), (5, 5), textcoords="offset points", fontsize="small")
+                levels.add(360 * round((degrees + 180) / 360) - 180)
+                angles.append((place, degrees, _angle_named(crossing.phase_margin_degrees, found)))
+        for axis, list_ in ((upper, notes), (lower, angles)):
+            axis.plot([n[0] for n in list_], [n[1] for n in list_], "o", color=CROSSING)
+            _annotate(axis, _noted(list_), x[0], x[-1])
+            for place, _, _ in (*_noted(notes), *_noted(angles)):
+                axis.axvline(place, color="gray", linewidth=0.8, linestyle="--")
+    low, high = float(numpy.min(response.phase_degrees)), float(numpy.max(response.phase_degrees))
+    highest = 360 * math.floor((high + 180) / 360) - 180
+    for level in levels or ({highest} if low <= highest <= high else set()):
+        lower.axhline(level, color="gray", linewidth=0.8)
+        low, high = min(low, level), max(high, level)
+    span = high - low
+    lower.yaxis.set_major_locator(MultipleLocator(next((s for s in (5, 10, 15, 30, 45, 90, 180) if span <= 7 * s), 360)))
     for axis in (upper, lower):
         axis.margins(y=0.15)
         axis.grid(True, which="both", alpha=0.3)
@@ -116,41 +148,77 @@ def plot_bode(
     return upper, lower
 
 
+_WHOLE, _PART, _FARTHEST = 5.0, 2.4, 8.0
+"""A curve that stays so near to 0 is shown whole, of another this part; crossings of the real axis farther away are not shown."""
+
+
+def _nyquist_window(curve: Any, marks: list[complex]) -> tuple[float, float, float]:
+    """Left, right and upper end: around the unit circle and -1, the crossings, and the part of the curve near to them."""
+    import numpy
+
+    sizes = numpy.abs(curve)
+    shown = curve[sizes <= (_WHOLE if sizes.max(initial=0) <= _WHOLE else _PART)]
+    points = [*shown, *(z for z in marks if abs(z) <= _FARTHEST), complex(-1, 1), complex(1, -1)]
+    left, right = min(z.real for z in points), max(z.real for z in points)
+    half = 1.15 * max((right - left) / 2, max(abs(z.imag) for z in points))
+    middle = (left + right) / 2
+    return middle - half, middle + half, half
+
+
+def _arrows(ax: Axes, curve: Any, color: Any, window: tuple[float, float, float]) -> None:
+    """Heads along the part of the curve that is shown."""
+    import numpy
+
+    left, right, top = window
+    inside = (curve.real > left) & (curve.real < right) & (numpy.abs(curve.imag) < top)
+    steps = numpy.where(inside[1:] & inside[:-1], numpy.abs(numpy.diff(curve)), 0.0)
+    passed = numpy.cumsum(steps)
+    if not len(passed) or passed[-1] < 0.1 * top:
+        return
+    for share in (0.25, 0.75) if passed[-1] > top else (0.5,):
+        k = int(numpy.searchsorted(passed, share * passed[-1]))
+        a, b = curve[k], curve[k + 1]
+        if a != b:
+            tip = a + (b - a) / abs(b - a) * 0.02 * top
+            ax.annotate("", (tip.real, tip.imag), (a.real, a.imag), arrowprops={"arrowstyle": "-|>", "color": color, "shrinkA": 0, "shrinkB": 0})
+
+
 def plot_nyquist(response: FrequencyResponse, ax: Axes | None, exact: bool, kw: dict[str, Any]) -> Axes:
-    """The curve, its mirror image, the unit circle and -1."""
+    """The curve towards higher frequencies, its mirror image dashed, the unit circle and -1."""
     import numpy
 
     ax = axes(ax)
     curve = response.response
     (line,) = ax.plot(curve.real, curve.imag, **{"linewidth": 1.5, **kw})
-    ax.plot(curve.real, -curve.imag, "--", color=line.get_color(), linewidth=1)
+    ax.plot(curve.real, -curve.imag, "--", color=line.get_color(), linewidth=1, alpha=0.6)
     turn = numpy.exp(1j * numpy.linspace(0, 2 * math.pi, 361))
-    ax.plot(turn.real, turn.imag, color="gray", linewidth=0.8)
+    ax.plot(turn.real, turn.imag, color="gray", linewidth=0.8, linestyle=":")
     ax.plot([-1], [0], "+", color="black", markersize=10)
-    marks = [complex(-1, 0), complex(1, 1), complex(-1, -1)]
     found = response.margins() if exact else None
+    marks, notes = [], []
     if found is not None:
         for crossing in found.gain_crossings:
             angle = math.radians(crossing.phase_margin_degrees - 180)
             marks.append(complex(math.cos(angle), math.sin(angle)))
-            ax.plot([marks[-1].real], [marks[-1].imag], "o", color=CROSSING)
-            note = _angle_named(crossing.phase_margin_degrees, found)
-            ax.annotate(note, (marks[-1].real, marks[-1].imag), (6, 6), textcoords="offset points", fontsize="small")
+            notes.append((marks[-1].real, marks[-1].imag, _angle_named(crossing.phase_margin_degrees, found)))
         for phase_crossing in found.phase_crossings:
             if phase_crossing.factor:
-                marks.append(complex(-1 / phase_crossing.factor, 0))
-                ax.plot([marks[-1].real], [0], "o", color=CROSSING)
                 note = _factor_named(phase_crossing.factor, found)
-                if "margin" not in note:
-                    # Others are near zero, one above the other.
-                    continue
-                ax.annotate(note, (marks[-1].real, 0), (6, -12), textcoords="offset points", fontsize="small")
-    # A pole on the boundary takes the curve to infinity: shown is what matters, around -1 and the crossings.
-    left, right = min(z.real for z in marks), max(z.real for z in marks)
-    reach = max(abs(z.imag) for z in marks)
-    pad = 0.3 * max(right - left, 2 * reach)
-    ax.set_xlim(left - pad, right + pad)
-    ax.set_ylim(-reach - pad, reach + pad)
+                is_margin = "margin" in note
+                # Others are near zero, one above the other.
+                ax.plot([-1 / phase_crossing.factor], [0], "o", color=CROSSING)
+                if is_margin:
+                    marks.append(complex(-1 / phase_crossing.factor, 0))
+                    notes.append((marks[-1].real, 0.0, note))
+    window = _nyquist_window(curve, marks)
+    left, right, top = window
+    inside = [note for note in _noted(notes) if left < note[0] < right]
+    ax.plot([n[0] for n in notes], [n[1] for n in notes], "o", color=CROSSING)
+    _annotate(ax, inside, left, right, is_logarithmic=False)
+    _arrows(ax, curve, line.get_color(), window)
+    _arrows(ax, numpy.conj(curve[::-1]), line.get_color(), window)
+    ax.set_xlim(left, right)
+    ax.set_ylim(-top, top)
     ax.set_aspect("equal")
     ax.grid(True, alpha=0.3)
     ax.set_xlabel("real")

@@ -60,11 +60,24 @@ def test_boxes_are_drawn_as_they_were_proved(ax):
 def test_a_locus_has_its_crossings_on_the_boundary(ax, drive):
     locus = drive.locus("K_pwm")
     assert locus.plot(ax) is ax
-    dots = [line for line in ax.lines if line.get_marker() == "o"]
-    assert np.allclose(np.hypot(dots[0].get_xdata(), dots[0].get_ydata()), 1)
-    assert len([line for line in ax.lines if line.get_marker() != "o"]) == 1 + len(locus.branches)
+    looks = {line.get_label(): line for line in ax.lines}
+    crossing = looks["crossing, exact"]
+    assert np.allclose(np.hypot(crossing.get_xdata(), crossing.get_ydata()), 1)
+    for name, points in (("poles", locus.poles), ("zeros", locus.zeros)):
+        assert np.allclose(looks[f"{name} of the open loop"].get_xdata(), points.real)
+    curves = [line for line in ax.lines if line.get_marker() == "None"]
+    assert len(curves) == 1 + len(locus.branches) + len(locus.beyond)
     continuous = jurist.Loop.characteristic("s^3 + 2*s^2 + 3*s + K", time="continuous", parameters={"K": 1})
     assert continuous.locus("K", range=(0, 10)).plot(ax) is ax
+
+
+def test_a_locus_of_a_gain_goes_on_from_poles_to_zeros():
+    locus = jurist.Loop.from_line("K*(s + 3)/(s*(s + 1))").locus("K", range=(1, 2))
+    assert sorted(locus.poles.real) == [-1, 0] and list(locus.zeros) == [-3]
+    ends = [z for _, roots in locus.beyond for z in (roots[0], roots[-1])]
+    assert all(any(abs(z - end) < 1e-9 for end in ends) for z in (*locus.poles, *locus.zeros))
+    time = jurist.Loop.characteristic("s^2 + T^2*s + 1", time="continuous", parameters={"T": 1}).locus("T", range=(1, 2))
+    assert time.poles is None and time.zeros is None and time.beyond == []
 
 
 def test_a_response_is_drawn_signal_by_signal(ax, drive):
@@ -72,6 +85,7 @@ def test_a_response_is_drawn_signal_by_signal(ax, drive):
     r.plot(ax, signals=["omega"])
     assert len(ax.lines) == 1
     assert ax.get_xlabel() == "time (s)"
+    assert ax.lines[0].get_drawstyle() == "steps-post"
     ax.clear()
     r.plot(ax)
     assert [line.get_label().split(" ")[0] for line in ax.lines] == [name for name in r.names if name in drive.outputs]
@@ -84,6 +98,7 @@ def test_states_are_drawn_where_they_are_named_only(ax):
     assert len(r.names) > 1
     r.plot(ax)
     assert [line.get_label() for line in ax.lines] == ["y"]
+    assert ax.lines[0].get_drawstyle() == "default"
     r.plot(ax, signals=r.names)
     assert len(ax.lines) == 1 + len(r.names)
 
@@ -119,6 +134,8 @@ def test_bode_takes_two_axes_one_or_none_and_names_the_margins(ax, third):
     assert "gain margin 12.04 dB at 0.2757 Hz" in upper.get_title()
     assert any(text.get_text() == "gain margin 4" for text in upper.texts)
     assert any(text.get_text().startswith("phase margin") for text in lower.texts)
+    assert any(set(line.get_ydata()) == {-180} for line in lower.lines)
+    assert all(round(tick % 15, 9) == 0 for tick in lower.get_yticks())
     figure, pair = plt.subplots(2, 1)
     assert response.plot(pair) == tuple(pair)
     plt.close(figure)
@@ -132,3 +149,6 @@ def test_nyquist_names_the_margins(ax, third):
     third.nyquist(set={"K": 6}).plot(ax)
     assert "phase margin" in ax.get_title()
     assert any(text.get_text().startswith("gain margin") for text in ax.texts)
+    assert sum(text.arrow_patch is not None for text in ax.texts) >= 2
+    (left, right), (bottom, top) = ax.get_xlim(), ax.get_ylim()
+    assert left < -1 and right > 1 and bottom < -1 and top > 1

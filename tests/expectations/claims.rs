@@ -100,7 +100,7 @@ fn without_expectations_requirements_or_the_nominal_point_are_tried() {
     assert_eq!(run.status, 1);
     assert_eq!(
         run.stdout,
-        "b.toml\n  FAILED    gain_margin >= 5: is 4 (12.04 dB), 20 % too little (line 15)\n0 passed, 1 failed\n"
+        "b.toml\n  FAILED    gain_margin > 5: is 4 (12.04 dB), 20 % too little (line 15)\n0 passed, 1 failed\n"
     );
 }
 

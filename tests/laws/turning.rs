@@ -136,3 +136,51 @@ fn a_constant_does_not_turn() {
         compare(&none, &none, negative, shape);
     }
 }
+
+/// The middle of the first quarter of a loop cut at its gain `k`, close to `s = 0` or `z = 1`.
+fn first_middle(text: &str, low: &str) -> i64 {
+    let (model, _) = Model::from_toml(&Source::new("model.toml", text)).unwrap();
+    let budget = Budget::unlimited();
+    let open_loop = OpenLoop::of(&model.ask().problem().unwrap(), Some("k"), &budget).unwrap();
+    Turning::of(&open_loop, &budget).unwrap().middle(&low.parse().unwrap())
+}
+
+/// Close to `s = 0`, as `s^2`, and to `z = 1`, as `z + 1/z`.
+const LOW: [&str; 2] = ["-1/1000000000", "1999999999/1000000000"];
+
+/// The phase begins at -90 degrees for each integrator, at 90 with a differentiator, whatever turns it further.
+#[test]
+fn every_integrator_begins_a_quarter_of_a_turn_lower() {
+    let parts = [("continuous", "s", "(s + 1)^5", "(s + 2)^5"), ("discrete", "(z - 1)", "(z - 1/2)^5", "(z - 1/3)^5")];
+    for ((time, root, lead, lag), low) in parts.into_iter().zip(LOW) {
+        for n in -1..=4 {
+            for (above, below, towards) in [(lead, lag, 45), (lag, lead, -45)] {
+                let (zeros, poles) = if n < 0 { (-n, 0) } else { (0, n) };
+                let text = format!(
+                    "time = '{time}'\nparameters.k = 1\n\
+                     loop.characteristic = '{root}^{poles}*{below} + k*{root}^{zeros}*{above}'\n"
+                );
+                assert_eq!(first_middle(&text, low), -90 * n + towards, "{text}");
+            }
+        }
+    }
+}
+
+/// Behind a hold the integrators are factors of polynomials in the hold's constants.
+#[test]
+fn integrators_behind_a_hold_begin_as_others_do() {
+    for (plant, middle) in [
+        ("1/(s + 1)", -45),
+        ("1/s/(s + 1)", -135),
+        ("1/s^2/(s + 1)", -225),
+        ("1/s^3/(s + 1)", -315),
+        ("s/(s + 1)^2", 45),
+    ] {
+        let text = format!(
+            "time = 'discrete'\nsample_time = '1/10'\nparameters.k = 1\n[loop]\ninputs = ['r']\noutputs = ['y']\n\
+             [[block]]\nname = 'controller'\ninput = 'r - y'\noutput = 'u'\ngain = 'k'\n\
+             [[block]]\nname = 'plant'\ninput = 'u'\noutput = 'y'\ntransfer = '{plant}'\ndiscretize = 'zoh'\n"
+        );
+        assert_eq!(first_middle(&text, LOW[1]), middle, "{plant}");
+    }
+}

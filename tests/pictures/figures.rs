@@ -24,10 +24,9 @@ fn small_panel() -> Panel {
         y: (0.0, 100.0),
         curves: vec![Curve {
             points: vec![(0.0, 0.0), (1.0, 80.0), (2.0, 80.0)],
-            label: None,
             colour: "#0072B2".into(),
             width: 1.5,
-            dashed: false,
+            ..Curve::default()
         }],
         ..Panel::default()
     }

@@ -5,7 +5,7 @@ use super::number::Q;
 use super::roots::{Places, is_hurwitz, is_schur, places_by_axis, places_by_circle};
 use super::statement::{self, End, Extent, count, fixed_extent, list, object, polynomial, polynomials, text, values};
 use super::univariate::Uni;
-use super::words::{exact, shared_digits};
+use super::words::{exact, shared_digits, with_decimal};
 use super::{Proved, Rejection, Step, further_keys, held, is_discrete, model, region, same_characteristic, table};
 use crate::format::Json;
 use num_traits::Zero;
@@ -192,7 +192,7 @@ fn end(json: &Json, parameter: &str) -> Option<(String, Option<String>)> {
     }
     let (f, a, b) = match statement::end(json, |p: &Json, _: &str| Ok(p.clone())).ok()? {
         End::Infinite => return None,
-        End::Rational(q) => return Some((exact(&q), None)),
+        End::Rational(q) => return Some((with_decimal(&q), None)),
         End::Root(f, a, b) => (f, a, b),
     };
     let polynomial = match polynomial(&f, "") {

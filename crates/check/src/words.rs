@@ -24,6 +24,17 @@ pub(super) fn exact(q: &Q) -> String {
     if fraction.len() <= SHORT || q.is_integer() && fraction.len() <= WHOLE {
         return fraction;
     }
+    decimal(q)
+}
+
+/// An end of a set: a short fraction has its decimal behind it.
+pub(super) fn with_decimal(q: &Q) -> String {
+    let shown = exact(q);
+    if shown.contains('/') { format!("{shown} ({})", decimal(q)) } else { shown }
+}
+
+/// The decimal of a number other than 0, or the first digits of it and three dots.
+fn decimal(q: &Q) -> String {
     let power = exponent(q) - DIGITS + 1;
     let digits = over_power(&q.abs(), power);
     let sign = if q.is_negative() { "-" } else { "" };
@@ -119,6 +130,20 @@ mod tests {
 
     fn q(text: &str) -> Q {
         super::super::number::rational(text).unwrap()
+    }
+
+    #[test]
+    fn short_fractions_have_their_decimals() {
+        let cases = [
+            ("156/7", "156/7 (22.2857142857...)"),
+            ("3/5", "3/5 (0.6)"),
+            ("-1/3", "-1/3 (-0.333333333333...)"),
+            ("6", "6"),
+        ];
+        for (number, shown) in cases {
+            assert_eq!(with_decimal(&number.parse().unwrap()), shown);
+        }
+        assert_eq!(with_decimal(&Q::zero()), "0");
     }
 
     #[test]

@@ -2,7 +2,7 @@
 //! and say so.
 
 use crate::figures::{DrawnLocus, FrequencyResponse as Sampled, ResponsePoint};
-use crate::simulate::{Operating, SwitchedModel, Trace};
+use crate::simulate::{Operating, SwitchedModel, Trace, is_sampled};
 use jurist_engine::answer::Answer;
 use jurist_engine::model::{Model, Time};
 use jurist_engine::problem::Problem;
@@ -156,6 +156,8 @@ pub struct SignalValues {
     pub name: String,
     /// Its unit; `null` where the model names none.
     pub unit: Option<String>,
+    /// Whether each value holds until the next instant; else the signal is continuous in between.
+    pub sampled: bool,
     /// The values, one for each instant.
     pub values: Vec<Float>,
 }
@@ -202,8 +204,14 @@ pub struct Locus {
     pub unit: Option<String>,
     /// Where roots cross the boundary of stability.
     pub crossings: Vec<LocusCrossing>,
+    /// The poles of the open loop, each once, where the parameter is a gain: the roots at 0. Else `null`.
+    pub poles: Option<Vec<Point>>,
+    /// The zeros of the open loop, each once, where the parameter is a gain: the roots without end. Else `null`.
+    pub zeros: Option<Vec<Point>>,
     /// Pieces without gaps; a piece ends where the loop is undefined or loses degree.
     pub branches: Vec<LocusBranch>,
+    /// The pieces outside of the range, of a gain: from the poles, and to the zeros.
+    pub beyond: Vec<LocusBranch>,
 }
 
 /// A crossing of the boundary.
@@ -287,6 +295,7 @@ pub fn simulation_json(problem: &Problem, answer: &SimulationAnswer) -> Simulati
     let signal = |s: &crate::simulate::Signal| SignalValues {
         name: s.name.clone(),
         unit: Some(s.unit.clone()).filter(|unit| !unit.is_empty()),
+        sampled: answer.circuit.is_none() && is_sampled(problem.model(), &s.name),
         values: floats(&s.values),
     };
     Simulation {
@@ -336,7 +345,10 @@ pub fn locus_json(answer: &Answer<StableSet>, drawn: &DrawnLocus) -> Locus {
         parameter: free.name.clone(),
         unit: free.unit.clone(),
         crossings: drawn.crossings.iter().map(crossing).collect(),
+        poles: drawn.open_loop.as_ref().map(|[poles, _]| points(poles)),
+        zeros: drawn.open_loop.as_ref().map(|[_, zeros]| points(zeros)),
         branches: drawn.locus.branches().iter().map(branch).collect(),
+        beyond: drawn.beyond.branches().iter().map(branch).collect(),
     }
 }
 

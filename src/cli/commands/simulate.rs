@@ -111,7 +111,7 @@ fn run(options: &Options, context: &Context) -> Outcome {
     answer.trace = answer.trace.with_units(|name| signal_unit(&model, name));
     let verdict = problem.verdict(&context.budget)?.value().verdict;
     context.reporter.finish();
-    let figure = response_figure(&problem, &answer, &finals, verdict);
+    let figure = response_figure(&problem, &answer, &finals, verdict, course.is_duration_asked());
     let table = || answer.trace.to_csv();
     let document = || to_text(&simulation_json(&problem, &answer));
     let out = Picture { figure: &figure, csv: &table, json: &document, csv_beside: options.picture.csv };

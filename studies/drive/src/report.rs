@@ -245,12 +245,10 @@ fn locus_section(model: &Model, figures: &mut Vec<NamedFigure>, budget: &Budget)
     let range = (Rational::new(1.into(), 1000.into()), Rational::from(1000));
     let drawn = locus_of(&answer, &range, None, budget)?;
     let caption = "Roots of Eq. 24; colours and crossings are those of the exact answer, not of the drawn roots";
-    let [whole, near] = &drawn.parts;
-    let mut html = format!(
-        "<div class=\"grid two\">{}{}</div>\n",
-        figure("root-locus-whole", whole, caption),
-        figure("root-locus-near", near, "The same, magnified where roots cross the circle")
-    );
+    let captions =
+        [("root-locus-whole", caption), ("root-locus-near", "The same, magnified where roots cross the circle")];
+    let parts = drawn.parts.iter().zip(captions).map(|(part, (name, caption))| figure(name, part, caption));
+    let mut html = format!("<div class=\"grid two\">{}</div>\n", parts.collect::<String>());
     let labels: Vec<String> = drawn.crossings.iter().map(|c| format!("<li>{}</li>", math(&c.label))).collect();
     html.push_str(&format!("<p>The unit circle is crossed at</p><ul>{}</ul>\n", labels.concat()));
     figures.push(NamedFigure { name: "root-locus".into(), figure: drawn.figure });

@@ -87,7 +87,11 @@ impl Axis {
 
     fn linear(&self, count: f64) -> Vec<Tick> {
         let (lo, hi) = self.range;
-        let step = if self.unit == "°" { angle_step(self.range, count) } else { tick_step(self.range, count) };
+        let step = match self.unit.as_str() {
+            "°" => step_among(&[5.0, 10.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0], self.range, count),
+            "dB" => step_among(&[5.0, 10.0, 20.0, 40.0, 60.0, 80.0, 100.0], self.range, count),
+            _ => tick_step(self.range, count),
+        };
         let factor = 1000f64.powi(-self.thousands());
         let largest = factor * lo.abs().max(hi.abs());
         // Numbers on a linear part of a logarithmic axis are few and have their own prefix.
@@ -158,20 +162,23 @@ pub(super) fn tick_step(range: (f64, f64), count: f64) -> f64 {
     factor * decade
 }
 
-/// A distance between ticks of an angle in degrees: a part of a turn.
-fn angle_step(range: (f64, f64), count: f64) -> f64 {
+/// A distance between ticks from a series, such as parts of a turn, or decibels of decades; finer and coarser ones are those of other axes.
+fn step_among(series: &[f64], range: (f64, f64), count: f64) -> f64 {
     let raw = ((range.1 - range.0) / count).abs();
-    let parts = [15.0, 30.0, 45.0, 90.0, 180.0, 360.0];
-    if raw <= 10.0 {
-        tick_step(range, count)
-    } else {
-        parts.into_iter().find(|p| *p >= raw).unwrap_or_else(|| (raw / 360.0).ceil() * 360.0)
+    match (series.first(), series.last()) {
+        (Some(first), Some(last)) if raw > 0.4 * first && raw > *last => (raw / last).ceil() * last,
+        (Some(first), _) if raw > 0.4 * first => series.iter().copied().find(|p| *p >= raw).unwrap_or(*first),
+        _ => tick_step(range, count),
     }
 }
 
 /// Sizes of letters: at ticks, and of the titles of axes.
 const TICK_SIZE: f64 = 11.0;
 const TITLE_SIZE: f64 = 12.0;
+
+/// Fewer labelled ticks than these are few on an axis along y; how far apart two are at least.
+const FEW_TICKS: usize = 5;
+const LEAST_BETWEEN: f64 = 15.0;
 
 /// What the words at a tick keep free of the edge of the figure.
 const EDGE: f64 = 4.0;
@@ -200,8 +207,21 @@ impl Frame {
     }
 
     fn y_ticks(&self) -> Vec<Tick> {
-        let count = if self.equal { self.plot.width / 80.0 } else { self.plot.height / 40.0 };
-        self.y.ticks(count.max(2.0))
+        if self.equal {
+            return self.y.ticks((self.plot.width / 80.0).max(2.0));
+        }
+        // More of them where there are few and they have room.
+        let count = (self.plot.height / 40.0).max(2.0);
+        let labelled = |ticks: &[Tick]| ticks.iter().filter(|t| t.label.is_some()).count();
+        let mut ticks = self.y.ticks(count);
+        for times in [1.4, 2.0, 2.6] {
+            let finer = self.y.ticks(times * count);
+            if labelled(&ticks) >= FEW_TICKS || self.plot.height < LEAST_BETWEEN * labelled(&finer) as f64 {
+                break;
+            }
+            ticks = finer;
+        }
+        ticks
     }
 
     /// How much room the numbers and the title on the left need.
@@ -333,6 +353,11 @@ mod tests {
         assert_eq!(labels("", (3.0, 7.0), Logarithmic).len(), 5);
         assert_eq!(labels("°", (-190.0, 0.0), Linear), ["\u{2212}180", "\u{2212}135", "\u{2212}90", "\u{2212}45", "0"]);
         assert_eq!(labels("", (1e-30, 1e30), Logarithmic).len(), 7);
+        let spaced = |unit, range| labels(unit, range, Linear)[..2].join(" ").replace('\u{2212}', "-");
+        assert_eq!(spaced("°", (-290.0, -80.0)), "-270 -225");
+        assert_eq!(spaced("°", (-182.0, -138.0)), "-180 -170");
+        assert_eq!(spaced("°", (-5000.0, 0.0)), "-4320 -3240");
+        assert_eq!([spaced("dB", (-90.0, 45.0)), spaced("dB", (-3.0, 2.0))], ["-80 -40", "-3 -2"]);
     }
 
     #[test]

@@ -45,19 +45,52 @@ fn rows(entries: &[Entry], room: f64) -> Vec<Vec<&Entry>> {
     out
 }
 
+/// Entries with their samples as letters.
+fn in_letters(entries: &[Entry]) -> Vec<(&'static str, Colour, String)> {
+    let letter = |sample: &Sample| match sample {
+        Sample::Area(colour) => ("██", *colour),
+        Sample::Hatched => ("▒▒", super::FAINT),
+        Sample::Line(stroke) if stroke.dashes.is_empty() => ("──", stroke.colour),
+        Sample::Line(stroke) => ("╌╌", stroke.colour),
+        Sample::Mark(shape, colour) => (sign(*shape), *colour),
+    };
+    let entry = |(sample, name): &Entry| {
+        let (letters, colour) = letter(sample);
+        (letters, colour, name.clone())
+    };
+    entries.iter().map(entry).collect()
+}
+
+/// A mark as a letter.
+fn sign(shape: Shape) -> &'static str {
+    match shape {
+        Shape::Cross => "×",
+        Shape::Circle => "○",
+        Shape::Plus => "+",
+        Shape::Dot => "●",
+        Shape::Square => "■",
+        Shape::Triangle => "▲",
+        Shape::Diamond => "◆",
+    }
+}
+
 /// Rows of entries from a place (left, top) on; returns where they end.
 pub(super) fn in_rows(scene: &mut Scene, entries: &[Entry], (left, top): Point, room: f64) -> f64 {
-    let mut y = top;
-    for row in rows(entries, room) {
-        let mut x = left;
-        for (sample, name) in row {
-            draw(scene, sample, (x, y + ROW / 2.0));
-            scene.words(Words::new(name, (x + SAMPLE, y + ROW / 2.0 + 4.0), SIZE, INK));
-            x += SAMPLE + width(name, SIZE) + GAP;
+    let rows = rows(entries, room);
+    let end = top + ROW * rows.len() as f64;
+    scene.legend(in_letters(entries), |scene| {
+        let mut y = top;
+        for row in rows {
+            let mut x = left;
+            for (sample, name) in row {
+                draw(scene, sample, (x, y + ROW / 2.0));
+                scene.words(Words::new(name, (x + SAMPLE, y + ROW / 2.0 + 4.0), SIZE, INK));
+                x += SAMPLE + width(name, SIZE) + GAP;
+            }
+            y += ROW;
         }
-        y += ROW;
-    }
-    y
+    });
+    end
 }
 
 /// The size of a box with the entries one below the other.
@@ -70,12 +103,14 @@ pub(super) fn box_size(entries: &[Entry]) -> (f64, f64) {
 pub(super) fn in_box(scene: &mut Scene, entries: &[Entry], (left, top): Point) {
     let (width, height) = box_size(entries);
     let outline = Rectangle { left, top, width, height };
-    scene.rectangle(&outline, Some(Colour::WHITE), Some(Stroke::new(super::GRID, 1.0)));
-    for (k, (sample, name)) in entries.iter().enumerate() {
-        let y = top + 4.0 + ROW * (k as f64 + 0.5);
-        draw(scene, sample, (left + 8.0, y));
-        scene.words(Words::new(name, (left + 8.0 + SAMPLE, y + 4.0), SIZE, INK));
-    }
+    scene.legend(in_letters(entries), |scene| {
+        scene.rectangle(&outline, Some(Colour::WHITE), Some(Stroke::new(super::GRID, 1.0)));
+        for (k, (sample, name)) in entries.iter().enumerate() {
+            let y = top + 4.0 + ROW * (k as f64 + 0.5);
+            draw(scene, sample, (left + 8.0, y));
+            scene.words(Words::new(name, (left + 8.0 + SAMPLE, y + 4.0), SIZE, INK));
+        }
+    });
 }
 
 /// A sample from the left, about a height.
@@ -106,7 +141,11 @@ pub(super) fn hatched(scene: &mut Scene, area: &Rectangle) {
 }
 
 /// A mark at a place.
-pub(super) fn mark(scene: &mut Scene, shape: Shape, colour: Colour, (x, y): Point) {
+pub(super) fn mark(scene: &mut Scene, shape: Shape, colour: Colour, at: Point) {
+    scene.sign(sign(shape), colour, at, |scene| outlined(scene, shape, colour, at));
+}
+
+fn outlined(scene: &mut Scene, shape: Shape, colour: Colour, (x, y): Point) {
     let line = |w: f64| Some(Stroke::new(colour, w));
     let edge = Some(Stroke::new(Colour::WHITE, 1.0));
     let strokes = |scene: &mut Scene, pairs: &[(Point, Point)]| {

@@ -1,5 +1,6 @@
 //! The root locus: the whole of it, and magnified where roots cross the boundary.
 
+mod beyond;
 mod marks;
 mod range;
 mod windows;
@@ -32,6 +33,8 @@ pub struct LocusFigure<'a> {
     pub time: Time,
     /// The roots.
     pub locus: &'a RootLocus,
+    /// The same outside of the range, drawn thin.
+    pub beyond: &'a RootLocus,
     /// Parameter ranges that are certified stable (ends rounded), lower and upper.
     pub stable: &'a [(f64, f64)],
     /// Certified points of the boundary.
@@ -56,12 +59,16 @@ pub struct LocusMark {
 pub struct DrawnLocus {
     /// The roots.
     pub locus: RootLocus,
+    /// The same of a gain outside of the range.
+    pub beyond: RootLocus,
+    /// The poles and the zeros of the open loop, each once, where the parameter is a gain.
+    pub open_loop: Option<[Vec<Complex<f64>>; 2]>,
     /// The certified crossings that lie in the range.
     pub crossings: Vec<Crossing>,
-    /// The whole picture and the magnified one, side by side.
+    /// The whole picture and the magnified one, if anything crosses, side by side.
     pub figure: Figure,
-    /// The two pictures, each alone, for a page that may be narrow.
-    pub parts: [Figure; 2],
+    /// The same pictures, each alone, for a page that may be narrow.
+    pub parts: Vec<Figure>,
 }
 
 /// The characteristic polynomial, exact or with constants rounded far beyond what is seen.
@@ -105,6 +112,38 @@ impl Polynomial<'_> {
 /// Bits to which the ends of the stable set are known for a picture.
 const PICTURE_BITS: u64 = 60;
 
+/// What a picture has of the answer.
+struct Certified {
+    /// Ranges that are stable, rounded.
+    stable: Vec<(f64, f64)>,
+    /// Points of the boundary with an end in the range, and the ends.
+    crossings: Vec<Crossing>,
+    through: Vec<Rational>,
+}
+
+impl Certified {
+    fn of(answer: &Answer<StableSet>, range: &(Rational, Rational)) -> Certified {
+        let problem = answer.problem();
+        let (mut through, mut crossings, mut stable) = (Vec::new(), Vec::new(), Vec::new());
+        for interval in answer.value().intervals() {
+            let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
+            for (end, slot) in [(&interval.lower, 0), (&interval.upper, 1)] {
+                let Some(end) = end else { continue };
+                let (lo, hi) = end.value.refined_to_digits(15).enclosure();
+                let value = lo.midpoint(&hi);
+                ends[slot] = value.to_f64_approximate();
+                if value < range.0 || value > range.1 {
+                    continue;
+                }
+                crossings.extend(crossing(end, &value, problem));
+                through.push(value);
+            }
+            stable.push((ends[0], ends[1]));
+        }
+        Certified { stable, crossings, through }
+    }
+}
+
 /// The locus of the parameter of a decided question over a range, with all certified ends in it.
 ///
 /// # Errors
@@ -118,22 +157,7 @@ pub fn locus_of(
     let problem = answer.problem();
     let discrete = problem.time() == Time::Discrete;
     let focus = Complex::new(if discrete { 1.0 } else { 0.0 }, 0.0);
-    let (mut through, mut crossings, mut stable) = (Vec::new(), Vec::new(), Vec::new());
-    for interval in answer.value().intervals() {
-        let mut ends = [range.0.to_f64_approximate(), range.1.to_f64_approximate()];
-        for (end, slot) in [(&interval.lower, 0), (&interval.upper, 1)] {
-            let Some(end) = end else { continue };
-            let (lo, hi) = end.value.refined_to_digits(15).enclosure();
-            let value = lo.midpoint(&hi);
-            ends[slot] = value.to_f64_approximate();
-            if value < range.0 || value > range.1 {
-                continue;
-            }
-            crossings.extend(crossing(end, &value, problem));
-            through.push(value);
-        }
-        stable.push((ends[0], ends[1]));
-    }
+    let Certified { stable, crossings, mut through } = Certified::of(answer, range);
     let wide = {
         let (a, b) = (range.0.to_f64_approximate(), range.1.to_f64_approximate());
         a > 0.0 && b / a > 100.0
@@ -151,21 +175,40 @@ pub fn locus_of(
     through.extend(problem.parameter().nominal.clone());
     let options = LocusOptions { lower: range.0.clone(), upper: range.1.clone(), scale, focus, through, reach };
     let locus = trace_root_locus(of, &options, budget)?;
-    let name = &problem.parameter().name;
-    let unit = visible(problem.parameter().unit.as_deref().unwrap_or_default()).into_owned();
-    let shown = |value: &Rational| quantity(&to_decimal(value, 4), &unit);
+    let whole = polynomial.whole();
+    let gain = whole.as_deref().and_then(marks::as_gain);
+    let beyond = match &gain {
+        Some((_, zeros)) => beyond::of(of, zeros, &problem.parameter().domain, &options, budget)?,
+        None => RootLocus::default(),
+    };
+    let shown = |value: &Rational| quantity(&to_decimal(value, 4), &unit_of(problem));
     let nominal = problem.parameter().nominal.as_ref().and_then(|value| Some((value, of(value)?)));
-    let nominal = nominal.map(|(value, p)| (format!("closed loop at {name} = {}", quantity(&short(value), &unit)), p));
+    let name = &problem.parameter().name;
+    let nominal = nominal
+        .map(|(value, p)| (format!("closed loop at {name} = {}", quantity(&short(value), &unit_of(problem))), p));
     let ends = Ends { parameter: name, range: [shown(&range.0), shown(&range.1)] };
-    let marks = marks::of(polynomial.whole().as_deref(), nominal, &locus, &ends);
+    let marks = marks::of(gain.as_ref(), nominal, &locus, &ends);
     let mut heading = heading(&format!("Root locus in {name}"), problem);
-    heading.notes.insert(0, format!("{name} from {} to {}", shown(&range.0), shown(&range.1)));
-    let figure =
-        LocusFigure { time: problem.time(), locus: &locus, stable: &stable, crossings: &crossings, marks: &marks };
+    let thin = if beyond.pieces.is_empty() { "" } else { "; thin lines are beyond" };
+    heading.notes.insert(0, format!("{name} from {} to {}{thin}", shown(&range.0), shown(&range.1)));
+    let figure = LocusFigure {
+        time: problem.time(),
+        locus: &locus,
+        beyond: &beyond,
+        stable: &stable,
+        crossings: &crossings,
+        marks: &marks,
+    };
     let panels = locus_panels(&figure);
     let figure = side_by_side(&panels, SIDE, HEIGHT).headed(&heading);
-    let parts = panels.map(|p| p.figure(SIDE, HEIGHT).headed(&heading));
-    Ok(DrawnLocus { locus, crossings, figure, parts })
+    let parts = panels.iter().map(|p| p.figure(SIDE, HEIGHT).headed(&heading)).collect();
+    let open_loop = gain.as_ref().map(|(poles, zeros)| [marks::places(poles), marks::places(zeros)]);
+    Ok(DrawnLocus { locus, beyond, open_loop, crossings, figure, parts })
+}
+
+/// The unit of the parameter, empty if it has none.
+fn unit_of(problem: &Problem) -> String {
+    visible(problem.parameter().unit.as_deref().unwrap_or_default()).into_owned()
 }
 
 /// Where on the boundary the roots are at an end, and its label; nothing for ends without a root
@@ -198,34 +241,41 @@ fn crossing(end: &End, value: &Rational, problem: &Problem) -> Option<Crossing> 
 const STABLE: &str = COLOURS[0];
 const OTHER: &str = COLOURS[1];
 
+/// Width of what lies outside of the range.
+const THIN: f64 = 0.9;
+
 /// Width and height of a panel.
 const SIDE: f64 = 520.0;
 const HEIGHT: f64 = 580.0;
 
-/// The locus in two panels of equal axes, first the whole, then magnified where roots cross the boundary.
+/// The locus in panels of equal axes, first the whole, then magnified where roots cross the boundary, if they do.
 ///
 /// The colour follows the certified intervals, not the drawn roots; crossings are drawn where the
 /// certified answer has them, on the circle or the axis. Each is labelled in one panel.
-pub fn locus_panels(figure: &LocusFigure<'_>) -> [Panel; 2] {
+pub fn locus_panels(figure: &LocusFigure<'_>) -> Vec<Panel> {
     let whole_window = windows::whole(figure);
+    let outside = windows::outside(figure, &whole_window);
+    let mut whole = frame(figure, &whole_window, "whole locus".to_owned());
+    whole.legend = Some(Corner::Above);
+    if outside > 0 {
+        let lie = if outside == 1 { "mark lies" } else { "marks lie" };
+        whole.notes.push(format!("{outside} {lie} outside the picture"));
+    }
+    if figure.crossings.is_empty() {
+        whole.title = String::new();
+        return vec![whole];
+    }
     let near_window = windows::near(figure, &whole_window);
     let times = whole_window.half / near_window.half;
     let times = if times < 9.5 { format!("{times:.1}") } else { format!("{times:.0}") };
-    let mut whole = frame(figure, &whole_window, "whole locus".to_owned());
     let mut near = frame(figure, &near_window, format!("{times} times larger"));
     whole.texts = labels(figure, &whole_window, |z| !near_window.contains(z));
     near.texts = labels(figure, &near_window, |z| near_window.contains(z));
     if whole_window.half > 1.5 * near_window.half {
         outlined(&mut whole, &whole_window, &near_window);
     }
-    whole.legend = Some(Corner::Above);
     near.legend = Some(Corner::Above);
-    let outside = windows::outside(figure, &whole_window);
-    if outside > 0 {
-        let lie = if outside == 1 { "mark lies" } else { "marks lie" };
-        whole.notes.push(format!("{outside} {lie} outside the picture"));
-    }
-    [whole, near]
+    vec![whole, near]
 }
 
 /// What the other panel shows, as a rectangle with its name.
@@ -233,10 +283,9 @@ fn outlined(whole: &mut Panel, window: &Square, near: &Square) {
     let (x, y) = (near.x(), near.y());
     whole.curves.push(Curve {
         points: vec![(x.0, y.0), (x.1, y.0), (x.1, y.1), (x.0, y.1), (x.0, y.0)],
-        label: None,
         colour: "#555555".into(),
         width: 0.9,
-        dashed: false,
+        ..Curve::default()
     });
     // Towards the middle of the picture, where there is room.
     let (right, up) = (near.centre.0 > window.centre.0, near.centre.1 > window.centre.1);
@@ -285,16 +334,13 @@ fn frame(figure: &LocusFigure<'_>, window: &Square, title: String) -> Panel {
     };
     panel.curves.push(boundary(discrete, window));
     let is_stable = |value: f64| figure.stable.iter().any(|(a, b)| value >= *a && value <= *b);
-    for branch in figure.locus.branches() {
-        for (inside, points) in runs(&branch.points, is_stable) {
-            let (colour, word) = if inside { (STABLE, "stable (certified)") } else { (OTHER, "not stable") };
-            panel.curves.push(Curve {
-                points,
-                label: Some(word.into()),
-                colour: colour.into(),
-                width: 1.8,
-                dashed: false,
-            });
+    for (locus, width) in [(figure.beyond, THIN), (figure.locus, 1.8)] {
+        for branch in locus.branches() {
+            for (inside, points) in runs(&branch.points, is_stable) {
+                let (colour, word) = if inside { (STABLE, "stable (certified)") } else { (OTHER, "not stable") };
+                let label = (width > THIN).then(|| word.to_owned());
+                panel.curves.push(Curve { points, label, colour: colour.into(), width, ..Curve::default() });
+            }
         }
     }
     panel.marks = marks::drawn(figure);
@@ -319,7 +365,7 @@ fn boundary(discrete: bool, window: &Square) -> Curve {
         label: Some(if discrete { "unit circle" } else { "imaginary axis" }.into()),
         colour: "#777777".into(),
         width: 1.0,
-        dashed: false,
+        ..Curve::default()
     }
 }
 

@@ -20,6 +20,8 @@ pub struct Curve {
     pub width: f64,
     /// Whether it is dashed.
     pub dashed: bool,
+    /// Whether arrow heads say in which direction it goes.
+    pub arrows: bool,
 }
 
 /// Shape of a mark.
@@ -210,6 +212,9 @@ impl Panel {
             for piece in window.pieces(&self.placed(curve)) {
                 let points = apart(piece.into_iter().map(|p| frame.at_places(p)).collect());
                 scene.polyline(&points, stroke(curve));
+                if curve.arrows {
+                    arrow_heads(&mut scene, &points, Colour::css(&curve.colour));
+                }
                 occupied.curve(points);
             }
         }
@@ -298,6 +303,33 @@ impl Panel {
 fn stroke(curve: &Curve) -> Stroke {
     let stroke = Stroke::new(Colour::css(&curve.colour), curve.width);
     if curve.dashed { stroke.dashed(&DASHES) } else { stroke }
+}
+
+/// Pixels from arrow head to arrow head along a curve; a shorter curve has one in its middle, a very short one none.
+const BETWEEN_HEADS: f64 = 200.0;
+const LEAST_WITH_HEAD: f64 = 30.0;
+
+/// Arrow heads along a polyline.
+fn arrow_heads(scene: &mut Scene, points: &[Point], colour: Colour) {
+    let length_of = |pair: &[Point]| (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1);
+    let whole: f64 = points.windows(2).map(length_of).sum();
+    if whole < LEAST_WITH_HEAD {
+        return;
+    }
+    let count = (whole / BETWEEN_HEADS).round().max(1.0);
+    let (mut next, mut passed) = (0.5 * whole / count, 0.0);
+    for pair in points.windows(2) {
+        let length = length_of(pair);
+        while length > 0.0 && next <= passed + length {
+            let t = (next - passed) / length;
+            let (ux, uy) = ((pair[1].0 - pair[0].0) / length, (pair[1].1 - pair[0].1) / length);
+            let (x, y) = (pair[0].0 + t * (pair[1].0 - pair[0].0), pair[0].1 + t * (pair[1].1 - pair[0].1));
+            let corner = |along: f64, aside: f64| (x + along * ux - aside * uy, y + along * uy + aside * ux);
+            scene.polygon(&[corner(5.5, 0.0), corner(-4.5, 4.0), corner(-4.5, -4.0)], Some(colour), None);
+            next += whole / count;
+        }
+        passed += length;
+    }
 }
 
 /// A thin line that ends beside what it points at.

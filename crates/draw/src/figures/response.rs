@@ -1,9 +1,9 @@
-//! Frequency responses: Bode and Nyquist diagrams of the open loop.
+//! Frequency responses: Bode diagrams of the open loop, and the crossings that are marked on these and on Nyquist curves.
 //!
 //! The curves are sampled; crossings and margins are those of the answer.
 
 use super::frequency::{FrequencyResponse, ResponsePoint, binding, middle, rate, unit_of};
-use super::panel::{Corner, Curve, Mark, Panel, Shape, Text, stacked};
+use super::panel::{Curve, Mark, Panel, Shape, Text, stacked};
 use super::{COLOURS, Figure, Scale};
 use jurist_engine::answer::Answer;
 use jurist_engine::response::{Margins, PhaseMargin, Place};
@@ -13,12 +13,39 @@ use jurist_engine::show::layout::visible;
 const SIZE: (f64, f64) = (720.0, 300.0);
 
 /// More words than these would hide each other.
-const MOST_WORDS: usize = 4;
+pub(super) const MOST_WORDS: usize = 4;
 
-fn title(answer: &Answer<Margins>) -> String {
-    let name = answer.problem().title().map(visible).unwrap_or_else(|| "open loop".into());
-    let cut = answer.value().open_loop.cut();
-    format!("{name}: open loop at '{}'", visible(cut.name()))
+/// The name of a loop in one line, which says nothing.
+const UNNAMED: &str = "open loop";
+
+pub(super) fn title(answer: &Answer<Margins>) -> String {
+    let name = answer.problem().title().map(visible).unwrap_or_else(|| UNNAMED.into());
+    match answer.value().open_loop.cut().name() {
+        UNNAMED => name.into_owned(),
+        cut => format!("{name}: open loop at '{}'", visible(cut)),
+    }
+}
+
+/// A number with two decimals and the unit; minus signs are as long as plus signs.
+fn shown(value: f64, unit: &str) -> String {
+    format!("{value:.2}{unit}").replace('-', "\u{2212}")
+}
+
+/// The margins of a stable loop in a line; nothing of another one.
+pub(super) fn margins_line(margins: &Margins) -> Vec<String> {
+    let Some(stable) = &margins.stable else { return Vec::new() };
+    let ends = [&stable.gain.lower, &stable.gain.upper].into_iter().flatten();
+    let factors = ends.map(|end| {
+        let (lo, hi) = end.value.refined_to_digits(9).enclosure();
+        lo.midpoint(&hi).to_f64_approximate()
+    });
+    let factors: Vec<String> = factors.filter(|f| *f > 0.0).map(|f| shown(20.0 * f.log10(), " dB")).collect();
+    let gain = (!factors.is_empty()).then(|| format!("gain margin {}", factors.join(" and ")));
+    let is_bounded = !matches!(stable.phase, PhaseMargin::Unbounded);
+    let degrees = stable.phase.degrees(60).filter(|_| is_bounded);
+    let phase = degrees.map(|d| format!("phase margin {}", shown(middle(&d), "°")));
+    let words: Vec<String> = gain.into_iter().chain(phase).collect();
+    if words.is_empty() { Vec::new() } else { vec![words.join(", ")] }
 }
 
 fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
@@ -32,17 +59,17 @@ fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
 }
 
 /// A mark on an exact crossing.
-struct Crossing {
-    at: ResponsePoint,
+pub(super) struct Crossing {
+    pub at: ResponsePoint,
     /// Whether the modulus is one there; else the open loop is real and negative.
-    is_gain: bool,
+    pub is_gain: bool,
     /// Whether a margin may bind there.
-    is_binding: bool,
-    words: String,
+    pub is_binding: bool,
+    pub words: String,
 }
 
-/// The crossings in the range that is drawn.
-fn crossings(margins: &Margins, response: &FrequencyResponse) -> Vec<Crossing> {
+/// The crossings in the range that is drawn; and of the negative real axis that at frequency 0, and without end.
+pub(super) fn crossings(margins: &Margins, response: &FrequencyResponse) -> Vec<Crossing> {
     let (_, unit) = unit_of(margins);
     let binding = binding(margins);
     let mark = |place: &Place, is_gain: bool, words: String| {
@@ -52,147 +79,127 @@ fn crossings(margins: &Margins, response: &FrequencyResponse) -> Vec<Crossing> {
     };
     let gain = margins.crossings.gain.iter().filter_map(|c| {
         let degrees = middle(&c.phase(60)).to_degrees();
-        mark(&c.place, true, format!("PM {degrees:.2}°"))
+        mark(&c.place, true, format!("PM {}", shown(degrees, "°")))
     });
     let phase = margins.crossings.phase.iter().filter_map(|c| {
-        let decibels = 20.0 * middle(&c.factor.enclosure(60)).log10();
-        mark(&c.place, false, format!("GM {decibels:.2} dB"))
+        let factor = middle(&c.factor.enclosure(60));
+        let words = format!("GM {}", shown(20.0 * factor.log10(), " dB"));
+        if rate(margins, &c.place).is_some() {
+            return mark(&c.place, false, words);
+        }
+        let is_binding = binding.iter().any(|known| std::ptr::eq(*known, &c.place));
+        let at = ResponsePoint { frequency: 0.0, real: -1.0 / factor, imaginary: 0.0, phase: -180.0 };
+        Some(Crossing { at, is_gain: false, is_binding, words })
     });
     gain.chain(phase).collect()
 }
 
-/// The lines at -180 degrees, but for whole turns, at which the crossings that matter are; else the first that the curve meets.
+/// Those of these that are labelled: all where they are few, else the ones that matter.
+pub(super) fn labelled<'a>(chosen: &[&'a Crossing]) -> Vec<&'a Crossing> {
+    let said: Vec<&Crossing> = match chosen.len() <= MOST_WORDS {
+        true => chosen.to_vec(),
+        false => chosen.iter().copied().filter(|m| m.is_binding).collect(),
+    };
+    if said.len() <= MOST_WORDS { said } else { Vec::new() }
+}
+
+/// The line at -180 degrees, but for whole turns, that a phase is nearest to.
+fn nearest_level(phase: f64) -> f64 {
+    360.0 * ((phase + 180.0) / 360.0).round() - 180.0
+}
+
+/// The lines at -180 degrees, but for whole turns, that the crossings that matter are nearest to; else the first that the curve meets.
 fn critical_levels(marked: &[Crossing], (low, high): (f64, f64)) -> Vec<f64> {
-    let nearest = |phase: f64| 360.0 * ((phase + 180.0) / 360.0).round() - 180.0;
-    let inside = |level: &f64| (low..=high).contains(level);
-    let mut levels: Vec<f64> =
-        marked.iter().filter(|m| m.is_binding).map(|m| nearest(m.at.phase)).filter(inside).collect();
+    let mut levels: Vec<f64> = marked.iter().filter(|m| m.is_binding).map(|m| nearest_level(m.at.phase)).collect();
     if levels.is_empty() {
         let highest = 360.0 * ((high + 180.0) / 360.0).floor() - 180.0;
-        levels.extend(Some(highest).filter(inside));
+        levels.extend(Some(highest).filter(|level| (low..=high).contains(level)));
     }
     levels.sort_by(f64::total_cmp);
     levels.dedup();
     levels
 }
 
-/// Modulus and phase over the logarithm of the frequency, the exact crossings marked.
-pub fn bode(answer: &Answer<Margins>, response: &FrequencyResponse) -> Figure {
-    let margins = answer.value();
-    let curve = |y: fn(&ResponsePoint) -> f64| Curve {
-        points: response.points.iter().map(|p| (p.frequency, y(p))).collect(),
-        colour: COLOURS[0].to_owned(),
-        width: 1.8,
-        ..Curve::default()
-    };
-    let first = response.points.first().map_or(0.1, |p| p.frequency);
-    let last = response.points.last().map_or(10.0, |p| p.frequency);
-    let marked = crossings(margins, response);
-    let panel = |y: fn(&ResponsePoint) -> f64, y_label: &str, of_gain: bool| {
-        let range = extent(response.points.iter().map(y).chain(of_gain.then_some(0.0)));
-        let chosen: Vec<&Crossing> = marked.iter().filter(|m| m.is_gain != of_gain).collect();
+/// One of the two panels.
+struct Half<'a> {
+    response: &'a FrequencyResponse,
+    marked: &'a [Crossing],
+    value: fn(&ResponsePoint) -> f64,
+    /// The line that a mark is measured from.
+    base: fn(&ResponsePoint) -> f64,
+    /// Whether the marks are at the crossings of modulus one.
+    of_gain: bool,
+}
+
+impl Half<'_> {
+    fn panel(&self, y_label: &str, levels: &[f64]) -> Panel {
+        let (points, value) = (&self.response.points, self.value);
+        let first = points.first().map_or(0.1, |p| p.frequency);
+        let last = points.last().map_or(10.0, |p| p.frequency).max(first * 1.01);
+        let range = extent(points.iter().map(value).chain(levels.iter().copied()));
+        let chosen: Vec<&Crossing> = self.marked.iter().filter(|m| m.is_gain == self.of_gain).collect();
         let mark = |m: &&Crossing| Mark {
-            at: (m.at.frequency, y(&m.at)),
+            at: (m.at.frequency, value(&m.at)),
             shape: Shape::Diamond,
             colour: COLOURS[1].to_owned(),
             label: None,
         };
         let step = 0.1 * (range.1 - range.0);
         let text = |m: &&Crossing| {
-            let (x, y) = (m.at.frequency, y(&m.at));
-            Text {
-                text: m.words.clone(),
-                at: (x * (last / first).powf(0.04), (y + step).min(range.1 - 0.5 * step)),
-                target: Some((x, y)),
-            }
+            let (x, y) = (m.at.frequency, value(&m.at));
+            let at = (x * (last / first).powf(0.04), (y + step).min(range.1 - 0.5 * step));
+            Text { text: m.words.clone(), at, target: Some((x, y)) }
         };
-        let said: Vec<&Crossing> = match chosen.len() <= MOST_WORDS {
-            true => chosen.clone(),
-            false => chosen.iter().copied().filter(|m| m.is_binding).collect(),
-        };
-        let texts = if said.len() <= MOST_WORDS { said.iter().map(text).collect() } else { Vec::new() };
+        let curve =
+            |points, colour: &str, width| Curve { points, colour: colour.to_owned(), width, ..Curve::default() };
+        let mut curves = vec![curve(points.iter().map(|p| (p.frequency, value(p))).collect(), COLOURS[0], 1.8)];
+        // The margins themselves: from the line to the curve.
+        curves.extend(chosen.iter().filter(|m| m.is_binding).map(|m| {
+            let x = m.at.frequency;
+            curve(vec![(x, (self.base)(&m.at)), (x, value(&m.at))], COLOURS[1], 1.6)
+        }));
         Panel {
             y_label: y_label.to_owned(),
-            x: (first, last.max(first * 1.01)),
+            x: (first, last),
             x_scale: Scale::Logarithmic,
             y: range,
-            curves: vec![curve(y)],
+            curves,
             marks: chosen.iter().map(mark).collect(),
-            texts,
+            texts: labelled(&chosen).iter().map(text).collect(),
+            levels: levels.iter().map(|level| (*level, String::new())).collect(),
+            verticals: self.verticals(),
             ..Panel::default()
         }
-    };
-    let magnitude = Panel {
-        title: title(answer),
-        x_label: if response.hertz { " (Hz)" } else { "" }.to_owned(),
-        levels: vec![(0.0, String::new())],
-        ..panel(ResponsePoint::decibels, "magnitude (dB)", true)
-    };
-    let phase = panel(|p| p.phase, "phase (degrees)", false);
-    let levels = critical_levels(&marked, phase.y).into_iter().map(|level| (level, String::new())).collect();
-    stacked(&[magnitude, Panel { levels, x_label: response.label().to_owned(), ..phase }], SIZE.0, SIZE.1)
+    }
+
+    /// The crossings that matter, of both kinds, in both panels; none where they would be a hedge.
+    fn verticals(&self) -> Vec<(f64, String)> {
+        let binding: Vec<f64> = self.marked.iter().filter(|m| m.is_binding).map(|m| m.at.frequency).collect();
+        if binding.len() > 2 * MOST_WORDS {
+            return Vec::new();
+        }
+        binding.into_iter().map(|f| (f, String::new())).collect()
+    }
 }
 
-/// The curve of the open loop around -1, its mirror image for negative frequencies dashed, with the exact crossings.
-pub fn nyquist(answer: &Answer<Margins>, response: &FrequencyResponse) -> Figure {
-    /// Half the width of the picture, in units of the distance from 0 to -1.
-    const REACH: f64 = 2.6;
+/// Modulus and phase over the logarithm of the frequency, the exact crossings marked: vertical lines through both panels, and the margins
+/// as what is missing to 0 dB and to -180 degrees.
+pub fn bode(answer: &Answer<Margins>, response: &FrequencyResponse) -> Figure {
     let margins = answer.value();
-    let side = |sign: f64| response.points.iter().map(|p| (p.real, sign * p.imaginary)).collect::<Vec<_>>();
-    let curve = |points, colour: &str, label: &str, dashed| Curve {
-        points,
-        colour: colour.to_owned(),
-        width: 1.8,
-        dashed,
-        label: Some(label.to_owned()),
+    let mut marked = crossings(margins, response);
+    marked.retain(|m| m.at.frequency > 0.0);
+    let marked = &marked[..];
+    let magnitude = Half { response, marked, value: ResponsePoint::decibels, base: |_| 0.0, of_gain: false };
+    let phase = Half { response, marked, value: |p| p.phase, base: |p| nearest_level(p.phase), of_gain: true };
+    let magnitude = Panel {
+        title: title(answer),
+        notes: margins_line(margins),
+        x_label: if response.hertz { " (Hz)" } else { "" }.to_owned(),
+        ..magnitude.panel("magnitude (dB)", &[0.0])
     };
-    let turn = 2.0 * std::f64::consts::PI;
-    let circle = |centre: f64, r: f64| {
-        (0..=240).map(|i| f64::from(i) * turn / 240.0).map(|a| (centre + r * a.cos(), r * a.sin())).collect::<Vec<_>>()
-    };
-    let mut curves = vec![
-        curve(circle(0.0, 1.0), "#999999", "magnitude 1", true),
-        curve(side(1.0), COLOURS[0], "positive frequencies", false),
-        curve(side(-1.0), COLOURS[4], "negative frequencies", true),
-    ];
-    if let Some(stable) = &margins.stable {
-        let (lo, hi) = stable.modulus.refined_to_digits(9).enclosure();
-        curves.push(curve(circle(-1.0, lo.midpoint(&hi).to_f64_approximate()), COLOURS[2], "modulus margin", true));
-    }
-    let exact = crossings(margins, response);
-    let mut marks =
-        vec![Mark { at: (-1.0, 0.0), shape: Shape::Cross, colour: COLOURS[1].to_owned(), label: Some("−1".into()) }];
-    let are_few = exact.len() <= 2 * MOST_WORDS;
-    marks.extend(exact.iter().filter(|m| are_few || m.is_binding).map(|m| Mark {
-        at: (m.at.real, m.at.imaginary),
-        shape: Shape::Diamond,
-        colour: COLOURS[1].to_owned(),
-        label: None,
-    }));
-    let mut words = Vec::new();
-    if let Some(stable) = &margins.stable {
-        if let Some(degrees) = stable.phase.degrees(60).filter(|_| !matches!(stable.phase, PhaseMargin::Unbounded)) {
-            words.push(format!("PM {:.2}°", middle(&degrees)));
-        }
-        if let Some(upper) = &stable.gain.upper {
-            let (lo, hi) = upper.value.refined_to_digits(9).enclosure();
-            words.push(format!("GM {:.2} dB", 20.0 * lo.midpoint(&hi).to_f64_approximate().log10()));
-        }
-    }
-    let heading = if words.is_empty() { title(answer) } else { format!("{} ({})", title(answer), words.join(", ")) };
-    let panel = Panel {
-        title: heading,
-        x_label: "real part".to_owned(),
-        y_label: "imaginary part".to_owned(),
-        x: (-REACH, REACH),
-        y: (-REACH, REACH),
-        curves,
-        marks,
-        equal: true,
-        legend: Some(Corner::TopRight),
-        ..Panel::default()
-    };
-    panel.figure(640.0, 640.0)
+    let levels = critical_levels(marked, extent(response.points.iter().map(|p| p.phase)));
+    let phase = Panel { x_label: response.label().to_owned(), ..phase.panel("phase (°)", &levels) };
+    stacked(&[magnitude, phase], SIZE.0, SIZE.1)
 }
 
 #[cfg(test)]

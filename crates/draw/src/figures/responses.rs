@@ -32,7 +32,7 @@ pub fn response_panel(title: &str, time_unit: &str, y_label: &str, curves: &[Res
             label: (!c.label.is_empty()).then(|| c.label.to_string()),
             colour: COLOURS[k % COLOURS.len()].into(),
             width: if k == 0 { 1.3 } else { 1.1 },
-            dashed: false,
+            ..Curve::default()
         })
         .collect();
     let all = || drawn.iter().flat_map(|c| c.points.iter());
@@ -59,12 +59,18 @@ pub fn axis_label(name: &str, unit: &str) -> String {
     }
 }
 
-/// One panel for each of these signals of a run; of a run that is `sampled` each value holds until the next.
-pub fn response_panels(time_unit: &str, trace: &Trace, signals: &[String], sampled: bool) -> Vec<Panel> {
-    let held = if sampled { stairs(trace) } else { trace.clone() };
+/// One panel for each of these signals of a run; of those that are `sampled` each value holds until the next.
+pub fn response_panels(
+    time_unit: &str,
+    trace: &Trace,
+    signals: &[String],
+    sampled: impl Fn(&str) -> bool,
+) -> Vec<Panel> {
+    let in_stairs = stairs(trace);
     let panel = |name: &String| {
+        let held = if sampled(name) { &in_stairs } else { trace };
         let label = axis_label(name, trace.signal(name).map_or("", |s| &s.unit));
-        response_panel("", time_unit, &label, &[ResponseCurve { trace: &held, signal: name, label: "" }])
+        response_panel("", time_unit, &label, &[ResponseCurve { trace: held, signal: name, label: "" }])
     };
     signals.iter().map(panel).collect()
 }

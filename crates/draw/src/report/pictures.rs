@@ -37,13 +37,12 @@ pub(super) fn locus(limits: &[Limits], parts: &Parts<'_>) -> String {
         Err(missing) => return missing.html(),
         Ok(drawn) => drawn,
     };
-    let [whole, near] = &drawn.parts;
-    let caption = "The roots are floating point; colours and crossings are those of the exact answer";
-    let mut html = format!(
-        "<div class=\"grid two\">{}{}</div>\n",
-        figure("locus-whole", whole, caption),
-        figure("locus-near", near, "The same, magnified where roots cross the boundary")
-    );
+    let captions = [
+        ("locus-whole", "The roots are floating point; colours and crossings are those of the exact answer"),
+        ("locus-near", "The same, magnified where roots cross the boundary"),
+    ];
+    let parts = drawn.parts.iter().zip(captions).map(|(part, (name, caption))| figure(name, part, caption));
+    let mut html = format!("<div class=\"grid two\">{}</div>\n", parts.collect::<String>());
     if !drawn.crossings.is_empty() {
         let lines: String = drawn.crossings.iter().map(|c| format!("<li>{}</li>", math(&c.label))).collect();
         html.push_str(&format!("<p>The boundary is crossed at</p><ul>{lines}</ul>\n"));
@@ -89,5 +88,5 @@ fn draw_response(
     let said = if said.is_empty() { "All inputs are 0.".to_owned() } else { format!("With {}.", said.join(", ")) };
     let run = course.run_within(problem, MOST_SAMPLES, budget)?;
     let answer = SimulationAnswer { trace: run.trace, sample_time: run.sample_time, circuit: None };
-    Ok((response_figure(problem, &answer, &run.finals, verdict.value().verdict), said))
+    Ok((response_figure(problem, &answer, &run.finals, verdict.value().verdict, course.is_duration_asked()), said))
 }

@@ -111,6 +111,24 @@ pub enum Item {
     },
     /// A line of words.
     Words(Words),
+    /// Things that are one letter where letters are all there is.
+    Sign {
+        /// The letter.
+        letter: &'static str,
+        /// Its colour.
+        colour: Colour,
+        /// Where it stands.
+        at: Point,
+        /// The things.
+        items: Vec<Item>,
+    },
+    /// What samples mean. In characters it stands below the picture, where its names do not run into one another.
+    Legend {
+        /// The samples as letters, with their colours and names.
+        entries: Vec<(&'static str, Colour, String)>,
+        /// The same as it is drawn elsewhere.
+        items: Vec<Item>,
+    },
     /// Things that are moved together, and cut at a rectangle (in their own coordinates).
     Group {
         /// How far they are moved.
@@ -186,6 +204,20 @@ impl Scene {
     /// All of another scene, its upper left corner at a place.
     pub fn place(&mut self, offset: Point, other: Scene) {
         self.add(Item::Group { offset, clip: None, items: other.items });
+    }
+
+    /// What `draw` adds is a letter in characters.
+    pub fn sign(&mut self, letter: &'static str, colour: Colour, at: Point, draw: impl FnOnce(&mut Scene)) {
+        let mut inner = Scene::new(self.width, self.height);
+        draw(&mut inner);
+        self.add(Item::Sign { letter, colour, at, items: inner.items });
+    }
+
+    /// What `draw` adds is a legend.
+    pub fn legend(&mut self, entries: Vec<(&'static str, Colour, String)>, draw: impl FnOnce(&mut Scene)) {
+        let mut inner = Scene::new(self.width, self.height);
+        draw(&mut inner);
+        self.add(Item::Legend { entries, items: inner.items });
     }
 
     /// What `draw` adds is seen inside the rectangle only.

@@ -112,6 +112,7 @@ impl Writer {
                     self.path(&circle, *fill, stroke.as_ref());
                 }
                 Item::Words(words) => self.words(words),
+                Item::Sign { items, .. } | Item::Legend { items, .. } => self.items(items),
                 Item::Group { offset, clip, items } => {
                     self.content.save_state();
                     let (x, y) = f(*offset);

@@ -42,6 +42,7 @@ impl Painter {
                     self.path(circle.as_ref(), *fill, stroke.as_ref(), transform);
                 }
                 Item::Words(words) => self.words(words, transform),
+                Item::Sign { items, .. } | Item::Legend { items, .. } => self.items(items, transform),
                 Item::Group { offset, clip, items } => {
                     let transform = transform.pre_translate(offset.0 as f32, offset.1 as f32);
                     let outer = self.mask.clone();

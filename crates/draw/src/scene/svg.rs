@@ -48,6 +48,7 @@ impl Writer<'_> {
                 self.paint(*fill, stroke.as_ref());
             }
             Item::Words(words) => self.words(words),
+            Item::Sign { items, .. } | Item::Legend { items, .. } => self.items(items),
             Item::Group { offset, clip, items } => {
                 let mut attributes = String::new();
                 if *offset != (0.0, 0.0) {

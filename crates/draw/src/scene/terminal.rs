@@ -33,35 +33,74 @@ impl Scene {
         let (columns, rows) = (size.0.max(1), size.1.max(1));
         let scale = (columns as f64 / self.width.max(1.0), rows as f64 / self.height.max(1.0));
         let mut screen = Screen { columns, rows, cells: vec![Cell::default(); columns * rows], scale };
-        // Words last: no line strikes them through.
-        screen.items(&self.items, (0.0, 0.0), hidden, false);
-        screen.items(&self.items, (0.0, 0.0), hidden, true);
+        // Words after lines, which would strike them through; turned ones last, for they find room at the sides of others.
+        for layer in [Layer::Lines, Layer::Words, Layer::Turned] {
+            screen.items(&self.items, (0.0, 0.0), hidden, layer);
+        }
+        let mut entries = Vec::new();
+        legends(&self.items, &mut entries);
+        screen.legend(&entries);
         screen.text(colours, plain)
     }
 }
 
+/// What is drawn in one pass.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Layer {
+    Lines,
+    Words,
+    Turned,
+}
+
+/// An entry of a legend: its sample, the sample's colour, its name.
+type Entry = (&'static str, Colour, String);
+
+/// The entries of all legends, each once.
+fn legends<'a>(items: &'a [Item], out: &mut Vec<&'a Entry>) {
+    for item in items {
+        match item {
+            Item::Legend { entries, .. } => {
+                let new = entries.iter().filter(|e| !out.iter().any(|known| known.2 == e.2)).collect::<Vec<_>>();
+                out.extend(new);
+            }
+            Item::Group { items, .. } => legends(items, out),
+            _ => {}
+        }
+    }
+}
+
+/// Letters from where an axis begins to its title, at most.
+const ASIDE: usize = 4;
+
 impl Screen {
-    fn items(&mut self, items: &[Item], at: Point, hidden: &[Colour], words: bool) {
+    fn items(&mut self, items: &[Item], at: Point, hidden: &[Colour], layer: Layer) {
+        let is_lines = layer == Layer::Lines;
         for item in items {
             match item {
                 Item::Path { segments, fill, stroke } => {
                     let colour = stroke.as_ref().map(|s| s.colour).or(*fill);
-                    let colour = colour.filter(|c| !words && *c != Colour::WHITE && !hidden.contains(c));
+                    let colour = colour.filter(|c| is_lines && *c != Colour::WHITE && !hidden.contains(c));
                     if let Some(colour) = colour {
                         self.path(segments, at, colour);
                     }
                 }
                 Item::Circle { centre, fill, stroke, .. } => {
                     let colour = fill.filter(|c| *c != Colour::WHITE).or(stroke.as_ref().map(|s| s.colour));
-                    if let Some(colour) = colour.filter(|_| !words) {
+                    if let Some(colour) = colour.filter(|_| is_lines) {
                         let letter = if fill.is_some_and(|c| c != Colour::WHITE) { '●' } else { '○' };
                         self.letter((centre.0 + at.0, centre.1 + at.1), letter, colour);
                     }
                 }
-                Item::Words(line) if words => self.words(line, at),
-                Item::Words(_) => {}
+                Item::Words(line) if line.turned && layer == Layer::Turned => self.turned(line, at),
+                Item::Words(line) if !line.turned && layer == Layer::Words => self.words(line, at),
+                Item::Words(_) | Item::Legend { .. } => {}
+                Item::Sign { letter, colour, at: (x, y), .. } => {
+                    for letter in letter.chars().take(if is_lines { 1 } else { 0 }) {
+                        self.letter((x + at.0, y + at.1), letter, *colour);
+                    }
+                }
                 Item::Group { offset, items, .. } => {
-                    self.items(items, (at.0 + offset.0, at.1 + offset.1), hidden, words);
+                    self.items(items, (at.0 + offset.0, at.1 + offset.1), hidden, layer);
                 }
             }
         }
@@ -124,19 +163,45 @@ impl Screen {
             Anchor::End => length,
         };
         let (x, y) = ((words.at.0 + at.0) * self.scale.0, (words.at.1 + at.1) * self.scale.1);
-        if words.turned {
-            for (k, letter) in letters.into_iter().enumerate() {
-                let row = (y + before.floor() - k as f64 - 0.5).floor();
-                self.put((x.floor(), row), letter, words.colour);
-            }
-            return;
-        }
         // The middle of a letter's height is above its base line.
         let wanted = (x.floor() - before.floor(), (y - 0.25 * words.size * self.scale.1).floor());
         // Words for which there is no place would hide others.
         let Some((column, row)) = self.free_place(wanted, letters.len()) else { return };
         for (k, letter) in letters.into_iter().enumerate() {
             self.put((column + k as f64, row), letter, words.colour);
+        }
+    }
+
+    /// Words along a vertical axis, left of where others stand.
+    fn turned(&mut self, words: &Words, at: Point) {
+        let letters: Vec<char> = words.text.chars().collect();
+        let (x, y) = ((words.at.0 + at.0) * self.scale.0, (words.at.1 + at.1) * self.scale.1);
+        let row = |k: usize| (y + (letters.len() as f64 / 2.0).floor() - k as f64 - 0.5).floor();
+        let columns = (0..=ASIDE).map(|by| x.floor() - by as f64).filter(|c| *c >= 0.0);
+        let mut free = columns.filter(|c| (0..letters.len()).all(|k| !self.is_lettered((*c, row(k)))));
+        let column = free.next().unwrap_or(x.floor());
+        for (k, letter) in letters.iter().enumerate() {
+            self.put((column, row(k)), *letter, words.colour);
+        }
+    }
+
+    /// Rows below the picture with samples and their names.
+    fn legend(&mut self, entries: &[&Entry]) {
+        let mut column = self.columns;
+        for (sample, colour, name) in entries {
+            let letters: Vec<char> = sample.chars().chain(" ".chars()).chain(name.chars()).collect();
+            if column + letters.len() > self.columns {
+                self.rows += 1;
+                self.cells.resize(self.rows * self.columns, Cell::default());
+                column = 1;
+            }
+            let row = self.rows as f64 - 1.0;
+            let of_sample = sample.chars().count();
+            for (k, letter) in letters.iter().enumerate() {
+                let colour = if k < of_sample { *colour } else { Colour::BLACK };
+                self.put(((column + k) as f64, row), *letter, colour);
+            }
+            column += letters.len() + 3;
         }
     }
 
@@ -220,5 +285,28 @@ mod tests {
         let shown = scene.characters((32, 4), false, &[], &[]);
         assert!(["unit circle", "stable", "not stable"].iter().all(|text| shown.contains(text)), "{shown}");
         assert!(shown.contains("unit circle stable"), "{shown}");
+    }
+
+    #[test]
+    fn a_legend_stands_below_and_signs_are_letters() {
+        let mut scene = Scene::new(30.0, 4.0);
+        let entries = vec![("──", Colour(1, 2, 3), "unit circle".to_owned()), ("×", Colour::BLACK, "poles".to_owned())];
+        for _ in 0..2 {
+            scene.legend(entries.clone(), |s| s.words(Words::new("unit circle", (0.0, 3.0), 2.0, Colour::BLACK)));
+        }
+        scene.sign("×", Colour::BLACK, (10.0, 1.0), |s| {
+            s.line((0.0, 0.0), (30.0, 4.0), Stroke::new(Colour::BLACK, 1.0))
+        });
+        assert_eq!(scene.characters((30, 2), false, &[], &[]), "          ×\n\n ── unit circle   × poles\n");
+        assert_eq!(scene.characters((16, 1), false, &[], &[]), "     ×\n ── unit circle\n × poles\n");
+        assert!(scene.svg("f").contains("unit circle") && scene.svg("f").contains("M0 0L30 4"));
+    }
+
+    #[test]
+    fn the_title_of_an_axis_stands_beside_its_numbers() {
+        let mut scene = Scene::new(8.0, 8.0);
+        scene.words(Words::new("y", (3.0, 4.0), 1.0, Colour::BLACK).turned());
+        scene.words(Words::new("1.5", (2.0, 4.0), 1.0, Colour::BLACK));
+        assert_eq!(scene.characters((8, 8), false, &[], &[]).lines().nth(3), Some(" y1.5"));
     }
 }

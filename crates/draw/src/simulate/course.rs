@@ -1,6 +1,7 @@
 //! What a simulation is given, and the run of the linear loop under it.
 
 use super::sampled::simulation_error;
+use super::several_rates::SeveralRates;
 use super::{DelayedModel, SampledModel, Trace, excitation, natural_duration, signal_unit};
 use jurist_algebra::limits::Budget;
 use jurist_engine::error::{Code, Diagnostic, Error};
@@ -76,6 +77,11 @@ impl Course {
         Ok(Course { inputs, initial, duration, least_samples })
     }
 
+    /// Whether the model or the caller named the duration.
+    pub fn is_duration_asked(&self) -> bool {
+        self.least_samples < LEAST_SAMPLES
+    }
+
     /// Whether nothing moves the loop.
     pub fn is_at_rest(&self) -> bool {
         self.inputs.is_empty() && self.initial.is_empty()
@@ -111,7 +117,7 @@ impl Course {
         Ok(count as usize)
     }
 
-    /// The run of the linear loop, sampled finely where the loop is continuous.
+    /// The run of the linear loop, sampled finely where the loop is continuous; of a loop of several rates each sample of the fastest.
     ///
     /// # Errors
     /// [`Error`] as [`SampledModel::from_loop`], [`DelayedModel::from_loop`], [`excitation`] and [`Course::samples`]; stopped.
@@ -129,17 +135,22 @@ impl Course {
             return self.run_delayed(problem, &system, budget);
         }
         let system = SampledModel::from_loop(problem, step, budget)?;
+        let several = SeveralRates::of(problem, &system, budget)?;
+        let sample_time = several.as_ref().map_or(system.sample_time, |several| several.sample_time);
         let at = |name: &str| system.state_named(name);
-        let steps = self.steps(system.sample_time);
+        let steps = self.steps(sample_time);
         let drive = excitation(at, system.states.len(), &system.inputs, &self.initial, &steps)?;
-        let samples = self.samples_within(system.sample_time, most)?;
-        let trace = system.simulate_within(&drive, samples, budget)?;
+        let samples = self.samples_within(sample_time, most)?;
+        let trace = match &several {
+            Some(several) => several.simulate(&drive, samples, budget)?,
+            None => system.simulate_within(&drive, samples, budget)?,
+        };
         let is_complete = trace.time.len() > samples;
         let sampled = problem.closed_loop_in_numbers(budget)?.2.is_some();
         let constant = drive.steps.iter().all(|s| s.sample == 0);
         let finals = if constant { system.final_values(&drive.inputs_at(0, system.inputs.len())) } else { Vec::new() };
         let trace = trace.with_units(|name| signal_unit(problem.model(), name));
-        Ok(LinearRun { trace, sample_time: sampled.then_some(system.sample_time), finals, is_complete })
+        Ok(LinearRun { trace, sample_time: sampled.then_some(sample_time), finals, is_complete })
     }
 
     fn run_delayed(&self, problem: &Problem, system: &DelayedModel, budget: &Budget) -> Result<LinearRun, Error> {

@@ -86,6 +86,14 @@ impl SampledModel {
     }
 }
 
+/// Whether each value of a signal holds until the next sample: in a discrete loop all but the responses of continuous plants behind holds.
+pub fn is_sampled(model: &Model, name: &str) -> bool {
+    let Form::Blocks(diagram) = model.form() else { return model.time() == Time::Discrete };
+    let is_held = |discretization: &Discretization| discretization.method.is_hold();
+    let mut held = diagram.blocks.iter().filter(|b| b.discretization.as_ref().is_some_and(is_held));
+    model.time() == Time::Discrete && !held.any(|b| b.outputs.iter().any(|output| output.name == name))
+}
+
 /// The position of the only non-zero entry, if that is 1.
 fn unit_position(row: impl Iterator<Item = f64>) -> Option<usize> {
     let mut found = None;

@@ -37,7 +37,8 @@ pub fn natural_duration(problem: &Problem, budget: &Budget) -> Result<Option<f64
     let Some(roots) = eigenvalues(&rounded(&closed_loop.a, &symbols)?) else { return Ok(None) };
     let sample_time = match time {
         Some(time) if problem.time() == Time::Discrete => value_approximate(time, &symbols),
-        _ => 1.0,
+        // A step of a loop of several rates is that many samples.
+        _ => problem.model().hyperperiod() as f64,
     };
     // How fast each root's share grows, per second.
     let rate = |z: &Complex<f64>| match problem.time() {

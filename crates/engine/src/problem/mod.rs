@@ -34,4 +34,4 @@ pub use plan::Plan;
 pub use question::Question;
 pub use region::{Bound, DECAY, RADIUS, Region};
 pub use resolved::{Free, Problem};
-pub use rounded::RoundedSystem;
+pub use rounded::{RoundedSystem, RoundedWiring};

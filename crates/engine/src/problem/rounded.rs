@@ -41,6 +41,17 @@ pub struct RoundedSystem {
     pub d: Vec<Vec<f64>>,
 }
 
+/// How the blocks of a diagram are connected: coefficients of the signals that blocks drive, in their order, and then of the external ones,
+/// rounded as the entries of a [`RoundedSystem`] are.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct RoundedWiring {
+    /// A row for each input of the blocks, in their order.
+    pub inputs: Vec<Vec<f64>>,
+    /// A row for each output of the loop.
+    pub outputs: Vec<Vec<f64>>,
+}
+
 /// Bits of an entry that have to be known before it is rounded.
 const KNOWN_BITS: u64 = 64;
 
@@ -63,6 +74,26 @@ impl Problem {
         let of = |[a, b, c, d]: &[RationalMatrix; 4]| rounded([a, b, c, d], &found.symbols);
         let all = || found.systems.iter().map(|of_samples| of_samples.iter().map(of).collect()).collect();
         budget.enter(all)?
+    }
+
+    /// How these blocks are connected; `None` for a loop that is no block diagram.
+    ///
+    /// Cost: that of [`Problem::rounded_blocks`].
+    ///
+    /// # Errors
+    /// As [`Problem::closed_loop_over_symbols`].
+    ///
+    /// # Panics
+    /// When a name is free.
+    pub fn rounded_wiring(&self, budget: &Budget) -> Result<Option<RoundedWiring>, Error> {
+        assert!(self.free().is_empty(), "every name has a value");
+        let Some(found) = budget.enter(|| self.model().realised_blocks(&[], self.set(), budget))?? else {
+            return Ok(None);
+        };
+        let ([inputs, outputs], none) = (&found.wiring, RationalMatrix::zeros(0, 0));
+        let RoundedSystem { a, b, .. } =
+            budget.enter(|| rounded([inputs, outputs, &none, &none], &found.symbols))??;
+        Ok(Some(RoundedWiring { inputs: a, outputs: b }))
     }
 
     /// The closed loop; `None` for a loop that is given by its characteristic polynomial. Of a loop with several rates a step is a

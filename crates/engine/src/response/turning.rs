@@ -4,8 +4,9 @@ use super::crossings::samples_between;
 use super::ground::Ground;
 use super::open_loop::{OpenLoop, Parts, with_parts};
 use super::place::inner;
+use crate::stability::Shape;
 use jurist_algebra::limits::{Budget, Exhausted};
-use jurist_algebra::number::{Rational, Sign};
+use jurist_algebra::number::{Integer, Rational, Sign};
 use jurist_algebra::poly::{Domain, Poly};
 use jurist_algebra::real::Real;
 
@@ -14,7 +15,8 @@ use jurist_algebra::real::Real;
 /// The phase leaves a quarter only where the real or the imaginary part of `N conj(D0)` vanishes. Between neighbouring zeros one rational
 /// point tells the quarter, and at one zero only one of the parts changes its sign, so that the quarters follow one another without
 /// doubt. Where both vanish the open loop has poles or zeros on the boundary: these count as inside of it, so that each
-/// pole takes half a turn off and each zero adds one.
+/// pole takes half a turn off and each zero adds one; at the lowest frequency each integrator takes a quarter off, so that three of them
+/// begin at -270 degrees.
 ///
 /// ```
 /// use jurist_algebra::limits::Budget;
@@ -68,7 +70,7 @@ impl Turning {
         // From the lowest frequency on, where x is greatest.
         let mut quarters = vec![0; found.len()];
         let mut last = found.len() - 1;
-        quarters[last] = found[last].first();
+        quarters[last] = found[last].first(integrators(parts));
         for next in (0..last).rev() {
             quarters[next] = quarters[last] + found[last].turn_to(&found[next]);
             last = next;
@@ -80,6 +82,20 @@ impl Turning {
         let zeros = budget.enter(|| zeros.iter().map(middle).collect())?;
         Ok(Turning { zeros, quarters })
     }
+}
+
+/// How many more poles than zeros an open loop has at the lowest frequency, `z = 1` or `s = 0`.
+fn integrators<G: Ground>(parts: &Parts<G>) -> i64 {
+    let at = match parts.shape {
+        Shape::UnitDisc => 1,
+        Shape::LeftHalfPlane => 0,
+    };
+    let root = Poly::new(vec![G::Number::from_integer(&Integer::from(-at)), G::Number::one()]);
+    let count = |p: &Poly<G::Number>| {
+        let quotients = std::iter::successors(Some(p.clone()), |p| p.div_exact(&root).filter(|q| !q.is_zero()));
+        quotients.count() as i64 - 1
+    };
+    count(&parts.reduced.denominator) - count(&parts.reduced.numerator)
 }
 
 /// Twice the real part of `N conj(D0)` and its imaginary part over `sin theta` or `omega`, in factors.
@@ -156,10 +172,10 @@ impl Cell {
         }
     }
 
-    /// The quarter of the lowest frequencies, between -180 and 180 degrees.
-    fn first(&self) -> i64 {
-        let quarter = (self.quarter() + if self.common.is_lt() { 2 } else { 0 }) % 4;
-        if quarter < 2 { quarter } else { quarter - 4 }
+    /// The quarter of the lowest frequencies: the one with the middle nearest to -90 degrees for each integrator.
+    fn first(&self, integrators: i64) -> i64 {
+        let quarter = self.quarter() + if self.common.is_lt() { 2 } else { 0 };
+        (quarter + integrators + 2).rem_euclid(4) - 2 - integrators
     }
 
     /// The quarters turned to a neighbour at higher frequencies.

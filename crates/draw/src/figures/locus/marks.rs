@@ -17,16 +17,16 @@ pub(super) struct Ends<'a> {
 
 /// Poles and zeros of the open loop where the parameter is a gain, else the ends of the locus; and the nominal loop.
 pub(super) fn of(
-    polynomial: Option<&Poly<UniPoly>>,
+    gain: Option<&(UniPoly, UniPoly)>,
     nominal: Option<(String, UniPoly)>,
     locus: &RootLocus,
     ends: &Ends<'_>,
 ) -> Vec<LocusMark> {
     let name = ends.parameter;
-    let mut out = match polynomial.and_then(as_gain) {
+    let mut out = match gain {
         Some((poles, zeros)) => vec![
-            mark(format!("open-loop poles ({name} = 0)"), Shape::Cross, places(&poles)),
-            mark(format!("open-loop zeros ({name} = ∞)"), Shape::Circle, places(&zeros)),
+            mark(format!("open-loop poles ({name} = 0)"), Shape::Cross, places(poles)),
+            mark(format!("open-loop zeros ({name} = ∞)"), Shape::Circle, places(zeros)),
         ],
         None => {
             let at =
@@ -49,12 +49,12 @@ fn mark(label: String, shape: Shape, at: Vec<Complex<f64>>) -> LocusMark {
     LocusMark { label, shape, at }
 }
 
-fn places(p: &UniPoly) -> Vec<Complex<f64>> {
+pub(super) fn places(p: &UniPoly) -> Vec<Complex<f64>> {
     roots(p).into_iter().map(|r| r.value).collect()
 }
 
 /// `A` and `B` of a polynomial `A + K B`; `None` where the parameter enters otherwise, or not at all.
-fn as_gain(p: &Poly<UniPoly>) -> Option<(UniPoly, UniPoly)> {
+pub(super) fn as_gain(p: &Poly<UniPoly>) -> Option<(UniPoly, UniPoly)> {
     let part = |k: usize| UniPoly::new(p.coeffs().iter().map(|c| c.coeff(k)).collect());
     let is_affine = p.coeffs().iter().all(|c| c.degree().is_none_or(|d| d <= 1));
     let (a, b) = (part(0), part(1));

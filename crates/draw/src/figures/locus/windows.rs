@@ -45,17 +45,48 @@ pub(super) fn outside(figure: &LocusFigure<'_>, window: &Square) -> usize {
     marks(figure).filter(|z| !window.contains(*z)).count()
 }
 
-/// All crossings, and what is not too far from them.
+/// What is outside of the smallest rectangle of poles, zeros and crossings is shown this far, as a share of its size.
+const AROUND: f64 = 0.25;
+/// Branches are shown as far as this many times the farthest pole, zero or crossing.
+const BRANCHES: f64 = 3.3;
+/// The same in a discrete picture, where the unit circle tells the size.
+const MOST_BRANCHES: f64 = 1.6;
+
+/// All crossings, and what is not too far from them; poles, zeros and crossings are well inside.
 pub(super) fn whole(figure: &LocusFigure<'_>) -> Square {
-    let on_branches = figure.locus.samples().flat_map(|s| s.roots.iter()).map(|z| (z.re, z.im));
-    let mut points: Vec<(f64, f64)> =
-        on_branches.chain(marks(figure)).filter(|z| z.0.is_finite() && z.1.is_finite()).collect();
+    let is_finite = |z: &(f64, f64)| z.0.is_finite() && z.1.is_finite();
+    let branches = || figure.locus.samples().flat_map(|s| s.roots.iter()).map(|z| (z.re, z.im)).filter(is_finite);
+    let crossings = crossings(figure);
     if figure.time == Time::Discrete {
-        let farthest = points.iter().map(|z| z.0.abs().max(z.1.abs())).fold(0.0, f64::max);
-        return Square { centre: (0.0, 0.0), half: (farthest * 1.08).clamp(1.25, MOST_DISCRETE) };
+        let far = |z: (f64, f64)| z.0.abs().max(z.1.abs());
+        let of_branches = branches().map(far).filter(|r| *r <= MOST_BRANCHES).fold(0.0, f64::max);
+        let of_marks = marks(figure).filter(is_finite).map(far).filter(|r| *r <= MOST_DISCRETE).fold(0.0, f64::max);
+        let farthest = (1.08 * of_branches).max(1.15 * of_marks);
+        return Square { centre: (0.0, 0.0), half: farthest.clamp(1.25, MOST_DISCRETE) };
     }
     let size = |z: &(f64, f64)| z.0.hypot(z.1);
-    let crossings = crossings(figure);
+    let scale = scale(figure, &crossings);
+    let of_marks = marks(figure).filter(|z| is_finite(z) && size(z) <= MOST_CONTINUOUS * scale);
+    let features: Vec<(f64, f64)> = of_marks.chain(crossings).chain([(0.0, 0.0)]).collect();
+    let reach = features.iter().map(size).fold(0.0, f64::max);
+    let reach = if reach > 0.0 { reach } else { scale };
+    let shown: Vec<(f64, f64)> = branches().filter(|z| size(z) <= BRANCHES * reach).collect();
+    let bounds = |points: &[(f64, f64)]| {
+        let all =
+            points.iter().fold((0.0f64, 0.0f64, 0.0f64), |(l, r, h), z| (l.min(z.0), r.max(z.0), h.max(z.1.abs())));
+        (all, (all.1 - all.0).max(2.0 * all.2).max(1e-9 * reach))
+    };
+    let ((left, right, height), width) = bounds(&features);
+    let room = AROUND * width;
+    let ((l, r, h), width) = bounds(&shown);
+    let (left, right) = ((left - room).min(l - 0.05 * width), (right + room).max(r + 0.05 * width));
+    let height = (height + room).max(h + 0.05 * width);
+    Square { centre: (f64::midpoint(left, right), 0.0), half: ((right - left) / 2.0).max(height) }
+}
+
+/// The size of a continuous picture: the farthest crossing, or the slowest nominal root.
+fn scale(figure: &LocusFigure<'_>, crossings: &[(f64, f64)]) -> f64 {
+    let size = |z: &(f64, f64)| z.0.hypot(z.1);
     let farthest_crossing = crossings.iter().map(size).fold(0.0, f64::max);
     // Marks are poles and zeros; where the gain begins at 0, a root of the first sample may be as near to 0 as it is small.
     let farthest_mark = marks(figure).map(|z| size(&z)).filter(|r| r.is_finite()).fold(0.0, f64::max);
@@ -64,15 +95,7 @@ pub(super) fn whole(figure: &LocusFigure<'_>) -> Square {
     let first = figure.locus.samples().next();
     let of_roots = || first.and_then(|s| s.roots.iter().map(|z| z.norm()).filter(|r| *r > 0.0).min_by(f64::total_cmp));
     let slowest = of_marks.or_else(of_roots);
-    let scale = if farthest_crossing > 0.0 { farthest_crossing } else { slowest.unwrap_or(1.0) };
-    points.retain(|z| size(z) <= MOST_CONTINUOUS * scale);
-    points.extend(&crossings);
-    points.push((0.0, 0.0));
-    let least = points.iter().map(|z| z.0).fold(f64::INFINITY, f64::min);
-    let most = points.iter().map(|z| z.0).fold(f64::NEG_INFINITY, f64::max);
-    let height = points.iter().map(|z| z.1.abs()).fold(0.0, f64::max);
-    let width = (most - least).max(2.0 * height).max(1e-9);
-    Square { centre: (f64::midpoint(least, most), 0.0), half: 0.58 * width }
+    if farthest_crossing > 0.0 { farthest_crossing } else { slowest.unwrap_or(1.0) }
 }
 
 /// Where the crossings lie closest: two of them that the whole picture hardly tells apart, else around one.
@@ -117,7 +140,8 @@ mod tests {
         let at = marks.iter().map(complex).collect();
         let marks = [LocusMark { label: "poles".into(), shape: Shape::Cross, at }];
         let locus = RootLocus::default();
-        let figure = LocusFigure { time, locus: &locus, stable: &[], crossings: &crossings, marks: &marks };
+        let (locus, beyond) = (&locus, &RootLocus::default());
+        let figure = LocusFigure { time, locus, beyond, stable: &[], crossings: &crossings, marks: &marks };
         let whole = whole(&figure);
         let near = near(&figure, &whole);
         assert!(crossings.iter().all(|c| whole.contains((c.at[0].re, c.at[0].im))));

@@ -33,7 +33,7 @@ pub fn boxes_figure(answer: &Answer<MapBoxes>, width: f64, height: f64) -> Figur
     let left = Frame::left_of(&y, height - top - BELOW);
     let plot = Rectangle { left, top, width: width - left - 18.0, height: height - top - BELOW };
     let frame = Frame { x, y, plot, equal: false };
-    let mut fill = |boxes: &mut dyn Iterator<Item = &Window>, fill: Colour, edge: Colour| {
+    let mut fill = |boxes: &mut dyn Iterator<Item = &Window>, fill: Colour| {
         let mut segments = Vec::new();
         for window in boxes {
             let at = |k: usize| frame.at((window.x[k].to_f64_approximate(), window.y[k].to_f64_approximate()));
@@ -41,20 +41,21 @@ pub fn boxes_figure(answer: &Answer<MapBoxes>, width: f64, height: f64) -> Figur
             segments.extend(through(&[(x0, y0), (x1, y0), (x1, y1), (x0, y1)], true));
         }
         if !segments.is_empty() {
-            scene.add(Item::Path { segments, fill: Some(fill), stroke: Some(Stroke::new(edge, 0.3)) });
+            // A thin edge of the same colour leaves no seams between neighbouring boxes.
+            scene.add(Item::Path { segments, fill: Some(fill), stroke: Some(Stroke::new(fill, 0.5)) });
         }
     };
-    for (verdict, ground, edge) in [
-        (BoxVerdict::Unstable { outside: None }, UNSTABLE, Colour::WHITE),
-        (BoxVerdict::Stable, REGION, Colour::WHITE),
-        (BoxVerdict::Undecided, UNDECIDED, UNDECIDED),
+    for (verdict, ground) in [
+        (BoxVerdict::Unstable { outside: None }, UNSTABLE),
+        (BoxVerdict::Stable, REGION),
+        (BoxVerdict::Undecided, UNDECIDED),
     ] {
         let with = |b: &&PlaneBox| b.verdict.name() == verdict.name();
-        fill(&mut map.boxes.iter().filter(with).map(|b| &b.window), ground, edge);
+        fill(&mut map.boxes.iter().filter(with).map(|b| &b.window), ground);
     }
     for (met, ground) in [(Some(true), MET), (None, UNDECIDED)] {
         let boxes = required.into_iter().flat_map(|found| &found.boxes).filter(|b| b.met == met);
-        fill(&mut boxes.map(|b| &b.window), ground, ground);
+        fill(&mut boxes.map(|b| &b.window), ground);
     }
     frame.draw(&mut scene);
     if let Some(at) = nominal {

@@ -161,7 +161,12 @@ fn selection(rows: &[Row], n: usize, substitution: &Substitution<'_>) -> Result<
 }
 
 /// The matrix of the coefficients of signals `from .. from + n`.
-fn part(rows: &[Row], from: usize, n: usize, substitution: &Substitution<'_>) -> Result<RationalMatrix, NotConnected> {
+pub(in crate::model) fn part(
+    rows: &[Row],
+    from: usize,
+    n: usize,
+    substitution: &Substitution<'_>,
+) -> Result<RationalMatrix, NotConnected> {
     let mut out = RationalMatrix::zeros(rows.len(), n);
     for (i, row) in rows.iter().enumerate() {
         for (&j, c) in row.range(from..from + n) {

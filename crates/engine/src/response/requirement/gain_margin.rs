@@ -13,7 +13,8 @@ pub(super) const KIND: RequirementKind = RequirementKind {
     about: "a factor both ways, or decibels: \"6 dB\"",
     option: Some(RequirementOption { value: "MARGIN", help: "Asks for a gain margin both ways: '6 dB' or a factor" }),
     is_listed: true,
-    sense: ">=",
+    // The loop is stable at the factor itself.
+    sense: ">",
     units: &["dB"],
     meaning: |written| {
         Ok(Meaning::Requirement(match written.unit {

@@ -63,7 +63,7 @@ pub struct RequirementKind {
     pub option: Option<RequirementOption>,
     /// Whether a map takes several at once.
     pub is_listed: bool,
-    /// How the loop's number compares with the required one: `>=` or `<=`.
+    /// How the loop's number compares with the required one: `>=`, `<=`, or `>` where the number itself is too little.
     sense: &'static str,
     /// Units that may follow the number.
     units: &'static [&'static str],
@@ -206,7 +206,7 @@ impl Requirement {
 
     /// Whether the loop's number is to be at least the required one, not at most.
     pub(crate) fn is_least(&self) -> bool {
-        self.kind.sense == ">="
+        self.kind.sense.starts_with('>')
     }
 
     /// Whether it is about the open loop at a cut.
