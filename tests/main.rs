@@ -61,6 +61,7 @@ mod loops {
     mod roots_with_dead_time;
     mod sensitivity;
     mod square_roots;
+    mod steady_duty;
 }
 
 /// Models with their expected answers in words, asked of every engine.

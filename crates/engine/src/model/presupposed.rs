@@ -4,6 +4,7 @@
 use super::closed_loop::substituted;
 use super::definition::{Form, Model};
 use super::evaluate::walk::Failure;
+use super::steady::no_duty;
 use super::symbols::Symbols;
 use crate::error::{Code, Diagnostic, Span};
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -119,7 +120,7 @@ impl Model {
             let mut own = Vec::new();
             if rule.method.is_hold() {
                 own.push((Presupposed::SampleTime, value(time)?, rule.span));
-                for duty in rule.pulses.iter().flat_map(|pulses| &pulses.duties) {
+                for duty in rule.pulses.iter().filter(|pulses| !pulses.is_steady).flat_map(|pulses| &pulses.duties) {
                     let d = value(duty)?;
                     let rest = &RationalFunction::one() - &d;
                     own.extend([(Presupposed::Duty, d, duty.span), (Presupposed::Duty, rest, duty.span)]);
@@ -135,7 +136,7 @@ impl Model {
                 }
             }
         }
-        let (images, symbols) = Model::images(&scope.variables, kept, given).ok()?;
+        let (images, symbols) = Model::images(&scope.variables, kept, given, &no_duty).ok()?;
         for presupposition in &mut found {
             presupposition.function = substituted(&presupposition.function, &images)?;
         }

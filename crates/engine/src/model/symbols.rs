@@ -18,6 +18,10 @@ use super::text::Function;
 use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{MultiPoly, RationalFunction};
+use jurist_algebra::symbols::EnclosedNumber;
+
+/// Bits with which the place of an edge is looked at that depends on the duty ratio of a loop at rest.
+const PLACE_BITS: u64 = 512;
 
 /// What a symbol stands for. Arguments are rational functions of the kept names and of earlier symbols.
 #[derive(Clone, Debug, PartialEq)]
@@ -125,6 +129,14 @@ impl Symbols {
         known.then(|| self.near.iter().enumerate().try_fold(f.clone(), value)?.as_constant()).flatten()
     }
 
+    /// The whole part of a number in symbols that do not depend on kept names; `None` of another function, and where the number may be whole.
+    pub(in crate::model) fn whole_part(&self, f: &RationalFunction) -> Option<Rational> {
+        let fixed = self.of_fixed().filter(|_| !self.moves(f))?;
+        let value = quotient_at(&beside(f, self.first())?, &fixed.enclosed(PLACE_BITS)?, PLACE_BITS)?;
+        let whole = value.lower().floor();
+        (value.upper().floor() == whole).then(|| whole.into())
+    }
+
     /// A dead time in samples that depends on kept names.
     pub(in crate::model) fn note_samples(&mut self, ratio: &RationalFunction) {
         if !self.samples.contains(ratio) {
@@ -226,7 +238,7 @@ impl Symbols {
     }
 
     /// Whether a value depends on a kept name, be it by way of a symbol.
-    fn moves(&self, f: &RationalFunction) -> bool {
+    pub(in crate::model) fn moves(&self, f: &RationalFunction) -> bool {
         let moving = |i: usize| i < self.kept.len() || self.table[i - self.kept.len()].is_moving;
         f.variables().into_iter().any(moving)
     }
@@ -315,6 +327,11 @@ impl Symbols {
         index: usize,
     ) -> RationalFunction {
         self.intern(Definition::Fundamental { polynomial, time, index })
+    }
+
+    /// A number that is known by enclosures alone.
+    pub(in crate::model) fn enclosed_number(&mut self, number: EnclosedNumber) -> RationalFunction {
+        self.intern(Definition::Enclosed(number))
     }
 
     /// The value of a function; `None` where it has none.

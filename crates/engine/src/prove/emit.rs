@@ -3,7 +3,7 @@
 use super::cofactors::{Identity, of_half_size_pair};
 use super::line::{Line, Separator};
 use super::refuse_transcendental;
-use super::statement::{self, about, boundary, number, object};
+use super::statement::{self, about, boundary, number, object, readable};
 use super::text::to_text;
 use super::{dead_time, gain, held};
 use crate::answer::{Answer, PointVerdict};
@@ -41,6 +41,7 @@ impl Answer<StableSet> {
         budget.enter(|| {
             budget.step("certificate");
             let problem = self.problem();
+            readable(problem)?;
             if let Some(delayed) = problem.delayed(budget)? {
                 return dead_time::of_set(self, delayed, budget);
             }

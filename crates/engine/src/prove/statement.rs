@@ -29,14 +29,26 @@ pub(super) fn region(region: &Region) -> Value {
     object([(region.bound_name(), value)])
 }
 
-/// Title and digest of the model, for people: the check reads the model itself.
+/// Refuses models that the checkers do not read, before anything is computed for a certificate.
 ///
 /// # Errors
-/// `E-no-certificate` where the checkers do not read such a model.
-pub(super) fn about(problem: &Problem) -> Result<Value, Error> {
+/// `E-no-certificate`.
+pub(super) fn readable(problem: &Problem) -> Result<(), Error> {
     if problem.model().hyperperiod() > 1 {
         return Err(no_certificate("no certificate: the checkers read no loops of several rates"));
     }
+    if problem.model().has_steady_duty() {
+        return Err(no_certificate("no certificate: the checkers do not solve for the duty ratio of an orbit"));
+    }
+    Ok(())
+}
+
+/// Title and digest of the model, for people: the check reads the model itself.
+///
+/// # Errors
+/// As [`readable`].
+pub(super) fn about(problem: &Problem) -> Result<Value, Error> {
+    readable(problem)?;
     let digest = sha256(&loop_alone(&problem.model().source().text));
     let title = problem.title().map_or(Value::Null, Value::from);
     Ok(object([("title", title), ("digest", format!("sha256:{digest}").into())]))
