@@ -7,6 +7,7 @@ use jurist_algebra::limits::Budget;
 use jurist_algebra::number::parse_number;
 use jurist_engine::answer::Verdict;
 use jurist_engine::error::{Code, Error};
+use jurist_engine::stability::{Cause, Range};
 
 fn drive(edge: &str) -> String {
     let text = example_text("drive-pwm");
@@ -67,6 +68,38 @@ fn orbits_whose_duty_ratio_is_known_by_construction() {
         let how = |duty: &str| format!("edge = '{edge}', duty = '{duty}', delay = '{delay}'");
         let [own, given] = ["steady", "3/10"].map(|duty| ends(&set(&leaky(&how(duty), &pulse), "K"), 40));
         assert_eq!(own, given, "{edge}, {delay}");
+    }
+}
+
+/// The limits of the contract of the paper's drive as sets: the duty ratio moves with what is asked for.
+#[test]
+fn the_height_of_the_pulses_and_the_period_are_questions() {
+    let model = read(&drive("trailing"));
+    let within = |name: &str, lower: &str, upper: &str| {
+        let domain = Range::between(Some(parse_number(lower).unwrap()), Some(parse_number(upper).unwrap()));
+        let question = model.ask().free(name).domain(name, domain);
+        question.stable_set(&Budget::unlimited()).unwrap_or_else(|e| panic!("{e}")).into_value()
+    };
+    let gain = within("K_pwm", "1", "1000");
+    assert_eq!(ends(&gain, 27), ["45.1636363636363636363636364", "551.741369816005655902495908"]);
+    assert!(gain.intervals()[0].lower.as_ref().unwrap().causes.contains(Cause::Duty));
+    assert_eq!(ends(&within("T", "1/10000", "1/1000"), 27)[1], "0.000499220684161587476415875792");
+}
+
+/// With the height of the pulses as a function of `d` for which the orbit has the duty ratio `d`.
+#[test]
+fn a_duty_ratio_that_moves_is_that_which_is_known_by_construction() {
+    for (edge, pulse) in [
+        ("trailing", "exp(-3*(1 - d)*T) - exp(-3*T)"),
+        ("leading", "1 - exp(-3*d*T)"),
+        ("double", "exp(-3*(1 - d)/2*T) - exp(-3*(1 + d)/2*T)"),
+    ] {
+        let text = |duty: &str| {
+            let text = leaky(&format!("edge = '{edge}', duty = '{duty}'"), pulse);
+            text.replace("K = 1", "K = 3\nd = { nominal = 0.5, min = 0.05, max = 0.95 }")
+        };
+        let [own, given] = ["steady", "d"].map(|duty| set(&text(duty), "d"));
+        assert_eq!(ends(&own, 25), ends(&given, 25), "{edge}");
     }
 }
 

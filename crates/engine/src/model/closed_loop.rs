@@ -392,6 +392,11 @@ impl Model {
                 Variable::Duty => match duty()? {
                     SteadyDuty::Any => RationalFunction::zero(),
                     SteadyDuty::Number(number) => symbols.enclosed_number(number),
+                    SteadyDuty::Moving(found) => {
+                        let undefined = || Error::Undefined("the duty ratio of the orbit has no value there".into());
+                        let own = symbols.import(&found.1).ok_or_else(undefined)?;
+                        symbols.duty(found.0.with(|f| f.compose(&own)).ok_or_else(undefined)?)
+                    }
                 },
                 Variable::Delay(time) => {
                     let undefined = || Error::Undefined("a dead time has no value there".into());

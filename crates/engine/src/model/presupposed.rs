@@ -140,6 +140,20 @@ impl Model {
         for presupposition in &mut found {
             presupposition.function = substituted(&presupposition.function, &images)?;
         }
+        if !kept.is_empty() && self.has_steady_duty() {
+            // Else the loop is undefined at the one point that is asked for.
+            if let Ok(Some(mean)) = self.mean_duty(kept, given, budget) {
+                let span =
+                    rules().find_map(|rule| rule.pulses.as_ref().filter(|p| p.is_steady).map(|p| p.duties[0].span));
+                let rest = &RationalFunction::one() - &mean;
+                let both = [mean, rest].into_iter();
+                found.extend(both.map(|function| Presupposition {
+                    of: Presupposed::Duty,
+                    function,
+                    span: span.unwrap_or_default(),
+                }));
+            }
+        }
         is_known.then_some((found, symbols))
     }
 }

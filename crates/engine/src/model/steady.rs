@@ -16,7 +16,7 @@ use jurist_algebra::limits::{Budget, Stop, checkpoint, until_shown};
 use jurist_algebra::number::{Enclosure, Integer, Rational, Sign, to_decimal};
 use jurist_algebra::poly::RationalFunction;
 use jurist_algebra::real::{Enclosing, Origin, Transcendental};
-use jurist_algebra::symbols::EnclosedNumber;
+use jurist_algebra::symbols::{DutyRatio, EnclosedNumber};
 use std::cell::RefCell;
 
 /// Work that exact functions of the plant's constants may take before its exponentials stay whole.
@@ -34,6 +34,8 @@ pub(in crate::model) enum SteadyDuty {
     Any,
     /// This number.
     Number(EnclosedNumber),
+    /// This function of the kept names, over symbols of its own.
+    Moving(Box<(DutyRatio, Symbols)>),
 }
 
 /// Where nothing asks for a duty ratio.
@@ -82,9 +84,14 @@ impl Model {
         let block = shorten(&orbit.block).into_owned();
         let fixed = symbols.of_fixed().filter(|_| !orbit.functions().any(|f| symbols.moves(f)));
         let Some(fixed) = fixed else {
+            if orbit.late.is_zero() && !symbols.keeps_flows() {
+                return Ok(SteadyDuty::Moving(Box::new((orbit.moving(budget)?, symbols))));
+            }
             let names = list(kept.iter().map(String::as_str));
             return Err(refused(
-                format!("the duty ratio of the orbit of '{block}' moves with what is asked for ({names})"),
+                format!(
+                    "the duty ratio of the orbit of '{block}' moves with what is asked for ({names}), and its pulse begins between samples"
+                ),
                 "set what moves it (--set), or write the duty ratio as an expression from the mean over a period, such as duty = \"V_0/K_pwm\"",
             ));
         };
@@ -101,6 +108,21 @@ impl Model {
         let words = format!("the duty ratio of '{block}' at rest");
         let value = Transcendental::within(equation, bracket);
         Ok(SteadyDuty::Number(EnclosedNumber { words, value }))
+    }
+
+    /// The duty ratio that the mean over a period has, where it is a function of the kept names alone; `None` where it is not.
+    ///
+    /// # Errors
+    /// As [`Model::steady_duty`].
+    pub(super) fn mean_duty(
+        &self,
+        kept: &[String],
+        given: &[(String, Rational)],
+        budget: &Budget,
+    ) -> Result<Option<RationalFunction>, Error> {
+        let (orbit, symbols) = self.orbit(kept, given, false, budget)?;
+        let is_known = orbit.mean.variables().last().is_none_or(|last| *last < symbols.first());
+        Ok(is_known.then_some(orbit.mean))
     }
 
     fn orbit(
@@ -128,6 +150,27 @@ impl Orbit {
     fn functions(&self) -> impl Iterator<Item = &RationalFunction> {
         let lists = self.answers.iter().chain(&self.b).chain(self.a.entries());
         [&self.mean, &self.time].into_iter().chain(lists)
+    }
+}
+
+impl Orbit {
+    /// The duty ratio as a function of the names and symbols that the orbit has.
+    fn moving(&self, budget: &Budget) -> Result<DutyRatio, Error> {
+        let mut polynomial = self.a.characteristic_polynomial(Vec::new(), budget)?.coefficients;
+        polynomial.pop();
+        let n = self.a.rows();
+        let mut row = self.answers.clone();
+        let mut weights = Vec::with_capacity(n + 1);
+        for _ in 0..=n {
+            budget.check()?;
+            let dot = |column: &mut dyn Iterator<Item = &RationalFunction>| {
+                row.iter().zip(column).fold(RationalFunction::zero(), |sum, (x, y)| &sum + &(x * y))
+            };
+            weights.push(dot(&mut self.b.iter()));
+            row = (0..n).map(|j| dot(&mut (0..n).map(|i| &self.a[(i, j)]))).collect();
+        }
+        let (mean, time) = (self.mean.clone(), self.time.clone());
+        Ok(DutyRatio { mean, weights, polynomial, time, parts: self.edges.parts().collect() })
     }
 }
 

@@ -18,7 +18,7 @@ use super::text::Function;
 use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{MultiPoly, RationalFunction};
-use jurist_algebra::symbols::EnclosedNumber;
+use jurist_algebra::symbols::{DutyRatio, EnclosedNumber};
 
 /// Bits with which the place of an edge is looked at that depends on the duty ratio of a loop at rest.
 const PLACE_BITS: u64 = 512;
@@ -329,6 +329,21 @@ impl Symbols {
         self.intern(Definition::Fundamental { polynomial, time, index })
     }
 
+    /// The duty ratio of a loop at rest as a function of kept names.
+    pub(in crate::model) fn duty(&mut self, duty: DutyRatio) -> RationalFunction {
+        self.intern(Definition::Duty(Box::new(duty)))
+    }
+
+    /// What the variables of another table with the same kept names are here; `None` where a function has no value.
+    pub(in crate::model) fn import(&mut self, other: &Symbols) -> Option<Vec<RationalFunction>> {
+        let mut images: Vec<RationalFunction> = (0..self.kept.len()).map(RationalFunction::variable).collect();
+        for symbol in &other.table {
+            let meaning = symbol.meaning.try_map(|f| f.compose(&images))?;
+            images.push(self.intern_again(meaning)?);
+        }
+        Some(images)
+    }
+
     /// A number that is known by enclosures alone.
     pub(in crate::model) fn enclosed_number(&mut self, number: EnclosedNumber) -> RationalFunction {
         self.intern(Definition::Enclosed(number))
@@ -386,6 +401,7 @@ impl Meaning {
             Meaning::Constant(Definition::Tangent { .. }) => "t",
             Meaning::Constant(Definition::Enclosed(_)) => "c",
             Meaning::Constant(Definition::Fundamental { .. }) => "f",
+            Meaning::Constant(Definition::Duty(_)) => "d",
             Meaning::Delay(_) => "z",
             Meaning::Flow { .. } => "e",
             Meaning::Value(_) => "v",
