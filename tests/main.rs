@@ -54,7 +54,7 @@ mod loops {
     mod peaks;
     mod pwm;
     mod pwm_oracle;
-    mod rates;
+    pub(crate) mod rates;
     mod requirements;
     mod root_requirements;
     mod roots;
@@ -118,6 +118,7 @@ mod certificates {
     mod maps;
     mod prewarp;
     mod program;
+    mod rates;
     mod readers;
     mod smt;
 }
