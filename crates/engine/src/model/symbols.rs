@@ -6,6 +6,7 @@
 
 mod approximate;
 mod circular;
+mod duty;
 mod flows;
 mod identity;
 mod merge;
@@ -18,10 +19,6 @@ use super::text::Function;
 use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{MultiPoly, RationalFunction};
-use jurist_algebra::symbols::{DutyRatio, EnclosedNumber};
-
-/// Bits with which the place of an edge is looked at that depends on the duty ratio of a loop at rest.
-const PLACE_BITS: u64 = 512;
 
 /// What a symbol stands for. Arguments are rational functions of the kept names and of earlier symbols.
 #[derive(Clone, Debug, PartialEq)]
@@ -127,14 +124,6 @@ impl Symbols {
         let known = f.variables().last().is_none_or(|last| *last < self.near.len());
         let value = |f: RationalFunction, (i, x): (usize, &Rational)| f.substitute(i, x);
         known.then(|| self.near.iter().enumerate().try_fold(f.clone(), value)?.as_constant()).flatten()
-    }
-
-    /// The whole part of a number in symbols that do not depend on kept names; `None` of another function, and where the number may be whole.
-    pub(in crate::model) fn whole_part(&self, f: &RationalFunction) -> Option<Rational> {
-        let fixed = self.of_fixed().filter(|_| !self.moves(f))?;
-        let value = quotient_at(&beside(f, self.first())?, &fixed.enclosed(PLACE_BITS)?, PLACE_BITS)?;
-        let whole = value.lower().floor();
-        (value.upper().floor() == whole).then(|| whole.into())
     }
 
     /// A dead time in samples that depends on kept names.
@@ -327,26 +316,6 @@ impl Symbols {
         index: usize,
     ) -> RationalFunction {
         self.intern(Definition::Fundamental { polynomial, time, index })
-    }
-
-    /// The duty ratio of a loop at rest as a function of kept names.
-    pub(in crate::model) fn duty(&mut self, duty: DutyRatio) -> RationalFunction {
-        self.intern(Definition::Duty(Box::new(duty)))
-    }
-
-    /// What the variables of another table with the same kept names are here; `None` where a function has no value.
-    pub(in crate::model) fn import(&mut self, other: &Symbols) -> Option<Vec<RationalFunction>> {
-        let mut images: Vec<RationalFunction> = (0..self.kept.len()).map(RationalFunction::variable).collect();
-        for symbol in &other.table {
-            let meaning = symbol.meaning.try_map(|f| f.compose(&images))?;
-            images.push(self.intern_again(meaning)?);
-        }
-        Some(images)
-    }
-
-    /// A number that is known by enclosures alone.
-    pub(in crate::model) fn enclosed_number(&mut self, number: EnclosedNumber) -> RationalFunction {
-        self.intern(Definition::Enclosed(number))
     }
 
     /// The value of a function; `None` where it has none.
