@@ -74,6 +74,10 @@ fn what_the_checkers_do_not_lift_is_refused_before_anything_is_computed() {
         why.to_string()
     };
     assert!(refused(&text).contains("behind a hold beside several rates"));
+    // Nor are boxes tried: that took minutes.
+    let set = read(&text).ask().free("K_ps").stable_set(&Budget::unlimited()).unwrap();
+    let found = jurist::certify_intervals(&set, &Budget::with_work(1_000_000_000));
+    assert!(matches!(&found, Err(jurist_engine::error::Error::Refused(why)) if why.code() == Code::NoCertificate));
     assert!(refused(&position("sample_time = 4")).contains("by a sample time"));
     assert!(refused(&position("every = 200")).contains("more equations"));
 }
