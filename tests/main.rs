@@ -54,13 +54,14 @@ mod loops {
     mod peaks;
     mod pwm;
     mod pwm_oracle;
-    mod rates;
+    pub(crate) mod rates;
     mod requirements;
     mod root_requirements;
     mod roots;
     mod roots_with_dead_time;
     mod sensitivity;
     mod square_roots;
+    mod steady_duty;
 }
 
 /// Models with their expected answers in words, asked of every engine.
@@ -118,6 +119,7 @@ mod certificates {
     mod maps;
     mod prewarp;
     mod program;
+    mod rates;
     mod readers;
     mod smt;
 }

@@ -732,7 +732,7 @@ class Loop:
         need("duration" not in given or constant(given["duration"]) > 0, "the duration is not positive")
 
     def blocks(self, loop, blocks):
-        keys = "name input output discretize pwm transfer num den gain delay A B C D"
+        keys = "name input output discretize pwm every phase transfer num den gain delay A B C D"
         need("states" not in loop and "E" not in loop, "blocks have their own states")
         for block in blocks:
             need({"input", "output"} <= set(table(block, keys)), "a block has no input or no output")
@@ -742,9 +742,52 @@ class Loop:
         self.inputs = several(loop.get("inputs", []))
         self.signals = distinct([*driven, *self.inputs], self.taken)
         self.unknowns = driven[:]
+        rates, of_rows, of_states = [], [], {}
         for block in blocks:
+            self.every, phase = (constant(block.get(key, usual)) for key, usual in (("every", 1), ("phase", 0)))
+            need(self.every.denominator == phase.denominator == 1 and 0 <= phase < self.every, "a rate is no number of samples")
+            need(self.z == "z" or not {"every", "phase"} & set(block), "a continuous loop has no rates")
+            self.every = int(self.every)
+            rates.append((self.every, int(phase), several(block["output"])))
             self.block(block, {name: Value({name: ONE}) for name in self.signals})
+            of_rows += [rates[-1]] * (len(self.equations) - len(of_rows))
+            of_states |= {name: rates[-1] for name in self.unknowns[len(driven):] if name not in of_states}
+        if any(every > 1 for every, _, _ in rates):
+            self.lift(rates, of_rows, of_states)
         self.responses(loop, self.signals)
+
+    def lift(self, rates, of_rows, of_states):
+        """The equations of a hyperperiod: an unknown for each signal at each sample and for each state at each sample at which its block is
+        active, w from one hyperperiod to the next, and outputs that are held in between."""
+        steps = lcm(*(every for every, _, _ in rates))
+        allow(steps * len(self.unknowns) <= 400, "a hyperperiod is too long for the check")
+
+        def active(rate, sample):
+            return sample % rate[0] == rate[1]
+
+        computed = [sum(len(names) for every, phase, names in rates if every > 1 and k % every == phase) for k in range(steps)]
+        start = computed.index(max(computed))
+        equations = []
+        for equation, rate in zip(self.equations, of_rows):
+            for t in range(steps):
+                if not active(rate, start + t):
+                    continue
+                lifted = {}
+                for name, p in equation.tops.items():
+                    for m, c in enumerate(p.coefficients(0)):
+                        if c and name != "":
+                            turns, place = divmod(t + m * rate[0], steps)
+                            lifted[name, place] = lifted.get((name, place), ZERO) + c * Z ** turns
+                equations.append(Value(lifted, equation.bottom))
+        for rate in rates:
+            for name in rate[2]:
+                self.degree += not active(rate, start)
+                for t in range(steps):
+                    if not active(rate, start + t):  # what it was one sample before
+                        now = Value({(name, t): ONE if t else Z})
+                        equations.append(now + -Value({(name, (t - 1) % steps): ONE}))
+        self.equations = equations
+        self.unknowns = [(name, t) for name in self.unknowns for t in range(steps) if active(of_states.get(name, (1, 0)), start + t)]
 
     def block(self, block, signals):
         scope = self.scope
@@ -761,10 +804,14 @@ class Loop:
             rule = {"method": rule} if isinstance(rule, str) else dict(table(rule, "method T c prewarp delay edge duty"))
             method = text_of(rule.get("method"))
             pulses = self.pulses(method, rule, u)
-            if "T" not in rule and "c" not in rule and self.sample_time is not None:
+            is_of_loop = "T" not in rule and "c" not in rule and self.sample_time is not None
+            if is_of_loop:
                 rule["T"] = self.sample_time
             t, c, w, delay = (scope.value(rule[k]) if k in rule else None for k in ("T", "c", "prewarp", "delay"))
+            if is_of_loop and self.every > 1:  # a slower block has its own period
+                t = t * of_number(Fraction(self.every))
             is_hold = method in ("zoh", "foh", "pwm")
+            need(not is_hold or self.every == 1, "a continuous plant has no rate of its own")
             need(is_hold or not delay, "only a hold has a delay")
             need(not w or method == "tustin" and t and not c, "'prewarp' goes with tustin and a sample time, without 'c'")
             if is_hold:
@@ -3810,6 +3857,11 @@ def table_of(document):
 
 # ---------------------------------------------------------------- the check
 
+def several_rates(model):
+    """The blocks of a model."""
+    blocks = Model(model).root.get("block", [])
+    return blocks if isinstance(blocks, list) else []
+
 def check(model, certificate):
     """The proved statement as a sentence; raises an exception if it is not proved."""
     document = read(certificate)
@@ -3824,6 +3876,9 @@ def check(model, certificate):
     [extent] = parts(region, ["radius" if discrete else "decay"])
     extent = "parameter" if extent == "parameter" else rational(extent)
     need(not discrete or extent == "parameter" or extent > 0, "the radius is not positive")
+    if any(type(block) is dict and str(block.get("every", 1)) != "1" for block in several_rates(model)):
+        need(extent == 1 and document["schema"] not in (*kinds, WITH_DEAD_TIME, WITH_SYMBOLS),
+             "a loop of several rates has certificates of stability without further wishes alone")
     if kind == "tolerance":
         return check_tolerance(model, document, statement, values, discrete, extent)
     if kind == "boxes":

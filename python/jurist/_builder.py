@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping, Sequence
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from ._exact import Exact, Floats, text_of, warn_computed
+from ._exact import Exact, Floats, exact, text_of, warn_computed
 
 if TYPE_CHECKING:
     from ._loop import Loop
@@ -26,6 +27,16 @@ def array(items: Iterable[str]) -> str:
 def matrix(rows: Iterable[Iterable[str]]) -> str:
     """A TOML matrix."""
     return f"[{', '.join(array(row) for row in rows)}]"
+
+
+def _number(x: Any, floats: Floats) -> Fraction | None:
+    """The value of a number, or of a text that is one; `None` of an expression."""
+    if x is None or hasattr(x, "free_symbols"):
+        return None
+    try:
+        return exact(x, floats)
+    except ValueError:
+        return None
 
 
 class LoopBuilder:
@@ -61,6 +72,7 @@ class LoopBuilder:
         self.floats = floats
         self._title = title
         self._sample_time = None if sample_time is None else self._expression(sample_time)
+        self._period = _number(sample_time, floats)
         self._constants: list[str] = []
         self._parameters: list[str] = []
         self._form: list[str] = []
@@ -137,19 +149,39 @@ class LoopBuilder:
         output : str or list of str
             The signals that it drives.
         system : str, number, or a system of python-control, SciPy or SymPy
-            A transfer expression in ``z`` or ``s``, a gain, a transfer function, a state space.
+            A transfer expression in ``z`` or ``s``, a gain, a transfer function, a state space. One that has a sample time runs at each so many
+            samples of the loop and holds its outputs in between.
         **keys
-            Keys of the model file instead: ``gain``, ``delay``, ``num``, ``den``, ``A`` to ``D``, ``discretize``.
+            Keys of the model file instead: ``gain``, ``delay``, ``num``, ``den``, ``A`` to ``D``, ``discretize``; beside a system ``every`` and ``phase``
+            for a block that runs at each so many samples.
+
+        Raises
+        ------
+        ValueError
+            Where the system's sample time is no whole multiple of the loop's.
         """
         inputs = [input] if isinstance(input, str) else list(input)
         outputs = [output] if isinstance(output, str) else list(output)
         lines = ["", "[[block]]", f"name = {quoted(name)}", f"input = {array(inputs)}", f"output = {array(outputs)}"]
         if system is not None:
-            keys = {**self._system(system, outputs), **keys}
+            keys = {**self._system(system, outputs), **self._rate(name, system, keys), **keys}
         for key, value in keys.items():
             lines.append(f"{key} = {self._value(value)}")
         self._blocks.append("\n".join(lines))
         return self
+
+    def _rate(self, name: str, system: Any, keys: Mapping[str, Any]) -> dict[str, Any]:
+        """How many samples of the loop are one of the system's."""
+        dt = getattr(system, "dt", None)
+        own = None if dt is None or isinstance(dt, (bool, str)) or not dt else exact(dt, self.floats)
+        if self.time != "discrete" or own is None or self._period is None or {"every", "sample_time", "discretize"} & keys.keys():
+            return {}
+        samples = own / self._period
+        if samples.denominator != 1:
+            raise ValueError(
+                f"the sample time {own} of '{name}' is no whole multiple of the loop's, {self._period}: give the loop the greatest common divisor of all"
+            )
+        return {} if samples == 1 else {"every": int(samples)}
 
     def _system(self, system: Any, outputs: list[str]) -> dict[str, Any]:
         if isinstance(system, str):

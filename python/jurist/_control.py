@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import math
 import re
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal, Unpack
 
 from ._builder import LoopBuilder
-from ._exact import Exact, Floats, fraction, warn_computed
+from ._exact import Exact, Floats, exact, fraction, warn_computed
 from ._methods import Method
 from ._question import Waiting
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from ._loop import Loop
     from ._margins import Margins
@@ -75,9 +76,10 @@ def from_control(
 
     Parameters
     ----------
-    sys : TransferFunction or StateSpace
+    sys : TransferFunction or StateSpace, or a list of them
         With ``gain``, the open loop ``L``, not one that is closed already: negative feedback is closed around ``gain * L``, one input and one output. Without,
-        the system itself: its own poles are asked about. State-space matrices are taken as they are.
+        the system itself: its own poles are asked about. State-space matrices are taken as they are. A list is the open loop's parts from the error to the
+        output, with sample times of their own: a slower one runs at each so many samples and holds its output.
     gain : str, optional
         The name of the gain; a parameter with the nominal value 1 and values above 0.
     floats : {"shortest", "binary", "refuse"}
@@ -110,7 +112,12 @@ def from_control(
     <StableSet k: (0, 2.26182633411)>
     >>> jurist.from_control(lag, gain="k", hold="1/2").intervals("k")
     <StableSet k: (0, 4.08298816507)>
+    >>> slow = control.tf([1], [1, -1], 0.2)
+    >>> jurist.from_control([slow, lag], gain="k", hold="1/10").intervals("k")
+    <StableSet k: (0, 1)>
     """
+    if isinstance(sys, (list, tuple)):
+        return _in_series(sys, gain, floats, hold, method, delay)
     kind, dt = _time(sys, time)
     held: dict[str, Any] = {}
     if hold is not None:
@@ -154,6 +161,37 @@ def from_control(
         u = late
     builder.block("plant", u, y, sys, **held)
     return builder.build(inputs=[reference], outputs=[y])
+
+
+def _in_series(
+    systems: Sequence[Any], gain: str | None, floats: Floats, hold: Exact | None, method: Method, delay: Exact | None
+) -> Loop:
+    """A loop around systems in series, each at its own rate; one of them may be a continuous plant."""
+    if gain is None or not systems:
+        raise ValueError("a list is the parts of an open loop: name the gain around which it is closed")
+    kinds = [_time(system, None) for system in systems]
+    continuous = sum(kind == "continuous" for kind, _ in kinds)
+    if continuous > 1:
+        raise ValueError("two parts are continuous: what stands between two samplers is one plant, so multiply them")
+    if continuous and hold is None:
+        raise ValueError("a part is continuous: give 'hold', the sample time of the hold in front of it")
+    times = [exact(dt, floats) for kind, dt in kinds if kind == "discrete" and dt is not None]
+    if hold is not None:
+        period = exact(hold, floats)
+    elif times:
+        period = Fraction(math.gcd(*(t.numerator for t in times)), math.lcm(*(t.denominator for t in times)))
+    else:
+        raise ValueError("no part says its sample time as a number")
+    builder = LoopBuilder("discrete", sample_time=period, floats=floats)
+    builder.parameter(gain, 1, min=0)
+    builder.block("gain", "u_ref - u_last", "u_0", gain)
+    for k, (system, (kind, _)) in enumerate(zip(systems, kinds, strict=True)):
+        held: dict[str, Any] = {}
+        if kind == "continuous":
+            held = {"discretize": {"method": method, **({} if delay is None else {"delay": delay})}}
+        output = "u_last" if k + 1 == len(systems) else f"u_{k + 1}"
+        builder.block(f"part {k + 1}", f"u_{k}", output, system, **held)
+    return builder.build(inputs=["u_ref"], outputs=["u_last"])
 
 
 def margins(

@@ -146,6 +146,29 @@ def test_a_builder_writes_the_model_that_it_means():
     assert hash(again) == hash(loop)
 
 
+def test_systems_with_sample_times_of_their_own():
+    slow, lag = ct.tf([1], [1, -1], 0.2), ct.tf([1], [1, 1])
+    # From one sample of the slow part to the next: z - 1 and a lag behind a hold of 0.2 s.
+    assert limit(jurist.from_control([slow, lag], gain="k", hold="1/10")) == 1
+    assert limit(jurist.from_control([slow, ct.tf([1], [1, -0.5], 0.1)], gain="k")) == Fraction(1, 2)
+    three = jurist.from_control([ct.tf([1], [1, -1], 0.2), ct.tf([1], [1, 0], 0.3)], gain="k")
+    assert three.to_toml().count("every") == 2
+    for systems, keys, message in (
+        ([lag], {}, "name the gain"),
+        ([lag], {"gain": "k"}, "give 'hold'"),
+        ([lag, lag], {"gain": "k", "hold": 1}, "one plant"),
+        ([ct.tf([1], [1, 0], True)], {"gain": "k"}, "as a number"),
+        ([slow, lag], {"gain": "k", "hold": "3/20"}, "no whole multiple"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            jurist.from_control(systems, **keys)
+    b = jurist.LoopBuilder("discrete", sample_time="1/10")
+    b.block("slow", "r - y", "u", slow, phase=1).block("fast", "u", "y", "1/(2*z - 1)")
+    assert "every = 2\nphase = 1" in b.to_toml()
+    with pytest.raises(ValueError, match="3/20 of 'other' is no whole multiple"):
+        b.block("other", "u", "v", ct.tf([1], [1, 0], 0.15))
+
+
 def test_blocks_of_every_form():
     b = jurist.LoopBuilder("discrete", sample_time="1/10")
     b.parameter("K", "1/2")

@@ -11,12 +11,12 @@ use jurist_engine::error::{Code, Error, Source};
 use jurist_engine::model::Model;
 use jurist_engine::stability::{Cause, StableSet};
 
-fn set(text: &str, name: &str) -> StableSet {
+pub(super) fn set(text: &str, name: &str) -> StableSet {
     read(text).ask().free(name).stable_set(&Budget::unlimited()).unwrap_or_else(|e| panic!("{e}")).into_value()
 }
 
 /// The ends of the only interval, in so many digits.
-fn ends(set: &StableSet, digits: usize) -> [String; 2] {
+pub(super) fn ends(set: &StableSet, digits: usize) -> [String; 2] {
     let [interval] = set.intervals() else { panic!("{set:?}") };
     [&interval.lower, &interval.upper].map(|end| end.as_ref().map_or("none".into(), |end| end.value.decimal(digits)))
 }
@@ -233,7 +233,6 @@ fn mistakes_are_shown_where_they_stand() {
         ("{ method = \"pwm\", edge = [\"trailing\", \"hold\", \"hold\"], duty = 0.5 }", Code::Edge, ""),
         ("{ method = \"pwm\", edge = \"trailing\", duty = [0.5, 0.5, 0.5] }", Code::Duty, ""),
         ("{ method = \"pwm\", edge = [\"hold\", \"hold\"], duty = 0.5 }", Code::Edge, "zoh"),
-        ("{ method = \"pwm\", edge = \"trailing\", duty = \"steady\" }", Code::Duty, "mean"),
         ("{ method = \"pwm\", edge = \"trailing\", duty = 0.5, T = \"T\" }", Code::Discretize, "leave it out"),
         ("{ method = \"pwm\", edge = \"trailing\", duty = 0.5, prewarp = 3 }", Code::Discretize, "leave it out"),
         ("{ method = \"zoh\", edge = \"trailing\" }", Code::Discretize, "leave it out"),

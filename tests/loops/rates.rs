@@ -26,7 +26,7 @@ fn ends(set: &StableSet, digits: usize) -> [(String, String); 2] {
 }
 
 /// A slow position loop around a fast one for the speed.
-fn position(rate: &str) -> String {
+pub(crate) fn position(rate: &str) -> String {
     format!(
         "time = 'discrete'\nsample_time = 1\n[parameters]\nK_p = {{ nominal = 0.1, min = 0 }}\nK_v = 1\n[loop]\ninputs = ['r']\n\
          outputs = ['y']\n[[block]]\nname = 'slow'\ninput = 'r - y'\noutput = 'w_ref'\ngain = 'K_p'\n{rate}\n[[block]]\nname = 'fast'\n\
@@ -163,7 +163,7 @@ fn mistakes_of_rates_are_shown_where_they_stand() {
 }
 
 /// A cascade of first-order blocks with random rates and phases.
-struct Cascade {
+pub(crate) struct Cascade {
     /// Pole and gain of each discrete block, in tenths; each block reads a mixture of all outputs.
     blocks: Vec<[i64; 2]>,
     mixture: Vec<Vec<i64>>,
@@ -171,7 +171,7 @@ struct Cascade {
 }
 
 impl Cascade {
-    fn random(random: &mut Random) -> Cascade {
+    pub(crate) fn random(random: &mut Random) -> Cascade {
         let n = 2 + random.below(3);
         let mut entry = |bound: usize| random.below(2 * bound + 1) as i64 - bound as i64;
         let blocks = (0..n).map(|_| [entry(9), entry(6)]).collect();
@@ -186,7 +186,7 @@ impl Cascade {
     }
 
     /// Tenths: `b/10/(z - a/10)`, the first block with the gain K.
-    fn text(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         let mut text = "time = 'discrete'\nsample_time = 1\n[parameters]\nK = 1\n[loop]\n".to_owned();
         for (i, [a, b]) in self.blocks.iter().enumerate() {
             let sum: Vec<String> = self.mixture[i].iter().enumerate().map(|(j, c)| format!("({c})*y_{j}")).collect();

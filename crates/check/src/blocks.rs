@@ -10,6 +10,7 @@
 mod hold_rows;
 mod prewarp;
 mod pulses;
+mod rates;
 
 use super::characteristic::Form;
 use super::clock::Clock;
@@ -25,6 +26,7 @@ use super::symbols::Table;
 use super::toml::Toml;
 use hold_rows::is_hold;
 use num_traits::{One, ToPrimitive, Zero};
+use rates::{Rate, Rates};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
@@ -79,7 +81,12 @@ struct Diagram<'s, 'c> {
     alone: Vec<Ordered>,
     sample_time: Option<&'s Toml>,
     values: Option<Values<'s>>,
+    rates: Rates,
+    /// The rate of the block that is read.
+    rate: Rate,
 }
+
+pub(super) use rates::has_several as has_several_rates;
 
 /// A matrix and the degree of its determinant unless a block loses its order.
 pub(super) type Ordered = (Vec<Vec<Multi>>, usize);
@@ -111,7 +118,9 @@ pub(super) fn system_matrix<'t>(
     let signals = numbered.map(|(name, i)| (name.to_owned(), i)).collect();
     let unknowns = driven.len();
     let (rows, alone) = (Vec::new(), Vec::new());
-    let mut diagram = Diagram { scope, declared, signals, rows, unknowns, degree: 0, alone, sample_time, values };
+    let (rates, rate) = (Rates::default(), Rate { every: 1, phase: 0 });
+    let mut diagram =
+        Diagram { scope, declared, signals, rows, unknowns, degree: 0, alone, sample_time, values, rates, rate };
     let mut first = 0;
     let mut states = Vec::new();
     for block in blocks {
@@ -119,9 +128,12 @@ pub(super) fn system_matrix<'t>(
         if block.get("A").is_some() && block.get("C").is_none() {
             states.extend(own);
         }
+        diagram.rate = Rate::of(block, declared.discrete, diagram.scope.clock)?;
         diagram.block(block, first..first + own.len())?;
+        diagram.rates.note(diagram.rate, first..first + own.len(), diagram.rows.len(), diagram.unknowns - driven.len());
         first += own.len();
     }
+    diagram.lift(driven.len())?;
     let outputs = outputs(table, &diagram.signals, diagram.scope)?;
     Ok((diagram.form()?, Ports { inputs, states, signals: driven, outputs }))
 }

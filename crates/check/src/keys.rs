@@ -22,8 +22,24 @@ const PARAMETER: [&str; 8] = ["nominal", "min", "max", "closed", "domain", "unit
 const CONSTANT: [&str; 4] = ["value", "unit", "description", "tolerance"];
 const LOOP: [&str; 10] = ["characteristic", "matrix", "A", "B", "C", "K", "states", "inputs", "E", "outputs"];
 const SIMULATION: [&str; 4] = ["inputs", "initial", "duration", "units"];
-const BLOCK: [&str; 14] =
-    ["name", "input", "output", "discretize", "pwm", "transfer", "num", "den", "gain", "delay", "A", "B", "C", "D"];
+const BLOCK: [&str; 16] = [
+    "name",
+    "input",
+    "output",
+    "discretize",
+    "pwm",
+    "every",
+    "phase",
+    "transfer",
+    "num",
+    "den",
+    "gain",
+    "delay",
+    "A",
+    "B",
+    "C",
+    "D",
+];
 const DISCRETIZE: [&str; 7] = ["method", "T", "c", "prewarp", "delay", "edge", "duty"];
 const PWM: [&str; 3] = ["amplitude", "carrier", "period"];
 

@@ -318,6 +318,14 @@ fn by_kind(model: &str, certificate: &str, clock: Clock) -> Result<Proved, Rejec
     let statement =
         Step::Format.of(json.get("statement").ok_or_else(|| "the certificate has no 'statement'".into()))?;
     let kind = Step::Statement.of(statement.get("kind").ok_or_else(|| "the statement has no 'kind'".into()))?;
+    // Of loops with several rates the unit disc is what is proved of, over polynomials with rational coefficients.
+    if toml::read(model).is_ok_and(|model| blocks::has_several_rates(&model)) {
+        let region = statement.get("region").and_then(|region| region.get("radius"));
+        if schema != SCHEMA || !matches!(region, Some(Json::Text(one)) if one == "1") {
+            let reason = "a loop of several rates has certificates of stability without further wishes alone".into();
+            return Err(Rejection { step: Step::Model, reason });
+        }
+    }
     match Step::Statement.of(text(kind, "'kind'"))? {
         "boxes" if schema == SCHEMA_OF_MAPS_BY_BOXES => map_boxes::check(model, &json, clock),
         "map" if schema == SCHEMA_OF_MAPS => map::check(model, &json, statement, &clock),

@@ -23,6 +23,9 @@ pub(crate) const ROOTS: Precisions = Precisions::new(256, 1 << 12);
 /// Entries of matrices that are rounded for other programs. Of one that may be zero no bits tell.
 pub(crate) const ROUNDED_ENTRIES: Precisions = Precisions::new(256, 1 << 12);
 
+/// The duty ratio of a loop at rest beside 0 and 1, which it may be by a relation that no identity shows.
+pub(crate) const STEADY_DUTY: Precisions = Precisions::new(128, 1 << 11);
+
 /// A loop behind holds as numbers alone. A loop that these bits do not decide is so near to the boundary that exact algebra
 /// has to be asked.
 pub(crate) const LOOP_IN_NUMBERS: Precisions = Precisions::new(128, 1 << 11);

@@ -87,6 +87,9 @@ fn block(block: &Block) -> Value {
             does.push_str(&format!(", dead time {delay}"));
         }
     }
+    if block.rate.every > 1 {
+        does.push_str(&format!(", {}: outputs are held in between", block.rate.words()));
+    }
     let outputs: Vec<&str> = block.outputs.iter().map(|o| o.name.as_str()).collect();
     json!([block.name, list(&block.inputs), outputs.join(", "), does])
 }

@@ -1,5 +1,6 @@
 //! Elementary functions of what enclosures are: what symbols are computed with.
 
+use super::implicit::implicit;
 use super::{Ball, Enclosed, Series, TaylorModel, fundamental_solutions};
 use crate::number::Integer;
 
@@ -17,6 +18,10 @@ pub trait Elementary: Enclosed {
     fn exponential(&self) -> Self;
     /// The [`fundamental_solutions`] at this time.
     fn solutions(&self, coefficients: &[Self]) -> Vec<Self>;
+
+    /// The zero `d` of a function of enclosures of this kind. The closure says its value and its slope at `d`, and has one zero in a ball
+    /// at each point. `None` where it is not shown to have enclosures.
+    fn implicit(&self, start: &Ball, f: &dyn Fn(&Self) -> Option<[Self; 2]>) -> Option<Self>;
 
     /// An integer.
     fn integer(&self, n: &Integer) -> Self {
@@ -53,6 +58,17 @@ impl Elementary for Series {
     fn solutions(&self, coefficients: &[Series]) -> Vec<Series> {
         fundamental_solutions(coefficients, self)
     }
+    /// One coefficient after the other: where all lower ones are known, the value's coefficient is what the slope times the next one is to cancel.
+    fn implicit(&self, start: &Ball, f: &dyn Fn(&Series) -> Option<[Series; 2]>) -> Option<Series> {
+        let mut known = Series::constant(start, self.terms());
+        for k in 1..self.terms() {
+            let [value, slope] = f(&known)?;
+            let next = value.coefficients()[k].div(&slope.coefficients()[0])?;
+            let with = |(i, c): (usize, &Ball)| if i == k { c.sub(&next) } else { c.clone() };
+            known = Series::new(known.coefficients().iter().enumerate().map(with).collect());
+        }
+        Some(known)
+    }
 }
 
 impl Elementary for TaylorModel {
@@ -73,5 +89,8 @@ impl Elementary for TaylorModel {
     }
     fn solutions(&self, coefficients: &[TaylorModel]) -> Vec<TaylorModel> {
         TaylorModel::solutions(coefficients, self)
+    }
+    fn implicit(&self, start: &Ball, f: &dyn Fn(&TaylorModel) -> Option<[TaylorModel; 2]>) -> Option<TaylorModel> {
+        implicit(self, start, self.polynomial().terms(), f)
     }
 }

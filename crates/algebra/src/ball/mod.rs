@@ -9,6 +9,7 @@ mod characteristic;
 mod elementary;
 mod exponential;
 mod functions;
+mod implicit;
 mod multi_taylor_model;
 mod series;
 mod short_model;

@@ -1,5 +1,6 @@
 //! Analytic functions of several variables as polynomials with a bound of all that is left out.
 
+use super::implicit::{Approximate, implicit};
 use super::solutions::{Scaled, Summed, solutions_by_taylor};
 use super::{Ball, Elementary, Enclosed, exp};
 use crate::limits::checkpoint;
@@ -349,6 +350,18 @@ impl Summed for MultiTaylorModel {
     }
 }
 
+impl Approximate for MultiTaylorModel {
+    fn near(&self) -> MultiTaylorModel {
+        self.known()
+    }
+    fn around(&self, radius: &Integer) -> MultiTaylorModel {
+        self.with(self.coefficients.clone(), &self.rest + radius)
+    }
+    fn size(&self) -> Integer {
+        self.norm()
+    }
+}
+
 impl Elementary for MultiTaylorModel {
     fn bits(&self) -> u64 {
         self.bits
@@ -372,6 +385,13 @@ impl Elementary for MultiTaylorModel {
     }
     fn solutions(&self, coefficients: &[MultiTaylorModel]) -> Vec<MultiTaylorModel> {
         solutions_by_taylor(coefficients, self)
+    }
+    fn implicit(
+        &self,
+        start: &Ball,
+        f: &dyn Fn(&MultiTaylorModel) -> Option<[MultiTaylorModel; 2]>,
+    ) -> Option<MultiTaylorModel> {
+        implicit(self, start, self.monomials.degree + 1, f)
     }
 }
 

@@ -1,5 +1,6 @@
 //! Analytic functions as polynomials with a bound of all that is left out.
 
+use super::implicit::Approximate;
 use super::short_model::short_solutions;
 use super::solutions::{Scaled, Summed, solutions_by_taylor};
 use super::{Ball, Elementary, Enclosed, Known, Series, exp, fundamental_solutions};
@@ -283,6 +284,20 @@ impl Summed for TaylorModel {
     }
     fn widened(&self) -> TaylorModel {
         TaylorModel::with(self.polynomial.widened(), &self.rest + &Integer::ONE)
+    }
+}
+
+impl Approximate for TaylorModel {
+    fn near(&self) -> TaylorModel {
+        let bits = self.bits();
+        let middle = |c: &Ball| Ball::from_units(c.middle_units(), c.middle_units(), bits);
+        TaylorModel::from_series(self.polynomial.map(middle))
+    }
+    fn around(&self, radius: &Integer) -> TaylorModel {
+        TaylorModel::with(self.polynomial.map(|c| c.widened(radius)), &self.rest + radius)
+    }
+    fn size(&self) -> Integer {
+        self.norm_units()
     }
 }
 

@@ -1,5 +1,6 @@
 //! What a symbol stands for.
 
+use super::DutyRatio;
 use crate::ball::Ball;
 use crate::number::{Enclosure, Integer, Rational};
 use crate::poly::{MultiPoly, RationalFunction, RealAlgebraic};
@@ -37,6 +38,8 @@ pub enum Definition {
         /// The time.
         time: RationalFunction,
     },
+    /// The duty ratio of a periodic orbit.
+    Duty(Box<DutyRatio>),
 }
 
 /// A real number that is known by enclosures alone, with the words for it.
@@ -93,6 +96,7 @@ impl Definition {
             Definition::Root(x) | Definition::Exponential(x) => vec![x],
             Definition::Tangent { square, time } => vec![square, time],
             Definition::Fundamental { polynomial, time, .. } => polynomial.iter().chain([time]).collect(),
+            Definition::Duty(duty) => duty.arguments().collect(),
         }
     }
 
@@ -108,6 +112,7 @@ impl Definition {
                 index: *index,
                 time: f(time)?,
             },
+            Definition::Duty(duty) => Definition::Duty(Box::new(duty.with(f)?)),
         })
     }
 
@@ -138,6 +143,7 @@ impl Definition {
                     None => format!("{name}(({})*sqrt({}))/sqrt({1})", shown(time), shown(&w)),
                 }
             }
+            Definition::Duty(duty) => format!("the duty ratio of the orbit with the mean {}", shown(&duty.mean)),
             Definition::Fundamental { polynomial, index, time } => {
                 let list: Vec<String> = polynomial.iter().map(shown).collect();
                 format!("fundamental solution {index} of [{}] at {}", list.join(", "), shown(time))

@@ -232,6 +232,12 @@ fn start(definition: &Definition, order: u32) -> Option<Start> {
                 }
             }
         }
+        // What a pulse adds beside its mean is small in a short period.
+        Definition::Duty(duty) => {
+            if order >= 1 {
+                add(duty.mean.clone());
+            }
+        }
         Definition::Pi | Definition::Algebraic(_) | Definition::Enclosed(_) | Definition::Root(_) => {}
     }
     found

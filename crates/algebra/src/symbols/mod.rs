@@ -12,6 +12,7 @@ mod beyond;
 mod common;
 mod definition;
 mod dominated;
+mod duty;
 mod forms;
 mod function;
 mod horner;
@@ -31,6 +32,7 @@ mod values;
 mod zero_at_end;
 
 pub use definition::{Definition, EnclosedNumber};
+pub use duty::DutyRatio;
 pub use function::{Function, common_scale};
 pub use horner::value_at_balls;
 pub use moving::{DefinedParts, MovingSymbols, SignUnderRoot, Zeros};
@@ -202,6 +204,10 @@ impl Symbols {
             Definition::Fundamental { polynomial, index, time } => {
                 Some(self.solutions(polynomial, time, bits)?.swap_remove(*index))
             }
+            Definition::Duty(duty) => {
+                let value = duty.value(|f| Some(Series::constant(&at(f)?, 1)))?;
+                Some(value.coefficients()[0].clone())
+            }
         }
     }
 
@@ -244,7 +250,7 @@ fn at_rationals(definition: &Definition, bits: u64) -> Option<Ball> {
             Some(exponential_of_rationals(&Matrix::from_fn(1, 1, |_, _| x.clone()), bits).at(0, 0).clone())
         }
         Definition::Tangent { square, time } => Some(tangent(&square.as_constant()?, &time.as_constant()?, bits)),
-        Definition::Fundamental { .. } => None,
+        Definition::Fundamental { .. } | Definition::Duty(_) => None,
     }
 }
 

@@ -61,7 +61,11 @@ pub(super) fn values(table: &[(String, Definition)], at: &Rational, terms: usize
             quotient(&polynomial_at(f.numerator(), &out), &polynomial_at(f.denominator(), &out))
         };
         let next = match definition {
-            Definition::Pi | Definition::Algebraic(_) | Definition::Enclosed(_) | Definition::Root(_) => return None,
+            Definition::Pi
+            | Definition::Algebraic(_)
+            | Definition::Enclosed(_)
+            | Definition::Root(_)
+            | Definition::Duty(_) => return None,
             Definition::Exponential(x) => exponential(1, &[value(x)?])?.swap_remove(0),
             Definition::Tangent { square, time } => {
                 let (w, t) = (value(square)?, value(time)?);

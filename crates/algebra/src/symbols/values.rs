@@ -106,6 +106,7 @@ pub(super) fn values_of<S: Elementary>(table: &[(String, Definition)], parameter
             Definition::Algebraic(x) => like.constant(&Definition::enclosed(x, bits)),
             Definition::Enclosed(x) => like.constant(&x.at(bits)),
             Definition::Root(x) => at(x)?.square_root()?,
+            Definition::Duty(duty) => duty.value(at)?,
             Definition::Exponential(x) => {
                 let x = at(x)?;
                 if x.range().upper() > Rational::from(LARGEST) {

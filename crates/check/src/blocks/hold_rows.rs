@@ -25,6 +25,12 @@ impl Diagram<'_, '_> {
         }
         if time.is_none() && factor.is_none() {
             time = self.sample_time.map(|t| self.scope.scalar(t)).transpose()?;
+            // A slower block has its own period.
+            let every = Fraction::number(&Q::from_integer(self.rate.every.into()));
+            time = time.map(|time| time.times(&every, clock)).transpose()?;
+        }
+        if is_hold(how)? && self.rate.every > 1 {
+            return Err("a continuous plant has no rate of its own".into());
         }
         if !is_hold(how)? {
             if delay.is_some() {

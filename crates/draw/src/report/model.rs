@@ -3,7 +3,9 @@
 use crate::page::{Table, escaped, math, matrix, paragraph};
 use jurist_algebra::number::Rational;
 use jurist_engine::error::Span;
-use jurist_engine::model::{Block, Diagram, Discretization, Dynamics, Expression, Form, Matrix, Model, Ports, Time};
+use jurist_engine::model::{
+    Block, Diagram, Discretization, Dynamics, Expression, Form, Matrix, Model, Ports, Rate, Time,
+};
 use jurist_engine::problem::Question;
 use jurist_engine::show::layout::short;
 
@@ -114,6 +116,10 @@ fn blocks(model: &Model, diagram: &Diagram) -> String {
     if discrete {
         head.push("made discrete by");
     }
+    let has_rates = diagram.blocks.iter().any(|block| block.rate.every > 1);
+    if has_rates {
+        head.push("runs");
+    }
     let mut table = Table::new("Blocks", &head);
     let mut matrices = String::new();
     for block in &diagram.blocks {
@@ -124,11 +130,32 @@ fn blocks(model: &Model, diagram: &Diagram) -> String {
             let rule = block.discretization.as_ref();
             row.push(rule.map_or_else(|| "is discrete".to_owned(), |d| made_discrete(model, d)));
         }
+        if has_rates {
+            row.push(runs(diagram, block));
+        }
         table.rows.push(row);
         matrices.push_str(&state_space(model, block));
     }
     html.push_str(&table.html());
     html + &matrices
+}
+
+/// At which samples a block runs, which signals it samples less often than they change, and which of its outputs others read held.
+fn runs(diagram: &Diagram, block: &Block) -> String {
+    let Rate { every, .. } = block.rate;
+    let mut parts = vec![if every == 1 { "each sample".to_owned() } else { block.rate.words() }];
+    let reads = |reader: &Block, name: &str| reader.inputs.iter().any(|e| e.names().contains(name));
+    let others = || diagram.blocks.iter().filter(|other| other.rate != block.rate);
+    let faster = others().filter(|other| other.rate.every < every).flat_map(|other| &other.outputs);
+    let sampled: Vec<&str> = faster.map(|o| o.name.as_str()).filter(|name| reads(block, name)).collect();
+    let is_held = |name: &&str| every > 1 && others().any(|reader| reads(reader, name));
+    let held: Vec<&str> = block.outputs.iter().map(|o| o.name.as_str()).filter(is_held).collect();
+    for (what, names) in [("samples", sampled), ("holds", held)] {
+        if !names.is_empty() {
+            parts.push(format!("{what} {}", names.join(", ")));
+        }
+    }
+    parts.join("; ")
 }
 
 fn does(model: &Model, block: &Block) -> String {
@@ -269,5 +296,19 @@ mod tests {
         assert_eq!(comment_at(&model, model.parameters()[0].span), "");
         let html = section(&model.ask());
         assert!(html.contains("gain # 1") && html.contains("'#' two"), "{html}");
+    }
+
+    #[test]
+    fn rates_change_where_the_table_says_so() {
+        let text = "time = 'discrete'\n[parameters]\nK = 1\n[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\nname = 'slow'\n\
+                    input = 'r - y'\noutput = 'u'\ngain = 'K'\nevery = 10\nphase = 3\n[[block]]\nname = 'fast'\ninput = 'u'\noutput = 'y'\n\
+                    transfer = '1/(2*z - 1)'\n";
+        let model = |text: &str| Model::from_toml(&Source::new("m.toml", text)).unwrap().0;
+        let html = section(&model(text).ask());
+        assert!(
+            html.contains("every 10, phase 3; samples <i>y</i>; holds <i>u</i>") && html.contains("each sample"),
+            "{html}"
+        );
+        assert!(!section(&model(&text.replace("every = 10\nphase = 3\n", "")).ask()).contains("each sample"));
     }
 }

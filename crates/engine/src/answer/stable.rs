@@ -2,7 +2,7 @@
 
 use super::{Answer, Verdict};
 use crate::error::Error;
-use crate::problem::{EnclosedParts, Problem, Question, Region, exact_or_enclosed};
+use crate::problem::{EnclosedParts, Problem, Question, Region};
 use crate::stability::{Cause, End, StableSet, stable_set, stable_set_of_parts};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
@@ -81,7 +81,7 @@ impl Problem {
             if !self.model().has_holds() {
                 return self.stable_set_by_algebra(budget);
             }
-            exact_or_enclosed(
+            self.exact_or_enclosed(
                 budget,
                 |budget| self.stable_set_by_algebra(budget),
                 |budget| {

@@ -5,6 +5,7 @@ use super::definition::{Model, Time};
 use super::evaluate::scalar::{Scope, Symbol, Variable};
 use super::evaluate::symbolic::{Values, Wiring, symbolic};
 use super::evaluate::walk::Failure as Wrong;
+use super::steady::SteadyDuty;
 use super::symbols::{Definition, Symbols};
 use super::text::Expression;
 use super::text::names::{did_you_mean, known_names, shorten};
@@ -303,6 +304,17 @@ impl Model {
         given: &[(String, Rational)],
         budget: &Budget,
     ) -> Result<Answer<'_>, Error> {
+        self.answer_with(kept, given, &|| self.steady_duty(kept, given, budget), budget)
+    }
+
+    /// The same with this duty ratio of the loop at rest, where one is asked for.
+    pub(super) fn answer_with(
+        &self,
+        kept: &[String],
+        given: &[(String, Rational)],
+        duty: &dyn Fn() -> Result<SteadyDuty, Error>,
+        budget: &Budget,
+    ) -> Result<Answer<'_>, Error> {
         let mut failures = Vec::new();
         let mut report = |failure| failures.push(failure);
         let mut scope = self.scope(kept, given, budget, &mut report);
@@ -313,7 +325,7 @@ impl Model {
             None => None,
         };
         let (Some(values), true) = (values, failures.is_empty()) else { return Err(self.failed(failures)) };
-        let (images, symbols) = Model::images(&scope.variables, kept, given)?;
+        let (images, symbols) = Model::images(&scope.variables, kept, given, duty)?;
         let symbols = RefCell::new(symbols);
         let steps = RationalFunction::from(Rational::from(self.hyperperiod() as i64));
         let sample_time = sample_time.map(|time| &time * &steps);
@@ -353,6 +365,7 @@ impl Model {
         variables: &[Variable],
         kept: &[String],
         given: &[(String, Rational)],
+        duty: &dyn Fn() -> Result<SteadyDuty, Error>,
     ) -> Result<(Vec<RationalFunction>, Symbols), Error> {
         let mut symbols = Symbols::new(kept);
         let mut images: Vec<RationalFunction> = Vec::with_capacity(variables.len());
@@ -376,6 +389,15 @@ impl Model {
                     let angle = substituted(angle, &images).ok_or_else(undefined)?;
                     symbols.tangent_of_a_rule(angle).ok_or_else(undefined)?
                 }
+                Variable::Duty => match duty()? {
+                    SteadyDuty::Any => RationalFunction::zero(),
+                    SteadyDuty::Number(number) => symbols.enclosed_number(number),
+                    SteadyDuty::Moving(found) => {
+                        let undefined = || Error::Undefined("the duty ratio of the orbit has no value there".into());
+                        let own = symbols.import(&found.1).ok_or_else(undefined)?;
+                        symbols.duty(found.0.with(|f| f.compose(&own)).ok_or_else(undefined)?)
+                    }
+                },
                 Variable::Delay(time) => {
                     let undefined = || Error::Undefined("a dead time has no value there".into());
                     let time = substituted(time, &images).ok_or_else(undefined)?;

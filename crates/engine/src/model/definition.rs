@@ -363,8 +363,10 @@ impl Discretization {
 pub struct Pulses {
     /// Which edges move, once for all inputs or for each; `None` for an input that is held.
     pub edges: Vec<Option<&'static Edges>>,
-    /// Duty ratios, one for all inputs or one for each.
+    /// Duty ratios, one for all inputs or one for each; the word `steady` alone where they follow from the orbit.
     pub duties: Vec<Expression>,
+    /// Whether the duty ratio is that of the loop at rest, with the inputs of `[simulation]`.
+    pub is_steady: bool,
     /// Where the edges stand.
     pub span: Span,
 }

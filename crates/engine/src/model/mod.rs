@@ -26,6 +26,7 @@ mod presupposed;
 mod read;
 mod realised;
 mod shipping;
+mod steady;
 mod symbols;
 pub(crate) mod text;
 pub(crate) mod tolerance;

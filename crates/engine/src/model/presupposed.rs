@@ -4,6 +4,7 @@
 use super::closed_loop::substituted;
 use super::definition::{Form, Model};
 use super::evaluate::walk::Failure;
+use super::steady::no_duty;
 use super::symbols::Symbols;
 use crate::error::{Code, Diagnostic, Span};
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -119,7 +120,7 @@ impl Model {
             let mut own = Vec::new();
             if rule.method.is_hold() {
                 own.push((Presupposed::SampleTime, value(time)?, rule.span));
-                for duty in rule.pulses.iter().flat_map(|pulses| &pulses.duties) {
+                for duty in rule.pulses.iter().filter(|pulses| !pulses.is_steady).flat_map(|pulses| &pulses.duties) {
                     let d = value(duty)?;
                     let rest = &RationalFunction::one() - &d;
                     own.extend([(Presupposed::Duty, d, duty.span), (Presupposed::Duty, rest, duty.span)]);
@@ -135,9 +136,23 @@ impl Model {
                 }
             }
         }
-        let (images, symbols) = Model::images(&scope.variables, kept, given).ok()?;
+        let (images, symbols) = Model::images(&scope.variables, kept, given, &no_duty).ok()?;
         for presupposition in &mut found {
             presupposition.function = substituted(&presupposition.function, &images)?;
+        }
+        if !kept.is_empty() && self.has_steady_duty() {
+            // Else the loop is undefined at the one point that is asked for.
+            if let Ok(Some(mean)) = self.mean_duty(kept, given, budget) {
+                let span =
+                    rules().find_map(|rule| rule.pulses.as_ref().filter(|p| p.is_steady).map(|p| p.duties[0].span));
+                let rest = &RationalFunction::one() - &mean;
+                let both = [mean, rest].into_iter();
+                found.extend(both.map(|function| Presupposition {
+                    of: Presupposed::Duty,
+                    function,
+                    span: span.unwrap_or_default(),
+                }));
+            }
         }
         is_known.then_some((found, symbols))
     }

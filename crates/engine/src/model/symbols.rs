@@ -6,6 +6,7 @@
 
 mod approximate;
 mod circular;
+mod duty;
 mod flows;
 mod identity;
 mod merge;
@@ -226,7 +227,7 @@ impl Symbols {
     }
 
     /// Whether a value depends on a kept name, be it by way of a symbol.
-    fn moves(&self, f: &RationalFunction) -> bool {
+    pub(in crate::model) fn moves(&self, f: &RationalFunction) -> bool {
         let moving = |i: usize| i < self.kept.len() || self.table[i - self.kept.len()].is_moving;
         f.variables().into_iter().any(moving)
     }
@@ -369,6 +370,7 @@ impl Meaning {
             Meaning::Constant(Definition::Tangent { .. }) => "t",
             Meaning::Constant(Definition::Enclosed(_)) => "c",
             Meaning::Constant(Definition::Fundamental { .. }) => "f",
+            Meaning::Constant(Definition::Duty(_)) => "d",
             Meaning::Delay(_) => "z",
             Meaning::Flow { .. } => "e",
             Meaning::Value(_) => "v",

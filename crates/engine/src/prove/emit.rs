@@ -3,7 +3,7 @@
 use super::cofactors::{Identity, of_half_size_pair};
 use super::line::{Line, Separator};
 use super::refuse_transcendental;
-use super::statement::{self, about, boundary, number, object};
+use super::statement::{self, boundary, number, object};
 use super::text::to_text;
 use super::{dead_time, gain, held};
 use crate::answer::{Answer, PointVerdict};
@@ -41,6 +41,7 @@ impl Answer<StableSet> {
         budget.enter(|| {
             budget.step("certificate");
             let problem = self.problem();
+            statement::of_rates(problem)?;
             if let Some(delayed) = problem.delayed(budget)? {
                 return dead_time::of_set(self, delayed, budget);
             }
@@ -59,7 +60,7 @@ impl Answer<StableSet> {
             let line = proof.line.as_ref().map(line_json).unwrap_or_default();
             let certificate = object([
                 ("schema", SCHEMA.into()),
-                ("model", about(problem)?),
+                ("model", statement::about_at_rates(problem)?),
                 ("statement", statement::intervals(problem, stable.collect())),
                 ("characteristic", polynomials(&proof.characteristic)),
                 ("boundary", boundary(proof.identity.as_ref(), polynomial)),
@@ -83,6 +84,7 @@ impl Answer<PointVerdict> {
         budget.enter(|| {
             budget.step("certificate");
             let (problem, verdict) = (self.problem(), self.value());
+            statement::of_rates(problem)?;
             if let Some(delayed) = problem.delayed(budget)? {
                 return gain::of_verdict(self, delayed);
             }
@@ -95,7 +97,7 @@ impl Answer<PointVerdict> {
             };
             let certificate = object([
                 ("schema", SCHEMA.into()),
-                ("model", about(problem)?),
+                ("model", statement::about_at_rates(problem)?),
                 ("statement", statement::verdict(problem, verdict)),
                 ("characteristic", polynomials(&characteristic)),
             ]);

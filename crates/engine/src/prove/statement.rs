@@ -5,6 +5,7 @@ use super::digest::{loop_alone, sha256};
 use super::no_certificate;
 use crate::answer::PointVerdict;
 use crate::error::Error;
+use crate::model::{Block, Diagram, Dynamics, Form, Node};
 use crate::problem::{Bound, Problem, Region};
 use jurist_algebra::number::Rational;
 use serde_json::Value;
@@ -29,14 +30,85 @@ pub(super) fn region(region: &Region) -> Value {
     object([(region.bound_name(), value)])
 }
 
+/// The most unknowns of a hyperperiod that the checkers take: signals and states at each sample.
+const MOST_UNKNOWNS: u64 = 400;
+
+/// Refuses loops of several rates that the checkers do not read, before anything is computed for a certificate: they lift loops whose
+/// rates are numbers of samples, as far as all is rational.
+///
+/// # Errors
+/// `E-no-certificate`.
+pub(super) fn of_rates(problem: &Problem) -> Result<(), Error> {
+    let model = problem.model();
+    if model.has_steady_duty() {
+        return Err(no_certificate("no certificate: the checkers do not solve for the duty ratio of an orbit"));
+    }
+    let (steps, Form::Blocks(diagram)) = (model.hyperperiod(), model.form()) else { return Ok(()) };
+    if steps == 1 {
+        return Ok(());
+    }
+    let is_held = |block: &Block| {
+        block.discretization.as_ref().is_some_and(|d| d.method.is_hold()) && !are_integrators(&block.dynamics)
+    };
+    let why = if diagram.blocks.iter().any(is_held) {
+        "a plant is behind a hold beside several rates"
+    } else if diagram.blocks.iter().any(|block| block.sample_time.is_some()) {
+        "a block says its rate by a sample time, and the checkers read 'every'"
+    } else if steps.saturating_mul(unknowns(diagram)) > MOST_UNKNOWNS {
+        "a hyperperiod has more equations than the checkers take"
+    } else {
+        return Ok(());
+    };
+    Err(no_certificate(format!("no certificate: {why}")))
+}
+
+/// Whether a block in state space has no modes but integrators, for certain: its state matrix is written as numbers, all of one side being 0.
+fn are_integrators(dynamics: &Dynamics) -> bool {
+    let Dynamics::StateSpace { a, .. } = dynamics else { return false };
+    let is_zero = |i: usize, j: usize| matches!(&a.rows[i][j].node, Node::Number(x) if x.is_zero());
+    let n = a.rows.len();
+    let below = (0..n).all(|i| (0..=i).all(|j| is_zero(i, j)));
+    below || (0..n).all(|i| (i..n).all(|j| is_zero(i, j)))
+}
+
+/// A bound of the signals and the states of a diagram, without those of transfer functions.
+fn unknowns(diagram: &Diagram) -> u64 {
+    let of = |block: &Block| {
+        let states = match &block.dynamics {
+            Dynamics::StateSpace { a, .. } => a.size().0,
+            _ => 0,
+        };
+        (block.outputs.len() + states) as u64
+    };
+    diagram.blocks.iter().map(of).sum()
+}
+
+/// Refuses loops of several rates, for statements beside those of stability.
+///
+/// # Errors
+/// `E-no-certificate`.
+pub(super) fn of_one_rate(problem: &Problem) -> Result<(), Error> {
+    match problem.model().hyperperiod() {
+        1 => of_rates(problem),
+        _ => Err(no_certificate("no certificate: of a loop of several rates stability alone is certified")),
+    }
+}
+
 /// Title and digest of the model, for people: the check reads the model itself.
 ///
 /// # Errors
-/// `E-no-certificate` where the checkers do not read such a model.
+/// As [`of_one_rate`].
 pub(super) fn about(problem: &Problem) -> Result<Value, Error> {
-    if problem.model().hyperperiod() > 1 {
-        return Err(no_certificate("no certificate: the checkers read no loops of several rates"));
-    }
+    of_one_rate(problem)?;
+    about_at_rates(problem)
+}
+
+/// The same for statements that are made of loops of several rates, too.
+///
+/// # Errors
+/// As [`of_rates`].
+pub(super) fn about_at_rates(problem: &Problem) -> Result<Value, Error> {
+    of_rates(problem)?;
     let digest = sha256(&loop_alone(&problem.model().source().text));
     let title = problem.title().map_or(Value::Null, Value::from);
     Ok(object([("title", title), ("digest", format!("sha256:{digest}").into())]))

@@ -283,7 +283,7 @@ fn samples(
     let ratio = delay.checked_div(time);
     let near = ratio.as_ref().and_then(|ratio| match ratio.as_constant() {
         Some(ratio) => Some(ratio),
-        None => symbols.near_value(ratio),
+        None => symbols.near_value(ratio).or_else(|| symbols.whole_part(ratio)),
     });
     let (Some(ratio), Some(near)) = (ratio, near) else {
         if hold.inputs == Inputs::Pulses {
@@ -296,7 +296,7 @@ fn samples(
         let error = error.at(hold.span, "the dead time varies against the sample time");
         return Err(NotConnected::Refused(Box::new(error)));
     };
-    if ratio.as_constant().is_none() {
+    if symbols.moves(&ratio) {
         symbols.note_samples(&ratio);
     }
     let whole = near.floor();

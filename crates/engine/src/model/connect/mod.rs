@@ -3,5 +3,6 @@
 mod exponential;
 mod factor;
 mod hold;
+pub(in crate::model) mod orbit;
 mod rates;
 pub(in crate::model) mod state_space;

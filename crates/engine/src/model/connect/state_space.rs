@@ -328,6 +328,21 @@ fn block_diagonal(parts: &[&RationalMatrix]) -> RationalMatrix {
     out
 }
 
+/// A block before it is made discrete.
+pub(super) fn as_written(
+    block: &BlockValues,
+    set: &Substitution<'_>,
+    poles: &mut Vec<MultiPoly>,
+) -> Result<System, NotConnected> {
+    match &block.dynamics {
+        DynamicValues::Ratio(ratio) => realise(&ratio.numerator, &ratio.denominator, block, set, poles),
+        DynamicValues::StateSpace { a, b, c, d } => {
+            let set = |m| substituted_matrix(m, set);
+            Ok(System { a: set(a)?, b: set(b)?, c: set(c)?, d: set(d)? })
+        }
+    }
+}
+
 /// The blocks of a diagram, each as a system of its own: one for all samples, or one for the even and one for the odd ones.
 pub(in crate::model) fn realised(
     blocks: &[BlockValues],
@@ -339,16 +354,10 @@ pub(in crate::model) fn realised(
     let mut systems = Vec::with_capacity(blocks.len());
     for block in blocks {
         budget.check()?;
-        let mut system = match &block.dynamics {
-            DynamicValues::Ratio(ratio) => {
-                *leading = &*leading * &substituted(&ratio.denominator.leading(), set)?;
-                realise(&ratio.numerator, &ratio.denominator, block, set, poles)?
-            }
-            DynamicValues::StateSpace { a, b, c, d } => {
-                let set = |m| substituted_matrix(m, set);
-                System { a: set(a)?, b: set(b)?, c: set(c)?, d: set(d)? }
-            }
-        };
+        if let DynamicValues::Ratio(ratio) = &block.dynamics {
+            *leading = &*leading * &substituted(&ratio.denominator.leading(), set)?;
+        }
+        let mut system = as_written(block, set, poles)?;
         let mut of_samples: Vec<System> = Vec::new();
         match &block.discretization {
             None => {}
@@ -411,7 +420,7 @@ fn connect(
 }
 
 /// The systems of all blocks at one sample as one, and the determinant that is divided by for it.
-fn closed(
+pub(super) fn closed(
     wiring: &Wiring<'_>,
     blocks: &[BlockValues],
     systems: &[System],

@@ -39,6 +39,8 @@ pub struct Edges {
     pub words: &'static str,
     /// When the pulse is on, in a period of 1.
     pub on: &'static str,
+    /// Where the pulse is on: twice the beginning and twice the end of each part, `begin + slope D`.
+    parts: &'static [[(i64, i64); 2]],
     /// Twice the place of each edge that a command at an even sample moves: `2 t_e/T = begin + slope D`. All move by equal shares.
     places: &'static [(i64, i64)],
     /// The same of commands at odd samples.
@@ -47,19 +49,21 @@ pub struct Edges {
 
 /// All of them, in the order of the documentation.
 pub(crate) const EDGES: &[Edges] = &[
-    Edges::steady("trailing", "trailing edge", "`[0, D]`", &[(0, 2)]),
-    Edges::steady("leading", "leading edge", "`[1 - D, 1]`", &[(2, -2)]),
-    Edges::steady("double", "both edges", "`[(1 - D)/2, (1 + D)/2]`", &[(1, -1), (1, 1)]),
+    Edges::steady("trailing", "trailing edge", "`[0, D]`", &[[(0, 0), (0, 2)]], &[(0, 2)]),
+    Edges::steady("leading", "leading edge", "`[1 - D, 1]`", &[[(2, -2), (2, 0)]], &[(2, -2)]),
+    Edges::steady("double", "both edges", "`[(1 - D)/2, (1 + D)/2]`", &[[(1, -1), (1, 1)]], &[(1, -1), (1, 1)]),
     Edges::steady(
         "double-ends",
         "both edges, on at the ends of the period",
         "`[0, D/2]` and `[1 - D/2, 1]`",
+        &[[(0, 0), (0, 1)], [(2, -1), (2, 0)]],
         &[(0, 1), (2, -1)],
     ),
     Edges {
         name: "alternating",
         words: "alternating edges",
         on: "`[0, D]` in even samples, `[1 - D, 1]` in odd ones",
+        parts: &[],
         places: &[(0, 2)],
         places_of_odd: &[(2, -2)],
     },
@@ -67,8 +71,20 @@ pub(crate) const EDGES: &[Edges] = &[
 
 impl Edges {
     /// The same in all periods.
-    const fn steady(name: &'static str, words: &'static str, on: &'static str, places: &'static [(i64, i64)]) -> Edges {
-        Edges { name, words, on, places, places_of_odd: places }
+    const fn steady(
+        name: &'static str,
+        words: &'static str,
+        on: &'static str,
+        parts: &'static [[(i64, i64); 2]],
+        places: &'static [(i64, i64)],
+    ) -> Edges {
+        Edges { name, words, on, parts, places, places_of_odd: places }
+    }
+
+    /// Where the pulse is on, in a period that is the same as all others: twice the beginning and twice the end of each part of it, each as
+    /// `[begin, slope]` of `begin + slope D`, in sample times. Empty where edges alternate.
+    pub(in crate::model) fn parts(&self) -> impl Iterator<Item = [[i64; 2]; 2]> {
+        self.parts.iter().map(|ends| ends.map(|(begin, slope)| [begin, slope]))
     }
 
     /// True if samples with odd numbers move other edges than samples with even numbers.

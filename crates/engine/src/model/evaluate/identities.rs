@@ -6,6 +6,7 @@ use super::zpoly::ZPoly;
 use crate::error::Error;
 use crate::model::closed_loop::substituted;
 use crate::model::definition::Model;
+use crate::model::steady::no_duty;
 use crate::model::symbols::Symbols;
 use crate::model::text::Function;
 use jurist_algebra::ball::Ball;
@@ -59,7 +60,8 @@ impl Scope<'_> {
     }
 
     fn has_functions(&self, f: &RationalFunction) -> bool {
-        let is_function = |i: usize| !matches!(self.variables[i], Variable::Named(_) | Variable::Delay(_));
+        let is_function =
+            |i: usize| !matches!(self.variables[i], Variable::Named(_) | Variable::Delay(_) | Variable::Duty);
         f.variables().into_iter().any(is_function)
     }
 
@@ -76,7 +78,8 @@ impl Scope<'_> {
     /// An enclosure of a value without parameters; `None` where one is in it, or more functions than are looked at.
     pub fn enclosure(&self, f: &RationalFunction) -> Option<Ball> {
         let needed = self.needed(f);
-        let is_named = |&i: &usize| matches!(self.variables[i], Variable::Named(_) | Variable::Delay(_));
+        let is_named =
+            |&i: &usize| matches!(self.variables[i], Variable::Named(_) | Variable::Delay(_) | Variable::Duty);
         if needed.len() > MOST || needed.iter().any(is_named) {
             return None;
         }
@@ -119,7 +122,7 @@ impl Scope<'_> {
         for variable in needed.iter().filter_map(own) {
             let of = |x: &RationalFunction| renumbered(x, needed).ok_or_else(undefined);
             variables.push(match variable {
-                Variable::Named(_) | Variable::Pi => variable.clone(),
+                Variable::Named(_) | Variable::Pi | Variable::Duty => variable.clone(),
                 Variable::Call(function, x) => Variable::Call(*function, of(x)?),
                 Variable::TangentOfRule(x) => Variable::TangentOfRule(of(x)?),
                 Variable::Delay(x) => Variable::Delay(of(x)?),
@@ -129,7 +132,7 @@ impl Scope<'_> {
             Variable::Named(name) => Some(name.clone()),
             _ => None,
         });
-        Model::images(&variables, &names.collect::<Vec<String>>(), &[])
+        Model::images(&variables, &names.collect::<Vec<String>>(), &[], &no_duty)
     }
 }
 

@@ -44,6 +44,8 @@ pub(in crate::model) enum Variable {
     TangentOfRule(RationalFunction),
     /// `exp(-x s)` of a dead time `x` in the variables before this one.
     Delay(RationalFunction),
+    /// The duty ratio of the loop at rest.
+    Duty,
 }
 
 /// What a parameter stands for.
@@ -160,6 +162,11 @@ impl<'a> Scope<'a> {
     /// The tangent that a prewarped rule brings.
     pub fn tangent_of_a_rule(&mut self, value: RationalFunction) -> RationalFunction {
         if value.is_zero() { value } else { self.variable(Variable::TangentOfRule(value)) }
+    }
+
+    /// The duty ratio of the loop at rest.
+    pub fn duty(&mut self) -> RationalFunction {
+        self.variable(Variable::Duty)
     }
 
     /// The variable that stands for this, the same each time.

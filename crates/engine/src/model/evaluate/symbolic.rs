@@ -9,7 +9,7 @@ use crate::error::{Code, Diagnostic, Span};
 use crate::model::definition::{
     Block, Discretization, Dynamics, Form, Matrix, Model, Output, Ports, Pulses, Rate, Time,
 };
-use crate::model::discretization::{Inputs, Kind, Rule};
+use crate::model::discretization::{Edges, Inputs, Kind, Rule};
 use crate::model::text::Expression;
 use crate::model::text::names::shorten;
 use jurist_algebra::matrix::RationalMatrix;
@@ -67,6 +67,8 @@ pub(in crate::model) struct BlockValues {
     pub rate: Rate,
     pub dynamics: DynamicValues,
     pub discretization: Option<DiscretizationValues>,
+    /// The height of the pulses that the block commands, where it is a modulator.
+    pub amplitude: Option<RationalFunction>,
 }
 
 /// How a continuous block is made discrete.
@@ -103,6 +105,8 @@ pub(in crate::model) struct Pulse {
     pub edges: [Vec<RationalFunction>; 2],
     /// Whether these are different.
     pub alternates: bool,
+    /// Which edges these are and where that is asked for, where the duty ratio is that of the loop at rest.
+    pub steady: Option<(&'static Edges, Span)>,
 }
 
 pub(in crate::model) enum DynamicValues {
@@ -183,8 +187,10 @@ impl Evaluator<'_, '_> {
                 hold.pulses = self.pulses(pulses, inputs, wiring.driven)?;
             }
         }
+        let mut amplitude = None;
         if let Some(pwm) = &block.pwm {
-            for e in [&pwm.amplitude, &pwm.carrier, &pwm.period] {
+            amplitude = self.scalar(&pwm.amplitude);
+            for e in [&pwm.carrier, &pwm.period] {
                 self.scalar(e);
             }
         }
@@ -196,6 +202,7 @@ impl Evaluator<'_, '_> {
             rate: block.rate,
             dynamics: dynamics?,
             discretization: discretization?,
+            amplitude,
         })
     }
 
@@ -255,15 +262,18 @@ impl Evaluator<'_, '_> {
     /// The pulses of inputs, which are these expressions in signals; with one word for all of them, an input that no signal of the
     /// loop is in is held: nothing controls it.
     fn pulses(&mut self, pulses: &Pulses, inputs: &[Row], driven: usize) -> Option<Vec<Option<Pulse>>> {
-        let duties: Vec<RationalFunction> = pulses.duties.iter().map(|e| self.scalar(e)).collect::<Option<_>>()?;
+        let duties: Vec<RationalFunction> = match pulses.is_steady {
+            true => vec![self.scope.duty()],
+            false => pulses.duties.iter().map(|e| self.scalar(e)).collect::<Option<_>>()?,
+        };
         let one_of = |len: usize, i: usize| if len == 1 { 0 } else { i };
         let of = |(i, row): (usize, &Row)| {
             let edges = pulses.edges[one_of(pulses.edges.len(), i)]?;
             let is_external = |row: &Row| row.iter().all(|(signal, c)| *signal >= driven || c.is_zero());
             let is_external = pulses.edges.len() == 1 && inputs.len() > 1 && is_external(row);
             let duty = &duties[one_of(duties.len(), i)];
-            let alternates = edges.alternate();
-            (!is_external).then(|| Pulse { duty: duty.clone(), edges: edges.places(duty), alternates })
+            let (alternates, steady) = (edges.alternate(), pulses.is_steady.then(|| (edges, pulses.duties[0].span)));
+            (!is_external).then(|| Pulse { duty: duty.clone(), edges: edges.places(duty), alternates, steady })
         };
         Some(inputs.iter().enumerate().map(of).collect())
     }

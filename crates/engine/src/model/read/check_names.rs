@@ -411,7 +411,7 @@ fn check_block<'m>(names: &mut Names<'m, '_>, block: &'m Block, signals: &HashSe
         Dynamics::Static(d) => names.matrix(d, &none),
     }
     if let Some(Discretization { sample_time, factor, prewarp, delay, pulses, .. }) = &block.discretization {
-        let duties = pulses.iter().flat_map(|pulses| &pulses.duties);
+        let duties = pulses.iter().filter(|pulses| !pulses.is_steady).flat_map(|pulses| &pulses.duties);
         let parts = [sample_time, factor, prewarp, delay].into_iter().flatten();
         parts.chain(duties).for_each(|e| names.expression(e, &none, ""));
     }

@@ -310,7 +310,11 @@ pub(super) const DISCRETIZE: [Key; 7] = [
         Shape::OneOrEach(&EDGES),
         "which edges of the pulses of pwm move; one word, or one for each input, 'hold' for one that is held",
     ),
-    key("duty", Shape::Expressions, "the duty ratio of the pulses of pwm, between 0 and 1; one, or one for each input"),
+    key(
+        "duty",
+        Shape::Expressions,
+        "the duty ratio of the pulses of pwm, between 0 and 1; one, or one for each input; 'steady' is that of the loop at rest with the inputs of [simulation]",
+    ),
 ];
 
 /// The table `pwm` of a block.

@@ -9,6 +9,9 @@ use crate::model::text::names::{did_you_mean, list, shorten};
 use crate::model::text::toml_value::{Entry, Kind, Table, Value};
 use crate::model::text::{Expression, Node, Text};
 
+/// The word for the duty ratio of the loop at rest.
+const STEADY: &str = "steady";
+
 /// The pulses that a table with the method `pwm` says.
 pub(super) fn pulses(entry: &Entry, table: &Table, meant: &Meant, reader: &mut Reader) -> Option<Pulses> {
     let edges = match table.entry("edge") {
@@ -38,7 +41,8 @@ pub(super) fn pulses(entry: &Entry, table: &Table, meant: &Meant, reader: &mut R
         Some(duty) => duties(&duty.value, reader),
     };
     let ((edges, span), duties) = (edges?, duties?);
-    Some(Pulses { edges, duties, span })
+    let is_steady = matches!(duties.as_slice(), [one] if one.node == Node::Name(STEADY.to_owned()));
+    Some(Pulses { edges, duties, is_steady, span })
 }
 
 fn one_edge(word: &Value, reader: &mut Reader) -> Option<Option<&'static Edges>> {
@@ -66,14 +70,9 @@ fn one_edge(word: &Value, reader: &mut Reader) -> Option<Option<&'static Edges>>
 
 fn duties(value: &Value, reader: &mut Reader) -> Option<Vec<Expression>> {
     if let Kind::String(text) = &value.kind
-        && text.as_str() == "steady"
+        && text.as_str() == STEADY
     {
-        let error = Diagnostic::error(Code::Duty, "the duty ratio of the orbit is not solved for");
-        reader.report(error.at(text.span(), "not a number").help(
-            "write the duty ratio from the mean over a period: A x + B v = 0 at the operating point gives the mean input v, and duty is v \
-             over the height of the pulse",
-        ));
-        return None;
+        return Some(vec![Expression { span: text.span(), node: Node::Name(STEADY.to_owned()) }]);
     }
     let before = reader.errors();
     let duties = reader.expressions(value, "'duty'");

@@ -2,6 +2,7 @@
 
 use super::{Definition, Symbols};
 use jurist_algebra::poly::{MultiPoly, RationalFunction};
+use jurist_algebra::symbols::DutyRatio;
 
 /// Terms of the series of the exponential of a matrix of norm at most 1/2: the next is below the last bit.
 const TERMS: usize = 20;
@@ -38,6 +39,7 @@ impl Symbols {
                 Definition::Algebraic(x) => x.refined_to_digits(17).enclosure().0.to_f64_approximate(),
                 Definition::Enclosed(x) => x.value.refined_to_digits(17).enclosure().0.to_f64_approximate(),
                 Definition::Root(x) => at(x).sqrt(),
+                Definition::Duty(duty) => duty_approximate(duty, at),
                 Definition::Exponential(x) => at(x).exp(),
                 Definition::Tangent { square, time } => {
                     let (w, t) = (at(square), at(time));
@@ -71,6 +73,29 @@ pub fn value_approximate(f: &RationalFunction, point: &[f64]) -> f64 {
         p.terms().iter().map(term).sum()
     };
     side(f.numerator()) / side(f.denominator())
+}
+
+/// A duty ratio by halving.
+fn duty_approximate(duty: &DutyRatio, at: impl Fn(&RationalFunction) -> f64) -> f64 {
+    let weights: Vec<f64> = duty.weights.iter().map(&at).collect();
+    let polynomial: Vec<f64> = std::iter::once(0.0).chain(duty.polynomial.iter().map(&at)).chain([1.0]).collect();
+    let (mean, time) = (at(&duty.mean), at(&duty.time));
+    let integral = |t: f64| -> f64 {
+        let term = |k: usize| weights[k - 1] * fundamental_approximate(&polynomial, t, k);
+        (1..polynomial.len() - 1).map(term).sum()
+    };
+    let whole = integral(time);
+    let left = |d: f64| -> f64 {
+        let before = |[a, b]: [i64; 2]| whole - integral(time * (1.0 - (a as f64 + b as f64 * d) / 2.0));
+        let parts: f64 = duty.parts.iter().map(|[begin, end]| before(*end) - before(*begin)).sum();
+        mean + parts - d * whole - d
+    };
+    let (mut lo, mut hi) = (0.0, 1.0);
+    for _ in 0..60 {
+        let middle = (lo + hi) / 2.0;
+        if left(middle) > 0.0 { lo = middle } else { hi = middle }
+    }
+    lo
 }
 
 /// Entry `(0, index)` of the exponential of the companion matrix: scaling, series, squaring.

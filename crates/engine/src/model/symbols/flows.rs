@@ -137,6 +137,23 @@ impl Symbols {
         Some(Symbols { table, flows, keeps_flows: true, ..Symbols::default() })
     }
 
+    /// The same for functions in which no symbol that depends on a kept name occurs: such a symbol has another meaning here. `None` where what
+    /// stays whole depends on a kept name.
+    pub(in crate::model) fn of_fixed(&self) -> Option<Symbols> {
+        let mut fixed = self.clone();
+        let whole = fixed.table.iter().filter_map(|symbol| match &symbol.meaning {
+            Meaning::Value(f) => Some(f),
+            _ => None,
+        });
+        if whole.chain(self.flows.iter().flat_map(|m| m.entries())).any(|f| self.moves(f)) {
+            return None;
+        }
+        for symbol in fixed.table.iter_mut().filter(|symbol| symbol.is_moving) {
+            symbol.meaning = Definition::Pi.into();
+        }
+        fixed.without_kept()
+    }
+
     /// Enclosures of all symbols with so many bits after the point; `None` where one has no value, or a divisor may vanish.
     ///
     /// Cost: an exponential of each matrix, and of a small one for each function.

@@ -96,7 +96,7 @@ impl Symbols {
     }
 
     /// A symbol whose arguments have changed their variables.
-    fn intern_again(&mut self, meaning: Meaning) -> Option<RationalFunction> {
+    pub(super) fn intern_again(&mut self, meaning: Meaning) -> Option<RationalFunction> {
         match meaning {
             Meaning::Constant(Definition::Root(x)) => self.root(x),
             Meaning::Constant(Definition::Exponential(x)) => Some(self.exponential(x)),

@@ -1,0 +1,150 @@
+//! `duty = "steady"`: the duty ratio of the periodic orbit.
+
+use super::pwm::{ends, set};
+use crate::helpers::model::{example_text, read};
+use crate::helpers::program::jurist_with_input;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::parse_number;
+use jurist_engine::answer::Verdict;
+use jurist_engine::error::{Code, Error};
+use jurist_engine::stability::{Cause, Range};
+
+fn drive(edge: &str) -> String {
+    let text = example_text("drive-pwm");
+    text.replace("\"trailing\", duty = \"V_0/K_pwm\"", &format!("\"{edge}\", duty = \"steady\""))
+}
+
+fn verdict(text: &str, name: &str, value: &str) -> Result<Verdict, Error> {
+    let answer = read(text).ask().set(name, parse_number(value).unwrap()).verdict(&Budget::unlimited())?;
+    Ok(answer.into_value().verdict)
+}
+
+/// The limits were computed with mpmath at 45 digits, from the roots of the orbit's equation and eigenvalues of the map over a period.
+#[test]
+fn the_drive_at_the_duty_ratio_of_its_orbit() {
+    let text = drive("trailing");
+    for (name, below, above) in [
+        ("K_pwm", "551.741369816005655902495907523", "551.741369816005655902495907525"),
+        ("T", "0.000499220684161587476415875791645", "0.000499220684161587476415875791647"),
+    ] {
+        let found = [below, above].map(|value| verdict(&text, name, value).unwrap());
+        assert_eq!(found, [Verdict::Stable, Verdict::Unstable], "{name}");
+    }
+    // The mean voltage at 80 rad/s is 2484/55 V.
+    for (value, expected) in [("2484/55", "duty 1 of 'motor'"), ("45", "duty 276/275 of 'motor'")] {
+        let model = read(&text);
+        let answer = model.ask().set("K_pwm", parse_number(value).unwrap()).verdict(&Budget::unlimited()).unwrap();
+        assert_eq!(answer.value().verdict, Verdict::Undefined, "{value}");
+        assert!(answer.text().contains(expected), "{}", answer.text());
+    }
+}
+
+/// A leaky integrator, integral control and a reference 1: `pulse` is the integral of `exp(-3 (T - t))` over the pulse, times 3, so that the orbit
+/// has the duty ratio for which the height is written here.
+fn leaky(how: &str, pulse: &str) -> String {
+    format!(
+        "time = 'discrete'\nsample_time = 'T'\n[constants]\nT = '1/2'\nV = '3*(1 - exp(-3*T))/({pulse})'\n[parameters]\nK = 1\n[loop]\n\
+         inputs = ['r']\n[[block]]\ninput = 'r - y'\noutput = 'c'\ntransfer = 'K/(z - 1)'\n[[block]]\ninput = 'c'\noutput = 'u'\ngain = 1\n\
+         pwm = {{ amplitude = 'V', carrier = 1, period = 'T' }}\n[[block]]\ninput = 'u'\noutput = 'y'\ntransfer = '1/(s + 3)'\n\
+         discretize = {{ method = 'pwm', {how} }}\n[simulation]\ninputs = {{ r = 1 }}\n"
+    )
+}
+
+#[test]
+fn orbits_whose_duty_ratio_is_known_by_construction() {
+    // From the end of the period: the pulse is on between these times before it.
+    let between = |from: &str, to: &str| format!("exp(-3*{from}*T) - exp(-3*{to}*T)");
+    for (edge, delay, pulse) in [
+        ("trailing", "0", between("(7/10)", "1")),
+        ("leading", "0", between("0", "(3/10)")),
+        ("double", "0", between("(7/20)", "(13/20)")),
+        ("double-ends", "0", format!("{} + {}", between("(17/20)", "1"), between("0", "(3/20)"))),
+        ("trailing", "T", between("(7/10)", "1")),
+        ("trailing", "T/2", between("(1/5)", "(1/2)")),
+        // It goes on in the next period.
+        ("trailing", "9*T/10", format!("{} + {}", between("0", "(1/10)"), between("(4/5)", "1"))),
+        ("leading", "T/2", between("(1/2)", "(4/5)")),
+    ] {
+        let how = |duty: &str| format!("edge = '{edge}', duty = '{duty}', delay = '{delay}'");
+        let [own, given] = ["steady", "3/10"].map(|duty| ends(&set(&leaky(&how(duty), &pulse), "K"), 40));
+        assert_eq!(own, given, "{edge}, {delay}");
+    }
+}
+
+/// The limits of the contract of the paper's drive as sets: the duty ratio moves with what is asked for.
+#[test]
+fn the_height_of_the_pulses_and_the_period_are_questions() {
+    let model = read(&drive("trailing"));
+    let within = |name: &str, lower: &str, upper: &str| {
+        let domain = Range::between(Some(parse_number(lower).unwrap()), Some(parse_number(upper).unwrap()));
+        let question = model.ask().free(name).domain(name, domain);
+        question.stable_set(&Budget::unlimited()).unwrap_or_else(|e| panic!("{e}")).into_value()
+    };
+    let gain = within("K_pwm", "1", "1000");
+    assert_eq!(ends(&gain, 27), ["45.1636363636363636363636364", "551.741369816005655902495908"]);
+    assert!(gain.intervals()[0].lower.as_ref().unwrap().causes.contains(Cause::Duty));
+    assert_eq!(ends(&within("T", "1/10000", "1/1000"), 27)[1], "0.000499220684161587476415875792");
+}
+
+/// With the height of the pulses as a function of `d` for which the orbit has the duty ratio `d`.
+#[test]
+fn a_duty_ratio_that_moves_is_that_which_is_known_by_construction() {
+    for (edge, pulse) in [
+        ("trailing", "exp(-3*(1 - d)*T) - exp(-3*T)"),
+        ("leading", "1 - exp(-3*d*T)"),
+        ("double", "exp(-3*(1 - d)/2*T) - exp(-3*(1 + d)/2*T)"),
+    ] {
+        let text = |duty: &str| {
+            let text = leaky(&format!("edge = '{edge}', duty = '{duty}'"), pulse);
+            text.replace("K = 1", "K = 3\nd = { nominal = 0.5, min = 0.05, max = 0.95 }")
+        };
+        let [own, given] = ["steady", "d"].map(|duty| set(&text(duty), "d"));
+        assert_eq!(ends(&own, 25), ends(&given, 25), "{edge}");
+    }
+}
+
+#[test]
+fn an_integrator_has_the_mean_as_its_duty_ratio() {
+    // Without integral control: K (r - y) is what is commanded, and at rest nothing, but for a load.
+    let text = |duty: &str| {
+        format!(
+            "time = 'discrete'\nsample_time = 1\n[parameters]\nK = {{ nominal = 0.5, min = 0 }}\n[loop]\ninputs = ['r', 'load']\n[[block]]\n\
+             input = 'K*(r - y)'\noutput = 'u'\ngain = 1\npwm = {{ amplitude = 8, carrier = 1, period = 1 }}\n[[block]]\n\
+             input = ['u', 'load']\noutput = 'y'\nA = [[0]]\nB = [[1, -1]]\n\
+             discretize = {{ method = 'pwm', edge = 'trailing', duty = '{duty}' }}\n[simulation]\ninputs = {{ load = 2 }}\n"
+        )
+    };
+    assert_eq!(ends(&set(&text("steady"), "K"), 20), ends(&set(&text("1/4"), "K"), 20));
+}
+
+#[test]
+fn the_switched_orbit_has_that_duty_ratio() {
+    let text = drive("leading");
+    let run = jurist_with_input(
+        &["simulate", "-", "--switched", "--steady", "--json", "--duration", "0.001"],
+        text.as_bytes(),
+    );
+    let document: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
+    let duty = document["steady_state"]["duty"][0].as_f64().unwrap();
+    assert!((duty - 0.410579).abs() < 1e-5, "{duty}");
+}
+
+#[test]
+fn what_a_steady_duty_ratio_is_not_known_of_is_refused_in_words() {
+    let text = leaky("edge = 'trailing', duty = 'steady'", "1");
+    let with = |from: &str, to: &str| text.replace(from, to);
+    for (text, what) in [
+        (with("pwm = { amplitude = 'V', carrier = 1, period = 'T' }", ""), "how high the pulses are"),
+        (with("'trailing'", "'alternating'"), "two duty ratios"),
+        (with("1/(s + 3)", "(s + 4)/(s + 3)"), "at once"),
+    ] {
+        let Err(Error::Refused(diagnostics)) = read(&text).ask().verdict(&Budget::unlimited()) else {
+            panic!("{what}")
+        };
+        assert_eq!(diagnostics.code(), Code::Duty, "{what}");
+        assert!(diagnostics.to_string().contains(what), "{diagnostics}");
+    }
+    // Nothing is commanded, whatever the gain is: the duty ratio is 0.
+    let idle = verdict(&with("r = 1", "r = 0"), "K", "1");
+    assert!(matches!(&idle, Err(Error::Undefined(why)) if why.contains("duty 0")), "{idle:?}");
+}
