@@ -67,23 +67,25 @@ impl Answer<MapBoxes> {
     ///
     /// ```
     /// use jurist_engine::answer::{BoxRequest, MapMethod, MapOrBoxes};
+    /// use jurist_algebra::limits::Budget;
+    /// use jurist_engine::error::Source;
     /// use jurist_engine::model::Model;
     /// use jurist_engine::response::Requirement;
     /// use jurist_engine::stability::Range;
-    /// use jurist_algebra::limits::Budget;
-    /// // z - 1 + K: at K/(z - 1) the gain margin is 2/K.
-    /// let text = "time = 'discrete'\n[parameters]\nK = 1/2\na = 1\n[loop]\ninputs = ['r']\noutputs = ['y']\n\
-    ///             [blocks.c]\ngain = 'K'\ninput = 'r - y'\noutput = 'u'\n[blocks.p]\ntransfer = 'a/(z - 1)'\ninput = 'u'\noutput = 'y'\n";
-    /// let model: Model = text.parse()?;
+    /// // The loop a K/(z - 1): |1 + L| is least at z = -1, where it is 1 - a K/2.
+    /// let text = "time = 'discrete'\n[parameters]\nK = 0.5\na = 1\n[loop]\ninputs = ['r']\noutputs = ['y']\n\
+    ///     [[block]]\nname = 'c'\ngain = 'K'\ninput = 'r - y'\noutput = 'u'\n\
+    ///     [[block]]\nname = 'p'\ntransfer = 'a/(z - 1)'\ninput = 'u'\noutput = 'y'\n";
+    /// let (model, _) = Model::from_toml(&Source::new("model.toml", text))?;
     /// let range = |hi: i64| Range::between(Some(0.into()), Some(hi.into()));
     /// let request = BoxRequest::new([range(2), range(1)], "1/50".parse()?);
     /// let budget = Budget::unlimited();
     /// let problem = model.ask().free("K").free("a").plane_problem()?;
     /// let MapOrBoxes::Boxes(boxes) = problem.map_by(MapMethod::Boxes, &request, 6, &budget)? else { panic!("asked for") };
-    /// let found = boxes.with_requirements(&[Requirement::modulus_margin("1/2".parse()?)?], None, &budget)?;
-    /// let required = found.value().required.as_ref().unwrap();
-    /// // |1 + L| is least at z = -1, where it is 1 - K a/2: the hyperbola K a = 1 bounds an area of 1 + ln 2.
-    /// assert!(required.areas.met < "16932/10000".parse()? && required.areas.met > "165/100".parse()?);
+    /// let found = boxes.with_requirements(&[Requirement::modulus_margin("1/2".parse()?)?], Some("u"), &budget)?;
+    /// // Below the hyperbola a K = 1 the area is 1 + ln 2.
+    /// let areas = &found.value().required.as_ref().unwrap().areas;
+    /// assert!(areas.met < "1.6932".parse()? && &areas.met + &areas.undecided > "1.6931".parse()?);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn with_requirements(
