@@ -76,25 +76,26 @@ impl OverBoxes {
     }
 }
 
-/// So many intervals are asked of all requirements at once.
-const MOST_BOXES: usize = 96;
+/// A part of the interval is not halved more often.
+const MOST_HALVINGS: u32 = 48;
 
 /// Values between two numbers, and whether all requirements are met by all of them, or not all by any; `None` where that is not seen.
 pub(super) type Segment = (Rational, Rational, Option<bool>);
 
-/// The whole interval as segments, ascending; neighbours differ in what is known.
+/// The whole interval as segments, ascending; neighbours differ in what is known. So many parts of it are looked at.
 pub(super) fn segments(
     boxes: &[OverBoxes],
     lower: &Rational,
     upper: &Rational,
+    most: usize,
     budget: &Budget,
 ) -> Result<Vec<Segment>, Exhausted> {
     budget.step("requirements for intervals of the parameter");
     let mut all: Vec<Segment> = Vec::new();
     let look = |part: &mut BoxPart, tally: Tally| {
-        budget.advance(tally.looks() as u64, MOST_BOXES as u64);
+        budget.advance(tally.looks() as u64, most as u64);
         let [lo, hi] = &part.sides[0];
-        let is_last = tally.looks() >= MOST_BOXES;
+        let is_last = tally.looks() >= most || part.halvings[0] >= MOST_HALVINGS;
         let found = if is_last { None } else { budget.enter(|| certain(boxes, lo, hi))? };
         if found.is_none() && !is_last {
             return Ok(Look::<(), ()>::Cut(0));

@@ -13,7 +13,7 @@ use crate::model::{Cut, Opened};
 use crate::problem::{Problem, moving_symbols};
 use crate::stability::{Bracket, Range, StableInterval, StableSet, UndecidedBracket, told_apart, zeros_of_functions};
 use jurist_algebra::limits::{Budget, Exhausted};
-use jurist_algebra::number::Rational;
+use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RealAlgebraic};
 use jurist_algebra::real::Real;
 use jurist_algebra::symbols::{Definition, Function, MovingSymbols};
@@ -146,12 +146,19 @@ impl<'a> SymbolicFamily<'a> {
         budget: &Budget,
     ) -> Result<(), Error> {
         let [Some(lower), Some(upper)] = [outward(&interval.lower, true), outward(&interval.upper, false)] else {
-            return self.within(interval, requirements, boxes, found, budget);
+            let Some(beyond) = self.beyond(interval).filter(|_| self.is_long() && !boxes.is_empty()) else {
+                return self.within(interval, requirements, boxes, found, budget);
+            };
+            let below = StableInterval::new(interval.lower.clone(), Some(edge(&beyond)));
+            self.in_segments(&below, requirements, boxes, found, budget)?;
+            let above = StableInterval::new(Some(edge(&beyond)), interval.upper.clone());
+            return self.within(&above, requirements, boxes, found, budget);
         };
         if boxes.is_empty() {
             return self.within(interval, requirements, boxes, found, budget);
         }
-        let segments = segments(boxes, &lower, &upper, budget)?;
+        let most = if self.is_long() { MOST_PIECES_ALONE } else { MOST_PIECES };
+        let segments = segments(boxes, &lower, &upper, most, budget)?;
         let (begun, last) = (found.intervals.len(), segments.len() - 1);
         let mut joints: Vec<Rational> = Vec::new();
         for (k, (lo, hi, is_met)) in segments.iter().enumerate() {
@@ -193,7 +200,10 @@ impl<'a> SymbolicFamily<'a> {
         found: &mut RequiredSet,
         budget: &Budget,
     ) -> Result<(), Error> {
-        let (candidates, all) = self.candidates(interval, requirements, boxes, budget)?;
+        let (candidates, all) = match self.is_long() && !boxes.is_empty() {
+            true => (Vec::new(), vec![self.left_open(interval, requirements)]),
+            false => self.candidates(interval, requirements, boxes, budget)?,
+        };
         let mut brackets = Vec::with_capacity(all.len());
         for bracket in all {
             // Where functions vanish that mean nothing, nothing changes.
@@ -206,6 +216,27 @@ impl<'a> SymbolicFamily<'a> {
             }
         }
         parts_beside(interval, brackets, found, |part| self.cells(part, &candidates, requirements, budget))
+    }
+
+    /// Whether resultants of the open loop take too long: what pieces of the interval do not decide stays a bracket.
+    fn is_long(&self) -> bool {
+        let Quotient { denominator, numerator, .. } = &self.quotient;
+        let terms: usize = denominator.coeffs().iter().chain(numerator.coeffs()).map(|c| c.terms().len()).sum();
+        terms > MOST_TERMS
+    }
+
+    /// A large value in an interval without an upper end, up to which pieces are asked.
+    fn beyond(&self, interval: &StableInterval) -> Option<Rational> {
+        let lower = outward(&interval.lower, true).filter(|_| interval.upper.is_none())?;
+        let nominal = self.problem.parameter().nominal.clone().unwrap_or(Rational::ONE).abs();
+        Some(&lower.abs().max(nominal).max(Rational::dyadic(&Integer::ONE, 64)) * &Rational::from(FARTHEST))
+    }
+
+    /// A part of an interval as a bracket that stays undecided.
+    fn left_open(&self, interval: &StableInterval, requirements: &[Requirement]) -> UndecidedBracket {
+        let names: Vec<&str> = requirements.iter().map(Requirement::name).collect();
+        let why = format!("where {} begins or ceases to be met", names.join(" or "));
+        UndecidedBracket::new(outward(&interval.lower, true), outward(&interval.upper, false), why)
     }
 
     /// All values strictly inside of a stable interval at which a requirement may begin or cease to be met, and what may have
@@ -321,6 +352,17 @@ impl<'a> SymbolicFamily<'a> {
         Ok(out)
     }
 }
+
+/// Resultants of open loops with more terms take minutes and much memory: 411 terms in three symbols, the current loop of a motor in its
+/// inductance. Those of 327 terms end in seconds.
+const MOST_TERMS: usize = 360;
+
+/// So many intervals of the parameter are asked of all requirements at once; of long open loops, of which nothing else is asked, more.
+const MOST_PIECES: usize = 96;
+const MOST_PIECES_ALONE: usize = 400;
+
+/// So many times the nominal value is far for an interval without an end.
+const FARTHEST: i64 = 1 << 10;
 
 /// Digits of the interval around a zero in which nothing may change.
 const DIGITS: usize = 24;
