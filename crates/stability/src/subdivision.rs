@@ -113,6 +113,51 @@ impl Halves for BoxPart {
     }
 }
 
+/// A side whose ends have at least this ratio is cut at the middle of its octaves.
+const LEAST_RATIO: i64 = 2;
+
+/// Binary digits of such a cut.
+const CUT_BITS: u64 = 8;
+
+/// A part of a box that is cut at the middle of the octaves of a side.
+///
+/// ```
+/// use jurist_stability::subdivision::{BoxPart, Halves, Octaves};
+/// let side = [1, 16].map(jurist_algebra::number::Rational::from);
+/// let [low, _] = Octaves(BoxPart::whole([side])).halves(0);
+/// assert_eq!(low.0.sides[0][1], 4.into());
+/// ```
+pub struct Octaves(pub BoxPart);
+
+impl Halves for Octaves {
+    fn halves(self, axis: usize) -> [Octaves; 2] {
+        let value = cut(&self.0.sides[axis]);
+        self.0.cut_at(axis, value).map(Octaves)
+    }
+}
+
+/// Where a side is cut: in the middle, of the octaves where it spans several.
+fn cut([low, high]: &[Rational; 2]) -> Rational {
+    let middle = low.midpoint(high);
+    let (near, far) = if low.is_negative() { (high.abs(), low.abs()) } else { (low.clone(), high.clone()) };
+    let is_one_sided = low.sign() == high.sign() && !low.is_zero();
+    if !is_one_sided || far < &near * &Rational::from(LEAST_RATIO) {
+        return middle;
+    }
+    // A root of the product, to some binary digits.
+    let scale = Rational::from(4).pow(size_of(&near)).expect("four is not zero");
+    let product = (&near * &far).checked_div(&scale).expect("a power is not zero");
+    let root = Rational::dyadic(&(&product * &Rational::from(1 << (2 * CUT_BITS))).floor().sqrt_floor(), CUT_BITS);
+    let root = &root * &Rational::from(2).pow(size_of(&near)).expect("two is not zero");
+    let root = if low.is_negative() { -root } else { root };
+    if *low < root && root < *high { root } else { middle }
+}
+
+/// The power of two near a number that is not zero.
+fn size_of(x: &Rational) -> i64 {
+    x.numerator().bit_length() as i64 - x.denominator().bit_length() as i64
+}
+
 /// Looks at cells, the first one first, and at their halves until all are decided: the steps, or why a cell stays open.
 ///
 /// Cost: that of the looks; the budget is asked before each of them.
@@ -172,6 +217,7 @@ pub fn subdivide<C: Halves, D, O>(
 mod tests {
     use super::*;
     use jurist_algebra::limits::Stop;
+    use jurist_algebra::number::parse_number;
 
     fn unit() -> BoxPart {
         BoxPart::whole([[Rational::ZERO, Rational::ONE]])
@@ -221,5 +267,12 @@ mod tests {
         let (levels, tallies) = steps(Order::Breadth);
         assert_eq!((&levels[..3], tallies[2]), (&[halved.clone(), halved.clone(), halved][..], (2, 2)));
         assert_eq!(decided(levels).collect::<Vec<_>>(), ["0", "1/4", "1/2", "3/4"]);
+    }
+
+    #[test]
+    fn sides_of_several_octaves_are_cut_between_these() {
+        let at = |low: &str, high: &str| cut(&[low, high].map(|x| parse_number(x).unwrap())).to_string();
+        assert_eq!([at("1", "16"), at("-16", "-1"), at("1/1024", "1/64")], ["4", "-4", "1/256"]);
+        assert_eq!([at("-1", "3"), at("0", "4"), at("3", "5")], ["1", "2", "4"]);
     }
 }

@@ -604,6 +604,26 @@ impl ClosedLoop {
         Ok(TransferFunction { numerator, denominator })
     }
 
+    /// The part of the loop between an input and an output: without states that the input does not reach and without those that do not reach
+    /// the output. They are no part of the transfer function, and no factor that would have to be cancelled.
+    ///
+    /// Cost: `n^2` entries compared with zero for each path's length.
+    pub(crate) fn between(&self, output: usize, input: usize) -> ClosedLoop {
+        let n = self.a.rows();
+        let reached = closure(n, |r| !self.e[(r, input)].is_zero(), |k, r| !self.a[(r, k)].is_zero());
+        let reaching = closure(n, |k| !self.c[(output, k)].is_zero(), |r, k| !self.a[(r, k)].is_zero());
+        let kept: Vec<usize> = (0..n).filter(|&k| reached[k] && reaching[k]).collect();
+        let m = kept.len();
+        let (inputs, outputs) = (self.e.columns(), self.c.rows());
+        ClosedLoop {
+            a: RationalMatrix::from_fn(m, m, |r, k| self.a[(kept[r], kept[k])].clone()),
+            e: RationalMatrix::from_fn(m, inputs, |r, j| self.e[(kept[r], j)].clone()),
+            c: RationalMatrix::from_fn(outputs, m, |i, k| self.c[(i, kept[k])].clone()),
+            states: kept.iter().map(|&k| self.states[k].clone()).collect(),
+            ..self.clone()
+        }
+    }
+
     /// The numerator over the characteristic polynomial, whose coefficients are known.
     pub(crate) fn numerator_at(
         &self,
@@ -619,4 +639,19 @@ impl ClosedLoop {
         let pairs = other.coefficients.iter().zip(denominator);
         Ok(pairs.map(|(b, a)| &(b - a) + &(direct * a)).collect())
     }
+}
+
+/// All numbers below `n` that steps lead to from those to begin with.
+fn closure(n: usize, is_first: impl Fn(usize) -> bool, leads: impl Fn(usize, usize) -> bool) -> Vec<bool> {
+    let mut known: Vec<bool> = (0..n).map(is_first).collect();
+    let mut waiting: Vec<usize> = (0..n).filter(|&k| known[k]).collect();
+    while let Some(k) = waiting.pop() {
+        for next in (0..n).filter(|&next| leads(k, next)) {
+            if !known[next] {
+                known[next] = true;
+                waiting.push(next);
+            }
+        }
+    }
+    known
 }

@@ -180,7 +180,7 @@ impl<R: Domain> Quotient<R> {
         budget: &Budget,
     ) -> Result<(Quotient<R>, R), Error> {
         let column = system.inputs.len().max(system.e.columns()) - 1;
-        let transfer = system.transfer_function_at(0, column, budget)?;
+        let transfer = system.between(0, column).transfer_function_at(0, column, budget)?;
         let all: Vec<RationalFunction> =
             transfer.denominator.coefficients.iter().cloned().chain(transfer.numerator.iter().map(|f| -f)).collect();
         budget

@@ -5,7 +5,7 @@ use super::along_circle::{Asked, Coefficient};
 use super::family::Quotient;
 use super::requirement::Rule;
 use crate::stability::Shape;
-use crate::stability::subdivision::{BoxPart, Look, Order, Tally, subdivide};
+use crate::stability::subdivision::{BoxPart, Look, Octaves, Order, Tally, subdivide};
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational, Sign};
@@ -92,7 +92,7 @@ pub(super) fn segments(
 ) -> Result<Vec<Segment>, Exhausted> {
     budget.step("requirements for intervals of the parameter");
     let mut all: Vec<Segment> = Vec::new();
-    let look = |part: &mut BoxPart, tally: Tally| {
+    let look = |Octaves(part): &mut Octaves, tally: Tally| {
         budget.advance(tally.looks() as u64, most as u64);
         let [lo, hi] = &part.sides[0];
         let is_last = tally.looks() >= most || part.halvings[0] >= MOST_HALVINGS;
@@ -103,7 +103,7 @@ pub(super) fn segments(
         all.push((lo.clone(), hi.clone(), found));
         Ok(Look::Decided(()))
     };
-    let whole = BoxPart::whole([[lower.clone(), upper.clone()]]);
+    let whole = Octaves(BoxPart::whole([[lower.clone(), upper.clone()]]));
     subdivide([whole], Order::Breadth, budget, look)?.ok();
     all.sort_by(|a, b| a.0.cmp(&b.0));
     let mut out: Vec<Segment> = Vec::new();

@@ -146,19 +146,12 @@ impl<'a> SymbolicFamily<'a> {
         budget: &Budget,
     ) -> Result<(), Error> {
         let [Some(lower), Some(upper)] = [outward(&interval.lower, true), outward(&interval.upper, false)] else {
-            let Some(beyond) = self.beyond(interval).filter(|_| self.is_long() && !boxes.is_empty()) else {
-                return self.within(interval, requirements, boxes, found, budget);
-            };
-            let below = StableInterval::new(interval.lower.clone(), Some(edge(&beyond)));
-            self.in_segments(&below, requirements, boxes, found, budget)?;
-            let above = StableInterval::new(Some(edge(&beyond)), interval.upper.clone());
-            return self.within(&above, requirements, boxes, found, budget);
+            return self.within(interval, requirements, boxes, found, budget);
         };
         if boxes.is_empty() {
             return self.within(interval, requirements, boxes, found, budget);
         }
-        let most = if self.is_long() { MOST_PIECES_ALONE } else { MOST_PIECES };
-        let segments = segments(boxes, &lower, &upper, most, budget)?;
+        let segments = segments(boxes, &lower, &upper, MOST_PIECES, budget)?;
         let (begun, last) = (found.intervals.len(), segments.len() - 1);
         let mut joints: Vec<Rational> = Vec::new();
         for (k, (lo, hi, is_met)) in segments.iter().enumerate() {
@@ -200,9 +193,13 @@ impl<'a> SymbolicFamily<'a> {
         found: &mut RequiredSet,
         budget: &Budget,
     ) -> Result<(), Error> {
-        let (candidates, all) = match self.is_long() && !boxes.is_empty() {
-            true => (Vec::new(), vec![self.left_open(interval, requirements)]),
-            false => self.candidates(interval, requirements, boxes, budget)?,
+        let part = budget.clone().within_work(WORK);
+        let (candidates, all) = match self.candidates(interval, requirements, boxes, &part) {
+            Err(Error::Stopped(_)) if budget.check().is_ok() && !boxes.is_empty() => match self.beyond(interval) {
+                None => (Vec::new(), vec![self.left_open(interval, requirements)]),
+                Some(beyond) => return self.up_to(&beyond, interval, requirements, boxes, found, budget),
+            },
+            found => found?,
         };
         let mut brackets = Vec::with_capacity(all.len());
         for bracket in all {
@@ -218,11 +215,21 @@ impl<'a> SymbolicFamily<'a> {
         parts_beside(interval, brackets, found, |part| self.cells(part, &candidates, requirements, budget))
     }
 
-    /// Whether resultants of the open loop take too long: what pieces of the interval do not decide stays a bracket.
-    fn is_long(&self) -> bool {
-        let Quotient { denominator, numerator, .. } = &self.quotient;
-        let terms: usize = denominator.coeffs().iter().chain(numerator.coeffs()).map(|c| c.terms().len()).sum();
-        terms > MOST_TERMS
+    /// An interval without an upper end in pieces up to a value; what is beyond stays open.
+    fn up_to(
+        &self,
+        beyond: &Rational,
+        interval: &StableInterval,
+        requirements: &[Requirement],
+        boxes: &[OverBoxes],
+        found: &mut RequiredSet,
+        budget: &Budget,
+    ) -> Result<(), Error> {
+        let below = StableInterval::new(interval.lower.clone(), Some(edge(beyond)));
+        self.in_segments(&below, requirements, boxes, found, budget)?;
+        let above = StableInterval::new(Some(edge(beyond)), interval.upper.clone());
+        found.undecided.push(self.left_open(&above, requirements));
+        Ok(())
     }
 
     /// A large value in an interval without an upper end, up to which pieces are asked.
@@ -353,13 +360,12 @@ impl<'a> SymbolicFamily<'a> {
     }
 }
 
-/// Resultants of open loops with more terms take minutes and much memory: 411 terms in three symbols, the current loop of a motor in its
-/// inductance. Those of 327 terms end in seconds.
-const MOST_TERMS: usize = 360;
+/// Resultants of long open loops take minutes and much memory: after so much work what pieces of the interval leave open stays a bracket.
+/// Some seconds; the current loop of a motor over its inductance.
+const WORK: u64 = 200_000_000;
 
-/// So many intervals of the parameter are asked of all requirements at once; of long open loops, of which nothing else is asked, more.
-const MOST_PIECES: usize = 96;
-const MOST_PIECES_ALONE: usize = 400;
+/// So many intervals of the parameter are asked of all requirements at once.
+const MOST_PIECES: usize = 240;
 
 /// So many times the nominal value is far for an interval without an end.
 const FARTHEST: i64 = 1 << 10;

@@ -12,7 +12,7 @@ use super::polynomial::Bundle;
 use super::prove::{BoxProof, Closing, Outcome, closed_by_sign, simplest_point};
 use super::reason::OpenReason;
 use super::tensor::{FrequencyScale, Tensor};
-use crate::subdivision::{BoxPart, Halves, Look, Order, Tally, decided, subdivide};
+use crate::subdivision::{BoxPart, Look, Octaves, Order, Tally, decided, subdivide};
 use jurist_algebra::ball::{Elementary, MultiTaylorModel};
 use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
 use jurist_algebra::number::{Integer, Rational, Sign};
@@ -37,12 +37,6 @@ const CELLS_IN_PART: usize = 600;
 
 /// A part is not halved more often along one parameter.
 const MOST_HALVINGS: u32 = 60;
-
-/// A side whose ends have at least this ratio is cut at the middle of its octaves.
-const LEAST_RATIO: i64 = 2;
-
-/// Binary digits of such a cut.
-const CUT_BITS: u64 = 8;
 
 /// After so many parts in which nothing was proved a point of the present one is tested.
 const TESTED_EVERY: usize = 8;
@@ -178,16 +172,6 @@ impl MovingPolynomial {
     }
 }
 
-/// A part of a box that is cut at the middle of the octaves of a side.
-struct Octaves(BoxPart);
-
-impl Halves for Octaves {
-    fn halves(self, axis: usize) -> [Octaves; 2] {
-        let value = cut(&self.0.sides[axis]);
-        self.0.cut_at(axis, value).map(Octaves)
-    }
-}
-
 impl Part {
     /// The number of cells, of at most so many, that prove the part; else the cell in which that is not seen.
     fn proved(
@@ -218,39 +202,9 @@ impl Part {
     }
 }
 
-/// Where a side is cut: in the middle, of the octaves where it spans several.
-fn cut([low, high]: &[Rational; 2]) -> Rational {
-    let middle = low.midpoint(high);
-    let (near, far) = if low.is_negative() { (high.abs(), low.abs()) } else { (low.clone(), high.clone()) };
-    let is_one_sided = low.sign() == high.sign() && !low.is_zero();
-    if !is_one_sided || far < &near * &Rational::from(LEAST_RATIO) {
-        return middle;
-    }
-    // A root of the product, to some binary digits.
-    let scale = Rational::from(4).pow(size_of(&near)).expect("four is not zero");
-    let product = (&near * &far).checked_div(&scale).expect("a power is not zero");
-    let root = Rational::dyadic(&(&product * &Rational::from(1 << (2 * CUT_BITS))).floor().sqrt_floor(), CUT_BITS);
-    let root = &root * &Rational::from(2).pow(size_of(&near)).expect("two is not zero");
-    let root = if low.is_negative() { -root } else { root };
-    if *low < root && root < *high { root } else { middle }
-}
-
-/// The power of two near a number that is not zero.
-fn size_of(x: &Rational) -> i64 {
-    x.numerator().bit_length() as i64 - x.denominator().bit_length() as i64
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use jurist_algebra::number::parse_number;
-
-    #[test]
-    fn sides_of_several_octaves_are_cut_between_these() {
-        let at = |low: &str, high: &str| cut(&[low, high].map(|x| parse_number(x).unwrap())).to_string();
-        assert_eq!([at("1", "16"), at("-16", "-1"), at("1/1024", "1/64")], ["4", "-4", "1/256"]);
-        assert_eq!([at("-1", "3"), at("0", "4"), at("3", "5")], ["1", "2", "4"]);
-    }
 
     #[test]
     fn models_have_the_degree_that_the_number_of_variables_allows() {
