@@ -191,3 +191,15 @@ fn a_zero_that_passes_a_pole_leaves_nothing_undecided() {
         assert_eq!(answer.value().intervals[0].contains(&value), is_met(&model, "b", &value, &requirement), "{value}");
     }
 }
+
+/// At the end of stability, an irrational number between two rational ones, no part of the set is made of these alone.
+#[test]
+fn no_part_of_a_set_lies_beyond_the_end_of_stability() {
+    let model = load(
+        "time = 'discrete'\nsample_time = 'T'\n[parameters]\nT = { nominal = '1/10' }\n[loop]\ninputs = ['r']\noutputs = ['y']\n\
+         [[block]]\nname = 'c'\ninput = 'r - y'\noutput = 'u'\nnum = [3, '0.5*T - 3']\nden = [1, -1]\n\
+         [[block]]\nname = 'p'\ninput = 'u'\noutput = 'y'\ntransfer = '1/(s + 1)'\ndiscretize = 'zoh'\n",
+    );
+    let found = required(&model, "T", ["7", "9"], &Requirement::phase_margin(&number("60")).unwrap());
+    assert!(found.value().intervals.is_empty(), "{:?}", found.value());
+}

@@ -251,3 +251,23 @@ fn regions_over_constants_are_the_sets_on_lines() {
         assert!(seen[0] > 0 && seen[1] > 0, "{}: {seen:?}", requirement.text());
     }
 }
+
+/// `K (s + a)/((s + 1)(s + 2))`: curves of a requirement that bound nothing, lines `K = 0` and `a = 1` among them, divide no region and cut no extent.
+#[test]
+fn lines_on_which_a_requirement_does_not_end_are_no_ends_of_its_region() {
+    let text = "time = 'continuous'\n[parameters]\nK = { nominal = 1 }\na = { nominal = 1 }\n[loop]\ninputs = ['r']\n\
+                outputs = ['y']\n[[block]]\nname = 'L'\ninput = 'r - y'\noutput = 'y'\ntransfer = 'K*(s + a)/((s + 1)*(s + 2))'\n";
+    let model = load(text);
+    for requirement in
+        [Requirement::phase_margin(&number("45")).unwrap(), Requirement::gain_margin(&number("2")).unwrap()]
+    {
+        for names in [["K", "a"], ["a", "K"]] {
+            let answer = required(&model, &names, std::slice::from_ref(&requirement));
+            let regions = &answer.value().required.as_ref().unwrap().all().map.regions;
+            assert_eq!(regions.len(), 1, "{} {names:?}", requirement.text());
+            let a = if names[0] == "a" { &regions[0].x } else { &regions[0].y };
+            assert!(a.lower.is_none() && a.upper.is_none(), "{} {names:?}", requirement.text());
+            assert!(is_met(&model, &[("K", &number("1")), ("a", &number("5"))], None, &Known::Phase(number("0.1716"))));
+        }
+    }
+}

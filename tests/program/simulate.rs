@@ -111,3 +111,14 @@ fn without_inputs_the_first_one_steps() {
     let run = jurist_with_input(&["simulate", "-"], closed.as_bytes());
     assert!(run.stderr.contains("--initial NAME=VALUE"), "{}", run.stderr);
 }
+
+/// A loop of gains alone has no states, and a final value all the same.
+#[test]
+fn a_loop_without_states_is_simulated() {
+    let model = "time = 'discrete'\n[parameters]\nK = 0.5\n[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\ninput = 'r - y'\n\
+                 output = 'u'\ngain = 'K'\n[[block]]\ninput = 'u'\noutput = 'y'\ngain = 1\n";
+    let run = jurist_with_input(&["simulate", "-", "--json"], model.as_bytes());
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let document: Value = serde_json::from_str(&run.stdout).unwrap();
+    assert!((last(signal(&document, "y")) - 1.0 / 3.0).abs() < 1e-12);
+}

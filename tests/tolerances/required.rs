@@ -309,3 +309,19 @@ fn a_requirement_in_one_constant_behind_a_hold_ends_where_its_set_does() {
     };
     assert!(!reaches(&factor.lower) && reaches(factor.upper.as_ref().unwrap()));
 }
+
+/// A box that grows to a sample time of zero ends there; it is not refused.
+#[test]
+fn a_requirement_over_a_sample_time_ends_where_there_is_no_loop() {
+    let model = load(
+        "time = 'discrete'\nsample_time = 'T'\n[parameters]\nT = { nominal = '1/10', tolerance = '15%' }\n[loop]\ninputs = ['r']\n\
+         outputs = ['y']\n[[block]]\nname = 'c'\ninput = 'r - y'\noutput = 'u'\ngain = 3\n\
+         [[block]]\nname = 'p'\ninput = 'u'\noutput = 'y'\ntransfer = '2/(s + 1)'\ndiscretize = 'zoh'\n",
+    );
+    let answer = asked(&model, &request(&model, &["T"], requirement(&model, "phase_margin", "25 deg")));
+    let factor = answer.value().factor.as_ref().unwrap();
+    // T = 0.1 (1 - 0.15 factor) is zero at 20/3.
+    let end = number("20/3");
+    assert!(factor.lower < end && &end - &factor.lower < number("1/100"), "{}", factor.lower);
+    assert!(answer.value().decision.is_stable());
+}

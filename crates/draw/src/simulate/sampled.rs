@@ -199,6 +199,10 @@ impl SampledModel {
     /// The state that repeats itself under constant inputs; `None` where `I - A` is singular.
     pub fn steady_state(&self, inputs: &DVector<f64>) -> Option<DVector<f64>> {
         let n = self.states.len();
+        if n == 0 {
+            // Gains alone: the solver takes no matrix without rows.
+            return Some(DVector::zeros(0));
+        }
         let matrix = DMatrix::identity(n, n) - &self.transition;
         matrix.lu().solve(&(&self.input * inputs)).filter(|x| x.iter().all(|v| v.is_finite()))
     }

@@ -152,11 +152,14 @@ impl<'a> SymbolicFamily<'a> {
             return self.within(interval, requirements, boxes, found, budget);
         }
         let segments = segments(boxes, &lower, &upper, MOST_PIECES, budget)?;
-        let (begun, last) = (found.intervals.len(), segments.len() - 1);
+        let begun = found.intervals.len();
+        // Rational numbers beyond the ends of the interval are not in it.
+        let is_above = |x: &Rational| interval.upper.as_ref().is_some_and(|end| end.value.compare_rational(x).is_le());
+        let is_below = |x: &Rational| interval.lower.as_ref().is_some_and(|end| end.value.compare_rational(x).is_ge());
         let mut joints: Vec<Rational> = Vec::new();
-        for (k, (lo, hi, is_met)) in segments.iter().enumerate() {
-            let lower = if k == 0 { interval.lower.clone() } else { Some(edge(lo)) };
-            let upper = if k == last { interval.upper.clone() } else { Some(edge(hi)) };
+        for (lo, hi, is_met) in segments.iter().filter(|(lo, hi, _)| !is_above(lo) && !is_below(hi)) {
+            let lower = if is_below(lo) { interval.lower.clone() } else { Some(edge(lo)) };
+            let upper = if is_above(hi) { interval.upper.clone() } else { Some(edge(hi)) };
             match is_met {
                 Some(false) => {}
                 Some(true) => {

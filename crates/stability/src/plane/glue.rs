@@ -1,6 +1,6 @@
 //! Which stable cells of neighbouring strips are parts of one region.
 
-use super::curves::Curve;
+use super::curves::{Curve, Y};
 use super::decompose::{Branch, Strip, branches_at};
 use super::ground::Ground;
 use super::integers::Integers;
@@ -66,6 +66,10 @@ fn glued(
     budget: &Budget,
 ) -> Result<(Groups, Vec<Join>), Exhausted> {
     budget.step("connecting cells");
+    // A line on which nothing happens to the roots is no boundary either.
+    let is_wall = |curve: &&Curve| !across || curve.causes.iter().next().is_some() || curve.polynomial.degree_in(Y) > 0;
+    let kept: Vec<Curve> = curves.iter().filter(is_wall).cloned().collect();
+    let curves = kept.as_slice();
     let stable: Vec<(usize, usize)> = strips
         .iter()
         .enumerate()

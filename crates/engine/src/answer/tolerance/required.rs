@@ -7,10 +7,10 @@ use crate::coverage::refusals::{MARGINS_IN_ONE, NOT_OVER_A_BOX};
 use crate::error::Error;
 use crate::problem::Problem;
 use crate::response::{Family, OverBox, RequiredFamily, Requirement, Rule, half_tangent, radius_below};
-use crate::stability::Shape;
 use crate::stability::boxes::{
     BoxDecision, BoxPolynomial, Family as StableFamily, LargestFactor, OpenReason, Side, ToleranceProblem, Witness,
 };
+use crate::stability::{AtPoint, Shape};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly};
@@ -86,6 +86,9 @@ impl Problem {
         (base, truth): (&impl StableFamily, &Truth<'_>),
         budget: &Budget,
     ) -> Result<Option<Witness>, Error> {
+        if self.positive().iter().any(|p| !p.eval(point).sign().is_gt()) {
+            return Ok(Some(Witness::new(point.to_vec(), AtPoint::Undefined)));
+        }
         let names = self.free().iter().map(|free| free.name.clone());
         let question = self.model().ask().set_all(self.set().to_vec()).set_all(names.zip(point.iter().cloned()));
         let one = std::slice::from_ref(requirement);
