@@ -1,0 +1,180 @@
+//! Whether a loop is stable, or meets a requirement, at all points of a box of its free parameters at once.
+
+use super::over_box::{Certain, OverBox};
+use super::requirement::Requirement;
+use crate::answer::Verdict;
+use crate::error::Error;
+use crate::problem::{Bound, Problem, Question, Region};
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::Rational;
+use std::sync::Arc;
+
+/// A requirement, or stability itself, over boxes of any number of free parameters.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::number::Rational;
+/// use jurist_engine::model::Model;
+/// use jurist_engine::response::RequirementBoxes;
+/// // s^3 + a s^2 + b s + c is stable where a, c > 0 and a b > c.
+/// let text = "time = 'continuous'\nparameters = { a = 2, b = 2, c = 1 }\nloop.characteristic = 's^3 + a*s^2 + b*s + c'\n";
+/// let model: Model = text.parse()?;
+/// let problem = model.ask().free("a").free("b").free("c").problem()?;
+/// let budget = Budget::unlimited();
+/// let box_of = |sides: [[i64; 2]; 3]| sides.map(|side| side.map(Rational::from));
+/// let near = [2, 2, 1].map(Rational::from);
+/// let stable = RequirementBoxes::of_stability(&problem, &near, &budget)?.unwrap();
+/// assert_eq!(stable.holds(&box_of([[2, 3], [2, 3], [1, 3]]), &budget)?, Some(true));
+/// assert_eq!(stable.holds(&box_of([[1, 2], [1, 2], [5, 9]]), &budget)?, Some(false));
+/// // Some points of this box are stable, others are not.
+/// assert_eq!(stable.holds(&box_of([[1, 2], [1, 2], [1, 9]]), &budget)?, None);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct RequirementBoxes {
+    problem: Arc<Problem>,
+    over: OverBox,
+    asked: Asked,
+}
+
+/// What is asked.
+enum Asked {
+    Stability,
+    Requirement { one: Requirement, at: Option<String> },
+}
+
+/// So often 1 is halved, or the loop's own frequency: regions that are wider by this are asked where the region of stability itself tells nothing.
+const HALVINGS: [u32; 6] = [0, 2, 4, 6, 8, 10];
+
+impl RequirementBoxes {
+    /// Of a requirement, margins being taken at a cut; `near` is a point that tells how fast the loop is. `None` for a requirement that is not asked of
+    /// boxes.
+    ///
+    /// Cost: the open loop in the free parameters.
+    ///
+    /// # Errors
+    /// As [`OpenLoop::of`](super::OpenLoop::of); [`Error::Refused`] for a loop with dead time.
+    pub fn of(
+        problem: &Arc<Problem>,
+        requirement: &Requirement,
+        at: Option<&str>,
+        near: &[Rational],
+        budget: &Budget,
+    ) -> Result<Option<RequirementBoxes>, Error> {
+        let over = OverBox::of(problem, requirement, at, near, budget)?;
+        let asked = Asked::Requirement { one: requirement.clone(), at: at.map(str::to_owned) };
+        Ok(over.map(|over| RequirementBoxes { problem: Arc::clone(problem), over, asked }))
+    }
+
+    /// Of stability, in the region of the problem. `None` for a loop with dead time.
+    ///
+    /// Cost: that of [`Problem::algebra_over_symbols`].
+    ///
+    /// # Errors
+    /// As [`Problem::algebra_over_symbols`].
+    pub fn of_stability(
+        problem: &Arc<Problem>,
+        near: &[Rational],
+        budget: &Budget,
+    ) -> Result<Option<RequirementBoxes>, Error> {
+        let over = OverBox::of_stability(problem, near, budget)?;
+        Ok(over.map(|over| RequirementBoxes { problem: Arc::clone(problem), over, asked: Asked::Stability }))
+    }
+
+    /// What is known of all points of a closed box without a look at any point; `None` where nothing is.
+    ///
+    /// Cost: Taylor models of the coefficients, and values on some hundred pieces of the circle.
+    pub fn certain(&self, sides: &[[Rational; 2]]) -> Option<Certain> {
+        self.over.certain(sides)
+    }
+
+    /// Whether all stable points of a closed box meet the requirement, or no stable point does; of stability, whether all points are stable, or none is.
+    /// `None` where neither is proved.
+    ///
+    /// Cost: that of [`RequirementBoxes::certain`], and at most one exact decision in the middle of the box; of stability up to seven of them.
+    ///
+    /// # Errors
+    /// When the budget runs out.
+    pub fn holds(&self, sides: &[[Rational; 2]], budget: &Budget) -> Result<Option<bool>, Exhausted> {
+        let middle: Vec<Rational> = sides.iter().map(|[low, high]| low.midpoint(high)).collect();
+        match (budget.enter(|| self.over.certain(sides))?, &self.asked) {
+            (Some(Certain::Met), _) => Ok(Some(true)),
+            (Some(Certain::Unmet), _) => Ok(Some(false)),
+            (Some(Certain::Same), Asked::Stability) => self.is_stable(&middle, self.problem.region().clone(), budget),
+            (Some(Certain::Same), Asked::Requirement { one, at }) => {
+                // A point that is undefined tells nothing of its neighbours.
+                match self.is_stable(&middle, Region::of(self.problem.model().time()), budget)? {
+                    Some(true) => self.is_met(&middle, one, at.as_deref(), budget),
+                    other => Ok(other),
+                }
+            }
+            (None, Asked::Requirement { .. }) => Ok(None),
+            (None, Asked::Stability) => Ok(self.has_root_beyond(sides, &middle, budget)?.then_some(false)),
+        }
+    }
+
+    /// Whether each point of a box has a root outside of a region that is wider than that of stability.
+    fn has_root_beyond(
+        &self,
+        sides: &[[Rational; 2]],
+        middle: &[Rational],
+        budget: &Budget,
+    ) -> Result<bool, Exhausted> {
+        for halvings in HALVINGS {
+            let Some(region) = self.wider(halvings) else { return Ok(false) };
+            if self.is_stable(middle, region, budget)? != Some(false) {
+                continue;
+            }
+            // Halfway between the region and the root.
+            return Ok(budget.enter(|| self.over.certain_beyond(sides, Some(halvings + 1)))? == Some(Certain::Same));
+        }
+        Ok(false)
+    }
+
+    fn wider(&self, halvings: u32) -> Option<Region> {
+        let by = self.over.wider(halvings);
+        match self.problem.region() {
+            Region::HalfPlane(Bound::Number(decay)) => Some(Region::half_plane(decay - &by)),
+            Region::Disc(Bound::Number(radius)) => Region::disc(radius + &(radius * &by)).ok(),
+            Region::HalfPlane(Bound::Free) | Region::Disc(Bound::Free) => None,
+        }
+    }
+
+    /// The question at a point.
+    fn at(&self, point: &[Rational]) -> Question {
+        let names = self.problem.free().iter().map(|free| free.name.clone());
+        let question = self.problem.model().ask().set_all(self.problem.set().to_vec());
+        question.set_all(names.zip(point.iter().cloned()))
+    }
+
+    /// Whether all roots of a point lie in a region; `None` where that is not told.
+    fn is_stable(&self, point: &[Rational], region: Region, budget: &Budget) -> Result<Option<bool>, Exhausted> {
+        let found = self.at(point).within(region).problem().and_then(|problem| problem.verdict(budget));
+        Ok(told(found)?.and_then(|answer| match answer.value().verdict {
+            Verdict::Stable => Some(true),
+            Verdict::Unstable => Some(false),
+            Verdict::Marginal | Verdict::Undefined => None,
+        }))
+    }
+
+    /// Whether a point meets a requirement; `None` where that is not told.
+    fn is_met(
+        &self,
+        point: &[Rational],
+        one: &Requirement,
+        at: Option<&str>,
+        budget: &Budget,
+    ) -> Result<Option<bool>, Exhausted> {
+        let list = std::slice::from_ref(one);
+        let met = self.at(point).problem().and_then(|problem| problem.requirements_met(list, at, budget));
+        Ok(told(met)?.map(|met| met.iter().all(|found| found.met)))
+    }
+}
+
+/// What was found, if it was; an end of the work is passed on.
+fn told<T>(found: Result<T, Error>) -> Result<Option<T>, Exhausted> {
+    match found {
+        Ok(found) => Ok(Some(found)),
+        Err(Error::Stopped(stopped)) if !stopped.stop.is_precision() => Err(stopped),
+        Err(_) => Ok(None),
+    }
+}
