@@ -125,7 +125,7 @@ impl TuneAnswer {
     ///
     /// Cost: of one gain and an objective that is a gain, one set of requirements; of a level, one for each halving of the critical values, or of the
     /// bracket. Of two gains and an objective that is a gain, one map; of a level, one for each halving of the bracket. Of more, boxes: from some hundred
-    /// to some ten thousand, each as [`RequirementBoxes::holds`](jurist_engine::response::RequirementBoxes::holds).
+    /// to some ten thousand, each as [`RequirementBoxes::look`](jurist_engine::response::RequirementBoxes::look).
     ///
     /// # Errors
     /// `E-tune-bounds` where boxes are searched and a gain has no bounds; as [`Problem::required_set`], and [`Answer::with_requirements`](jurist_engine::answer::Answer::with_requirements) for two gains.

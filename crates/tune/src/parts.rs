@@ -5,7 +5,7 @@ use jurist_algebra::limits::{Exhausted, checkpoint};
 use jurist_algebra::number::Rational;
 use jurist_engine::error::{Code, Diagnostic, Error};
 use jurist_engine::problem::Problem;
-use jurist_engine::response::{LevelAsked, Requirement, RequirementBoxes};
+use jurist_engine::response::{LevelAsked, OverPoints, Requirement, RequirementBoxes};
 use std::collections::VecDeque;
 use std::sync::Arc;
 
@@ -56,7 +56,10 @@ enum Seen {
     Refuted,
     /// Only by what is asked beside the requirements.
     Beside,
-    Open,
+    /// Whether its middle may meet all.
+    Open {
+        is_middle: bool,
+    },
 }
 
 /// Stability and the requirements of a question over boxes of its gains.
@@ -163,9 +166,10 @@ impl<'l, 'a> Parts<'l, 'a> {
                     self.cells += 1;
                     beside.push(part);
                 }
-                Seen::Open => {
+                Seen::Open { is_middle } => {
                     let middle = part.middle();
-                    match self.is_met(&middle, scale) {
+                    let is_met = if is_middle { self.is_met(&middle, scale) } else { Ok(false) };
+                    match is_met {
                         Ok(true) => return Ok(Sweep::Found(middle, rest(beside, part, queue))),
                         Ok(false) => {}
                         Err(Error::Stopped(stopped)) => {
@@ -190,19 +194,26 @@ impl<'l, 'a> Parts<'l, 'a> {
     /// What is met everywhere leaves the list of the part.
     fn look(&self, part: &mut Part, level: Option<&RequirementBoxes>) -> Result<Seen, Exhausted> {
         self.lines.budget.check()?;
-        let mut open = Vec::new();
+        let (mut open, mut is_middle) = (Vec::new(), true);
         for &k in &part.open {
-            match self.tests[k].holds(&part.sides, self.lines.budget)? {
-                Some(true) => {}
-                Some(false) => return Ok(Seen::Refuted),
-                None => open.push(k),
+            match self.tests[k].look(&part.sides, self.lines.budget)? {
+                OverPoints::All => {}
+                OverPoints::None => return Ok(Seen::Refuted),
+                OverPoints::Open { middle } => {
+                    is_middle &= middle != Some(false);
+                    open.push(k);
+                }
             }
         }
         part.open = open;
-        Ok(match level {
-            Some(level) if level.holds(&part.sides, self.lines.budget)? == Some(false) => Seen::Beside,
-            _ => Seen::Open,
-        })
+        if let Some(level) = level {
+            match level.look(&part.sides, self.lines.budget)? {
+                OverPoints::None => return Ok(Seen::Beside),
+                OverPoints::All => {}
+                OverPoints::Open { middle } => is_middle &= middle != Some(false),
+            }
+        }
+        Ok(Seen::Open { is_middle })
     }
 
     /// Both halves of a part along the side that is the widest one as a share of the bounds.

@@ -65,6 +65,6 @@ pub use required_map::{RequiredMap, RequiredRegions};
 pub use required_set::{RequiredEnd, RequiredInterval, RequiredSet, RequirementMet};
 pub(crate) use requirement::{Found, LIST, Rule, radius_below};
 pub use requirement::{Requirement, RequirementKind, RequirementOption};
-pub use requirement_boxes::RequirementBoxes;
+pub use requirement_boxes::{OverPoints, RequirementBoxes};
 pub use turning::Turning;
 pub use value::Value;

@@ -5,8 +5,11 @@ use super::requirement::Requirement;
 use crate::answer::Verdict;
 use crate::error::Error;
 use crate::problem::{Bound, Problem, Question, Region};
+use crate::stability::boxes::BoxPolynomial;
+use crate::stability::{AtPoint, RootCount, Shape, count_roots};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
+use jurist_algebra::poly::{Poly, UniPoly};
 use std::sync::Arc;
 
 /// A requirement, or stability itself, over boxes of any number of free parameters.
@@ -15,7 +18,7 @@ use std::sync::Arc;
 /// use jurist_algebra::limits::Budget;
 /// use jurist_algebra::number::Rational;
 /// use jurist_engine::model::Model;
-/// use jurist_engine::response::RequirementBoxes;
+/// use jurist_engine::response::{OverPoints, RequirementBoxes};
 /// // s^3 + a s^2 + b s + c is stable where a, c > 0 and a b > c.
 /// let text = "time = 'continuous'\nparameters = { a = 2, b = 2, c = 1 }\nloop.characteristic = 's^3 + a*s^2 + b*s + c'\n";
 /// let model: Model = text.parse()?;
@@ -24,10 +27,10 @@ use std::sync::Arc;
 /// let box_of = |sides: [[i64; 2]; 3]| sides.map(|side| side.map(Rational::from));
 /// let near = [2, 2, 1].map(Rational::from);
 /// let stable = RequirementBoxes::of_stability(&problem, &near, &budget)?.unwrap();
-/// assert_eq!(stable.holds(&box_of([[2, 3], [2, 3], [1, 3]]), &budget)?, Some(true));
-/// assert_eq!(stable.holds(&box_of([[1, 2], [1, 2], [5, 9]]), &budget)?, Some(false));
+/// assert_eq!(stable.look(&box_of([[2, 3], [2, 3], [1, 3]]), &budget)?, OverPoints::All);
+/// assert_eq!(stable.look(&box_of([[1, 2], [1, 2], [5, 9]]), &budget)?, OverPoints::None);
 /// // Some points of this box are stable, others are not.
-/// assert_eq!(stable.holds(&box_of([[1, 2], [1, 2], [1, 9]]), &budget)?, None);
+/// assert_eq!(stable.look(&box_of([[1, 2], [1, 2], [1, 9]]), &budget)?, OverPoints::Open { middle: Some(false) });
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct RequirementBoxes {
@@ -36,10 +39,33 @@ pub struct RequirementBoxes {
     asked: Asked,
 }
 
+/// What a look at a box says of its points.
+///
+/// ```
+/// use jurist_engine::response::OverPoints;
+/// assert_ne!(OverPoints::All, OverPoints::Open { middle: Some(true) });
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OverPoints {
+    /// All stable points meet the requirement; of stability, all points are stable.
+    All,
+    /// No point does.
+    None,
+    /// Neither is proved.
+    Open {
+        /// Of stability, whether the middle of the box is stable, where that is known.
+        middle: Option<bool>,
+    },
+}
+
 /// What is asked.
 enum Asked {
-    Stability,
-    Requirement { one: Requirement, at: Option<String> },
+    /// With the polynomial of a loop that is rational.
+    Stability(Option<BoxPolynomial>),
+    Requirement {
+        one: Requirement,
+        at: Option<String>,
+    },
 }
 
 /// So often 1 is halved, or the loop's own frequency: regions that are wider by this are asked where the region of stability itself tells nothing.
@@ -76,8 +102,12 @@ impl RequirementBoxes {
         near: &[Rational],
         budget: &Budget,
     ) -> Result<Option<RequirementBoxes>, Error> {
-        let over = OverBox::of_stability(problem, near, budget)?;
-        Ok(over.map(|over| RequirementBoxes { problem: Arc::clone(problem), over, asked: Asked::Stability }))
+        let Some(over) = OverBox::of_stability(problem, near, budget)? else { return Ok(None) };
+        let algebra = problem.algebra_over_symbols(budget)?;
+        let rational = algebra.polynomial().filter(|_| algebra.symbols().is_empty());
+        let polynomial = rational.map(|d| budget.enter(|| BoxPolynomial::over(d, near.len(), problem.shape())));
+        let asked = Asked::Stability(polynomial.transpose()?);
+        Ok(Some(RequirementBoxes { problem: Arc::clone(problem), over, asked }))
     }
 
     /// What is known of all points of a closed box without a look at any point; `None` where nothing is.
@@ -88,46 +118,56 @@ impl RequirementBoxes {
     }
 
     /// Whether all stable points of a closed box meet the requirement, or no stable point does; of stability, whether all points are stable, or none is.
-    /// `None` where neither is proved.
     ///
-    /// Cost: that of [`RequirementBoxes::certain`], and at most one exact decision in the middle of the box; of stability up to seven of them.
+    /// Cost: that of [`RequirementBoxes::certain`], and at most one exact decision in the middle of the box; of stability up to four of them.
     ///
     /// # Errors
     /// When the budget runs out.
-    pub fn holds(&self, sides: &[[Rational; 2]], budget: &Budget) -> Result<Option<bool>, Exhausted> {
-        let middle: Vec<Rational> = sides.iter().map(|[low, high]| low.midpoint(high)).collect();
-        match (budget.enter(|| self.over.certain(sides))?, &self.asked) {
-            (Some(Certain::Met), _) => Ok(Some(true)),
-            (Some(Certain::Unmet), _) => Ok(Some(false)),
-            (Some(Certain::Same), Asked::Stability) => self.is_stable(&middle, self.problem.region().clone(), budget),
+    pub fn look(&self, sides: &[[Rational; 2]], budget: &Budget) -> Result<OverPoints, Exhausted> {
+        let middle = || -> Vec<Rational> { sides.iter().map(|[low, high]| low.midpoint(high)).collect() };
+        let all_or_none = |is_met: Option<bool>| match is_met {
+            Some(true) => OverPoints::All,
+            Some(false) => OverPoints::None,
+            None => OverPoints::Open { middle: None },
+        };
+        Ok(match (budget.enter(|| self.over.certain(sides))?, &self.asked) {
+            (Some(Certain::Met), _) => OverPoints::All,
+            (Some(Certain::Unmet), _) => OverPoints::None,
+            (Some(Certain::Same), Asked::Stability(_)) => all_or_none(self.is_stable(&middle(), None, budget)?),
             (Some(Certain::Same), Asked::Requirement { one, at }) => {
                 // A point that is undefined tells nothing of its neighbours.
-                match self.is_stable(&middle, Region::of(self.problem.model().time()), budget)? {
-                    Some(true) => self.is_met(&middle, one, at.as_deref(), budget),
-                    other => Ok(other),
+                match self.is_stable(&middle(), None, budget)? {
+                    Some(true) => all_or_none(self.is_met(&middle(), one, at.as_deref(), budget)?),
+                    other => all_or_none(other),
                 }
             }
-            (None, Asked::Requirement { .. }) => Ok(None),
-            (None, Asked::Stability) => Ok(self.has_root_beyond(sides, &middle, budget)?.then_some(false)),
-        }
+            (None, Asked::Requirement { .. }) => OverPoints::Open { middle: None },
+            (None, Asked::Stability(_)) => match self.is_stable(&middle(), None, budget)? {
+                Some(false) if self.has_root_beyond(sides, &middle(), budget)? => OverPoints::None,
+                middle => OverPoints::Open { middle },
+            },
+        })
     }
 
-    /// Whether each point of a box has a root outside of a region that is wider than that of stability.
+    /// Whether each point of a box, the middle of which is not stable, has a root outside of a region that is wider than that of stability.
     fn has_root_beyond(
         &self,
         sides: &[[Rational; 2]],
         middle: &[Rational],
         budget: &Budget,
     ) -> Result<bool, Exhausted> {
-        for halvings in HALVINGS {
-            let Some(region) = self.wider(halvings) else { return Ok(false) };
-            if self.is_stable(middle, region, budget)? != Some(false) {
-                continue;
+        // The widest region that does not hold all roots of the middle.
+        let (mut first, mut last) = (0, HALVINGS.len());
+        while first < last {
+            let k = (first + last) / 2;
+            match self.is_stable(middle, Some(HALVINGS[k]), budget)? {
+                Some(false) => last = k,
+                _ => first = k + 1,
             }
-            // Halfway between the region and the root.
-            return Ok(budget.enter(|| self.over.certain_beyond(sides, Some(halvings + 1)))? == Some(Certain::Same));
         }
-        Ok(false)
+        let Some(halvings) = HALVINGS.get(last) else { return Ok(false) };
+        // Halfway between the region and the root.
+        Ok(budget.enter(|| self.over.certain_beyond(sides, Some(halvings + 1)))? == Some(Certain::Same))
     }
 
     fn wider(&self, halvings: u32) -> Option<Region> {
@@ -146,14 +186,37 @@ impl RequirementBoxes {
         question.set_all(names.zip(point.iter().cloned()))
     }
 
-    /// Whether all roots of a point lie in a region; `None` where that is not told.
-    fn is_stable(&self, point: &[Rational], region: Region, budget: &Budget) -> Result<Option<bool>, Exhausted> {
+    /// Whether all roots of a point lie in the region of stability, or in one that is wider; `None` where that is not told.
+    fn is_stable(&self, point: &[Rational], wider: Option<u32>, budget: &Budget) -> Result<Option<bool>, Exhausted> {
+        if let Asked::Stability(Some(polynomial)) = &self.asked {
+            return budget.enter(|| self.is_stable_there(polynomial, point, wider));
+        }
+        let region = match (&self.asked, wider) {
+            (Asked::Requirement { .. }, _) => Some(Region::of(self.problem.time())),
+            (Asked::Stability(_), None) => Some(self.problem.region().clone()),
+            (Asked::Stability(_), Some(halvings)) => self.wider(halvings),
+        };
+        let Some(region) = region else { return Ok(None) };
         let found = self.at(point).within(region).problem().and_then(|problem| problem.verdict(budget));
         Ok(told(found)?.and_then(|answer| match answer.value().verdict {
             Verdict::Stable => Some(true),
             Verdict::Unstable => Some(false),
             Verdict::Marginal | Verdict::Undefined => None,
         }))
+    }
+
+    /// The same of a rational loop; `None` where it is undefined, loses its order or has a root on the boundary.
+    fn is_stable_there(&self, polynomial: &BoxPolynomial, point: &[Rational], wider: Option<u32>) -> Option<bool> {
+        let shape = self.problem.shape();
+        let AtPoint::Defined { count, infinite: 0 } = polynomial.at(point) else { return None };
+        let Some(halvings) = wider else { return told_by(&count) };
+        let by = self.over.wider(halvings);
+        let p = Poly::new(polynomial.coefficients_in_region().iter().map(|c| c.eval(point)).collect());
+        let moved = match shape {
+            Shape::LeftHalfPlane => p.taylor_shift(&by),
+            Shape::UnitDisc => p.compose(&Poly::new(vec![Rational::ZERO, Rational::ONE + by])),
+        };
+        told_by(&count_roots(&UniPoly::from_rational_poly(&moved).1, shape))
     }
 
     /// Whether a point meets a requirement; `None` where that is not told.
@@ -167,6 +230,14 @@ impl RequirementBoxes {
         let list = std::slice::from_ref(one);
         let met = self.at(point).problem().and_then(|problem| problem.requirements_met(list, at, budget));
         Ok(told(met)?.map(|met| met.iter().all(|found| found.met)))
+    }
+}
+
+fn told_by(count: &RootCount) -> Option<bool> {
+    match (count.outside, count.on) {
+        (0, 0) => Some(true),
+        (0, _) => None,
+        _ => Some(false),
     }
 }
 
