@@ -140,7 +140,11 @@ impl TuneAnswer {
             Outcome::Infeasible { cells, .. } => Outcome::Infeasible { conflict: conflict(&lines, cells)?, cells },
             Outcome::Optimum(mut optimum) => {
                 if asked.objective != Objective::Anything {
-                    optimum.typed = typed(&lines, &optimum)?;
+                    optimum.typed = match typed(&lines, &optimum) {
+                        // The bracket so far is an answer without them.
+                        Err(Error::Stopped(_)) if optimum.cells.is_some() => None,
+                        found => found?,
+                    };
                 }
                 Outcome::Optimum(optimum)
             }

@@ -5,7 +5,7 @@ use jurist_algebra::limits::{Exhausted, checkpoint};
 use jurist_algebra::number::Rational;
 use jurist_engine::error::{Code, Diagnostic, Error};
 use jurist_engine::problem::Problem;
-use jurist_engine::response::{LevelAsked, OverPoints, Requirement, RequirementBoxes};
+use jurist_engine::response::{Certain, LevelAsked, OverPoints, Requirement, RequirementBoxes};
 use std::collections::VecDeque;
 use std::sync::Arc;
 
@@ -49,6 +49,26 @@ pub(crate) enum Sweep {
     Refuted(Vec<Part>),
     /// The work ended; the parts that were not refuted.
     Stopped(Exhausted, Vec<Part>),
+}
+
+/// The parts that are left.
+struct Queue {
+    /// Halves of one with a stable middle.
+    near: VecDeque<Part>,
+    far: VecDeque<Part>,
+    turn: usize,
+}
+
+impl Queue {
+    /// Of three parts two are near to stable points, if there are any.
+    fn next(&mut self) -> Option<Part> {
+        self.turn += 1;
+        let [first, second] = match self.turn % 3 {
+            0 => [&mut self.far, &mut self.near],
+            _ => [&mut self.near, &mut self.far],
+        };
+        first.pop_front().or_else(|| second.pop_front())
+    }
 }
 
 /// How a part is seen.
@@ -125,6 +145,12 @@ impl<'l, 'a> Parts<'l, 'a> {
     /// # Errors
     /// When the budget runs out.
     pub fn is_met(&self, point: &[Rational], scale: Option<&Rational>) -> Result<bool, Error> {
+        let sides: Vec<[Rational; 2]> = point.iter().map(|x| [x.clone(), x.clone()]).collect();
+        // Margins at a point take longer than a look at a box that is one point.
+        let is_unmet = |test: &RequirementBoxes| test.certain(&sides) == Some(Certain::Unmet);
+        if self.lines.budget.enter(|| self.tests[1..].iter().any(is_unmet))? {
+            return Ok(false);
+        }
         let named = crate::typed::named(self.lines, point);
         match self.lines.is_met_in_order(&named, scale) {
             Err(Error::Stopped(stopped)) if !stopped.stop.is_precision() => Err(Error::Stopped(stopped)),
@@ -133,7 +159,7 @@ impl<'l, 'a> Parts<'l, 'a> {
         }
     }
 
-    /// Looks at parts, the widest ones first, until each is refuted or a point is found that meets all.
+    /// Looks at parts, the widest ones first, and sooner at those with a stable point in the middle, until each is refuted or a point is found that meets all.
     ///
     /// # Errors
     /// Those of the question that are no end of the work.
@@ -143,19 +169,19 @@ impl<'l, 'a> Parts<'l, 'a> {
         scale: Option<&Rational>,
         level: Option<&RequirementBoxes>,
     ) -> Result<Sweep, Error> {
-        let mut queue: VecDeque<Part> = parts.into();
+        let mut queue = Queue { near: VecDeque::new(), far: parts.into(), turn: 0 };
         let mut beside = Vec::new();
-        let rest = |beside: Vec<Part>, part: Part, queue: VecDeque<Part>| -> Vec<Part> {
-            beside.into_iter().chain([part]).chain(queue).collect()
+        let rest = |beside: Vec<Part>, part: Part, queue: Queue| -> Vec<Part> {
+            beside.into_iter().chain([part]).chain(queue.near).chain(queue.far).collect()
         };
-        while let Some(mut part) = queue.pop_front() {
+        while let Some(mut part) = queue.next() {
             checkpoint(WORK);
             if self.looked >= self.most {
                 let stopped = Exhausted::by_method(format!("{} parts", self.most), "whether any gains are left");
                 return Ok(Sweep::Stopped(stopped, rest(beside, part, queue)));
             }
             self.looked += 1;
-            self.lines.budget.advance(self.cells as u64, (self.cells + queue.len()) as u64);
+            self.lines.budget.advance(self.cells as u64, (self.cells + queue.near.len() + queue.far.len()) as u64);
             let seen = match self.look(&mut part, level) {
                 Ok(seen) => seen,
                 Err(stopped) => return Ok(Sweep::Stopped(stopped, rest(beside, part, queue))),
@@ -178,7 +204,8 @@ impl<'l, 'a> Parts<'l, 'a> {
                         Err(error) => return Err(error),
                     }
                     match self.halves(part) {
-                        Ok(halves) => queue.extend(halves),
+                        Ok(halves) if is_middle => queue.near.extend(halves),
+                        Ok(halves) => queue.far.extend(halves),
                         Err(part) => {
                             let why = "a box of gains that is as small as boxes get";
                             let stopped = Exhausted::by_method(why, "whether any gains are left");
