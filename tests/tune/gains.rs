@@ -84,7 +84,7 @@ fn optimum(answer: &TuneAnswer) -> &Optimum {
 
 /// The bracket, the lower end first.
 fn bracket(answer: &TuneAnswer) -> [Rational; 2] {
-    let Best::Between([a, b]) = &optimum(answer).value else { panic!("{:?}", optimum(answer).value) };
+    let Best::Between([a, b]) = &optimum(answer).value else { panic!("{:?}", optimum(answer)) };
     [a.min(b).clone(), a.max(b).clone()]
 }
 

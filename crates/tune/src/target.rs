@@ -5,6 +5,7 @@ use crate::lines::Lines;
 use crate::one_gain::{is_without_end, scale};
 use crate::parts::{Part, Parts};
 use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::simplest_between;
 use jurist_engine::error::Error;
 use jurist_engine::response::Level;
 
@@ -22,6 +23,9 @@ const DOUBLINGS: usize = 40;
 
 /// Near to zero a share is one of the bounds, halved so often.
 const SMALL: u64 = 20;
+
+/// A step is as long as it is asked for within this power of one half.
+const NEAR: u64 = 5;
 
 impl Target {
     /// Of a question that asks for something.
@@ -75,7 +79,10 @@ impl Target {
             Target::Gain { width, .. } => value.abs().max(width * &Rational::dyadic(&Integer::ONE, SMALL)),
             Target::Level { ends, .. } => (value - if self.is_rising() { &ends[0] } else { &ends[1] }).abs(),
         };
-        self.farther(value, &(size * gap))
+        let by = size * gap;
+        let (goal, near) = (self.farther(value, &by), &by * &Rational::dyadic(&Integer::ONE, NEAR));
+        // Of few digits: it is gone on from there.
+        simplest_between(&(&goal - &near), &(&goal + &near)).unwrap_or(goal)
     }
 
     /// A value of a gain that no point has since it is beyond the bound.

@@ -71,6 +71,9 @@ enum Asked {
 /// So often 1 is halved, or the loop's own frequency: regions that are wider by this are asked where the region of stability itself tells nothing.
 const HALVINGS: [u32; 6] = [0, 2, 4, 6, 8, 10];
 
+/// In so many places between the region of stability and a root it is asked whether the count of roots beyond is the same in a box.
+const OTHERS: u64 = 3;
+
 impl RequirementBoxes {
     /// Of a requirement, margins being taken at a cut; `near` is a point that tells how fast the loop is. `None` for a requirement that is not asked of
     /// boxes.
@@ -166,8 +169,10 @@ impl RequirementBoxes {
             }
         }
         let Some(halvings) = HALVINGS.get(last) else { return Ok(false) };
-        // Halfway between the region and the root.
-        Ok(budget.enter(|| self.over.certain_beyond(sides, Some(halvings + 1)))? == Some(Certain::Same))
+        // Between the region and the root. Another root may lie just there: halves of the box are asked somewhere else.
+        let bits: u64 = sides.iter().map(|[low, high]| (high - low).denominator().bit_length()).sum();
+        let halvings = halvings + 1 + (bits % OTHERS) as u32;
+        Ok(budget.enter(|| self.over.certain_beyond(sides, Some(halvings)))? == Some(Certain::Same))
     }
 
     fn wider(&self, halvings: u32) -> Option<Region> {
