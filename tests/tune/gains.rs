@@ -143,13 +143,6 @@ fn two_gains_by_boxes_and_exactly() {
     let [found, proved] = bracket(&case.answer("max ki", ratio(1, 1000)));
     let exact = number("0.32531741166766740672");
     assert!(found <= exact && exact < proved && proved < &found * &ratio(1002, 1000), "{found} {proved}");
-    // The heavy ball of Polyak (1964).
-    let model = "time = 'discrete'\n[parameters]\na = 0.1\nb = 0.1\n[loop]\n\
-        characteristic = '(z^2 - (1 + b - a)*z + b)*(z^2 - (1 + b - 10*a)*z + b)'\n";
-    let case = Case::new(model, &[("a", "0", "1"), ("b", "0", "1")], Vec::new());
-    let [proved, found] = bracket(&case.answer("min radius", ratio(2, 100)));
-    let exact = number("0.51949385329591570400");
-    assert!(proved < exact && exact <= found && &found - &proved < ratio(2, 100), "{proved} {found}");
 }
 
 #[test]
