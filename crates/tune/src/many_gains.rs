@@ -95,7 +95,7 @@ impl Search<'_, '_> {
             if gap <= least {
                 return Ok(None);
             }
-            gap = gap * share(FINER);
+            gap *= share(FINER);
         }
     }
 

@@ -185,7 +185,7 @@ impl Target {
                 let eighth = Rational::dyadic(&Integer::ONE, 3);
                 return self.raised(parts, point, value, eighth).map(Some);
             }
-            distance = distance * &half;
+            distance *= &half;
         }
         Ok(None)
     }
