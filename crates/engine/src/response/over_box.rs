@@ -200,18 +200,23 @@ impl OverBox {
                 if Elementary::range(d.last()?).contains_zero() {
                     return None;
                 }
-                let square = match self.shape {
-                    Shape::UnitDisc => {
-                        let moved = halvings.map_or(d.clone(), |e| on_wider_disc(&d, u64::from(e)));
-                        twice_real(&moved, &moved)
-                    }
-                    Shape::LeftHalfPlane => {
-                        let scaled = of_octave(&d, self.octave, d.len() - 1);
-                        let moved = halvings.map_or(scaled.clone(), |e| beyond_axis(&scaled, u64::from(e)));
-                        on_ray(&moved, &Rational::ZERO, 0)
-                    }
-                };
+                let square = self.square_beyond(&d, halvings);
                 Asked::positive(&square).certain()?.then_some(Certain::Same)
+            }
+        }
+    }
+
+    /// The square of the modulus along the boundary of the region of stability, or of one that is wider.
+    fn square_beyond(&self, d: &[MultiTaylorModel], halvings: Option<u32>) -> Vec<MultiTaylorModel> {
+        match self.shape {
+            Shape::UnitDisc => {
+                let moved = halvings.map_or(d.to_vec(), |e| on_wider_disc(d, u64::from(e)));
+                twice_real(&moved, &moved)
+            }
+            Shape::LeftHalfPlane => {
+                let scaled = of_octave(d, self.octave, d.len() - 1);
+                let moved = halvings.map_or(scaled.clone(), |e| beyond_axis(&scaled, u64::from(e)));
+                on_ray(&moved, &Rational::ZERO, 0)
             }
         }
     }
