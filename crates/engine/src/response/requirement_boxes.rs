@@ -17,18 +17,19 @@ use std::sync::Arc;
 /// ```
 /// use jurist_algebra::limits::Budget;
 /// use jurist_algebra::number::Rational;
+/// use jurist_engine::error::Source;
 /// use jurist_engine::model::Model;
 /// use jurist_engine::response::{OverPoints, RequirementBoxes};
 /// // s^3 + a s^2 + b s + c is stable where a, c > 0 and a b > c.
 /// let text = "time = 'continuous'\nparameters = { a = 2, b = 2, c = 1 }\nloop.characteristic = 's^3 + a*s^2 + b*s + c'\n";
-/// let model: Model = text.parse()?;
+/// let (model, _) = Model::from_toml(&Source::new("loop.toml", text))?;
 /// let problem = model.ask().free("a").free("b").free("c").problem()?;
 /// let budget = Budget::unlimited();
 /// let box_of = |sides: [[i64; 2]; 3]| sides.map(|side| side.map(Rational::from));
 /// let near = [2, 2, 1].map(Rational::from);
 /// let stable = RequirementBoxes::of_stability(&problem, &near, &budget)?.unwrap();
-/// assert_eq!(stable.look(&box_of([[2, 3], [2, 3], [1, 3]]), &budget)?, OverPoints::All);
-/// assert_eq!(stable.look(&box_of([[1, 2], [1, 2], [5, 9]]), &budget)?, OverPoints::None);
+/// assert_eq!(stable.look(&box_of([[3, 3], [3, 4], [1, 2]]), &budget)?, OverPoints::All);
+/// assert_eq!(stable.look(&box_of([[1, 1], [1, 2], [8, 9]]), &budget)?, OverPoints::None);
 /// // Some points of this box are stable, others are not.
 /// assert_eq!(stable.look(&box_of([[1, 2], [1, 2], [1, 9]]), &budget)?, OverPoints::Open { middle: Some(false) });
 /// # Ok::<(), Box<dyn std::error::Error>>(())
