@@ -142,6 +142,7 @@ mod ship {
 /// The best gains within what is required.
 mod tune {
     mod cases;
+    mod gains;
     mod laws;
 }
 

@@ -233,11 +233,12 @@ fn what_cannot_be_asked_is_refused_with_what_to_do() {
         let said = refused(PI, options);
         assert!(said.contains(code) && said.contains(help), "{options:?}: {said}");
     }
-    let three = PI
-        .replace("ki = {", "kd = 1\nki = {")
-        .replace("k*s + ki", "k*s + ki + kd*s^2")
-        .replace("['k', 'ki']", "['k', 'ki', 'kd']");
-    assert!(refused(&three, &[]).contains("E-tune-free"));
+    let many = ["a", "b", "c", "d", "e", "f"].map(|name| format!("{name} = 1\n")).concat();
+    let many = PI.replace("k = {", &format!("{many}k = {{")).replace("['k', 'ki']", "['a', 'b', 'c', 'd', 'e', 'f']");
+    assert!(
+        refused(&many.replace("{ k = [0, 5], ki = [0, 5] }", "{}").replace("max ki", "none"), &[])
+            .contains("E-tune-free")
+    );
     let nothing = PI.split("[tune]").next().unwrap();
     assert!(refused(nothing, &[]).contains("name the gains: --free K"));
 }

@@ -4,7 +4,7 @@ use crate::asked::{Asked, Objective};
 use crate::conflict::conflict;
 use crate::lines::Lines;
 use crate::typed::{Typed, typed};
-use crate::{one_gain, two_gains};
+use crate::{many_gains, one_gain, two_gains};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use jurist_algebra::real::Real;
@@ -31,6 +31,8 @@ pub enum Outcome {
     Infeasible {
         /// The names.
         conflict: Vec<String>,
+        /// So many boxes of gains prove it; `None` where sets or maps do.
+        cells: Option<usize>,
     },
     /// The best.
     Optimum(Box<Optimum>),
@@ -58,12 +60,24 @@ pub struct Optimum {
     pub typed: Option<Typed>,
     /// Why the bracket is wider than the gap.
     pub stopped: Option<Exhausted>,
+    /// So many boxes of gains prove the bracket; `None` where sets or maps do.
+    pub cells: Option<usize>,
 }
 
 impl Optimum {
     /// A best value with gains that meet what is required; nothing more is known of it.
     pub(crate) fn new(value: Best, at: Vec<Place>, found: Vec<Rational>, found_value: Option<Rational>) -> Optimum {
-        Optimum { value, at, attained: None, binding: Vec::new(), found, found_value, typed: None, stopped: None }
+        Optimum {
+            value,
+            at,
+            attained: None,
+            binding: Vec::new(),
+            found,
+            found_value,
+            typed: None,
+            stopped: None,
+            cells: None,
+        }
     }
 
     /// Gains that meet what is required, where the best ones are not known.
@@ -110,25 +124,27 @@ impl TuneAnswer {
     /// The best gains.
     ///
     /// Cost: of one gain and an objective that is a gain, one set of requirements; of a level, one for each halving of the critical values, or of the
-    /// bracket. Of two gains and an objective that is a gain, one map; of a level, one for each halving of the bracket.
+    /// bracket. Of two gains and an objective that is a gain, one map; of a level, one for each halving of the bracket. Of more, boxes: from some hundred
+    /// to some ten thousand, each as [`RequirementBoxes::look`](jurist_engine::response::RequirementBoxes::look).
     ///
     /// # Errors
-    /// As [`Problem::required_set`], and [`Answer::with_requirements`](jurist_engine::answer::Answer::with_requirements) for two gains.
+    /// `E-tune-bounds` where boxes are searched and a gain has no bounds; as [`Problem::required_set`], and [`Answer::with_requirements`](jurist_engine::answer::Answer::with_requirements) for two gains.
     pub fn of(question: &Question, asked: Asked, budget: &Budget) -> Result<TuneAnswer, Error> {
         let mut asked = asked;
         let own = Lines::new(question, &asked, budget)?.own_region();
         asked.requirements.region = asked.requirements.region.or(own);
         let lines = Lines::new(question, &asked, budget)?;
         let problem = lines.problem()?;
-        let found = match asked.gains.len() {
-            1 => one_gain::best(&lines)?,
-            _ => two_gains::best(&lines)?,
-        };
+        let found = best(&lines)?;
         let outcome = match found {
-            Outcome::Infeasible { .. } => Outcome::Infeasible { conflict: conflict(&lines)? },
+            Outcome::Infeasible { cells, .. } => Outcome::Infeasible { conflict: conflict(&lines, cells)?, cells },
             Outcome::Optimum(mut optimum) => {
                 if asked.objective != Objective::Anything {
-                    optimum.typed = typed(&lines, &optimum)?;
+                    optimum.typed = match typed(&lines, &optimum) {
+                        // The bracket so far is an answer without them.
+                        Err(Error::Stopped(_)) if optimum.cells.is_some() => None,
+                        found => found?,
+                    };
                 }
                 Outcome::Optimum(optimum)
             }
@@ -146,6 +162,15 @@ impl TuneAnswer {
         }
     }
 
+    /// So many boxes of gains prove the answer; `None` where sets or maps do.
+    pub fn cells(&self) -> Option<usize> {
+        match &self.outcome {
+            Outcome::Optimum(optimum) => optimum.cells,
+            Outcome::Infeasible { cells, .. } => *cells,
+            Outcome::Open(_) => None,
+        }
+    }
+
     /// Why something is open.
     pub fn stopped(&self) -> Option<&Exhausted> {
         match &self.outcome {
@@ -153,5 +178,14 @@ impl TuneAnswer {
             Outcome::Open(stopped) => Some(stopped),
             Outcome::Infeasible { .. } => None,
         }
+    }
+}
+
+/// The best of what is asked, by the method that fits.
+fn best(lines: &Lines<'_>) -> Result<Outcome, Error> {
+    match lines.asked.gains.len() {
+        1 => one_gain::best(lines),
+        _ if lines.are_boxes_asked()? => many_gains::best(lines),
+        _ => two_gains::best(lines),
     }
 }

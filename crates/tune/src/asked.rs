@@ -45,7 +45,7 @@ pub enum Objective {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Asked {
-    /// The gains, one or two.
+    /// The gains.
     pub gains: Vec<Gain>,
     /// What is to be best.
     pub objective: Objective,
@@ -55,10 +55,12 @@ pub struct Asked {
     pub gap: Rational,
     /// How much of the best is given up for gains of few digits, as a share.
     pub loss: Option<Rational>,
+    /// Whether boxes are searched where the answer of two gains would be exact.
+    pub by_boxes: bool,
 }
 
 /// The most gains.
-const MOST_GAINS: usize = 2;
+const MOST_GAINS: usize = 5;
 
 /// The gap where none is given.
 pub const GAP: (i64, i64) = (1, 1000);
@@ -84,7 +86,7 @@ impl Asked {
         check_gains(&gains)?;
         let objective = self::objective(model, &gains, objective)?;
         let gap = Rational::new(GAP.0.into(), GAP.1.into());
-        Ok(Asked { gains, objective, requirements, gap, loss: None })
+        Ok(Asked { gains, objective, requirements, gap, loss: None, by_boxes: false })
     }
 
     /// The level that is to be best, if it is one.
@@ -126,8 +128,8 @@ fn check_gains(gains: &[Gain]) -> Result<(), Error> {
     if gains.len() > MOST_GAINS {
         let names: Vec<&str> = gains.iter().map(|gain| gain.name.as_str()).collect();
         return refused(
-            format!("the gains {} are more than two", names.join(", ")),
-            "free two of them, the others keep their values: --set NAME=VALUE",
+            format!("the gains {} are more than {MOST_GAINS}", names.join(", ")),
+            "free some of them, the others keep their values: --set NAME=VALUE",
         );
     }
     for (i, gain) in gains.iter().enumerate() {

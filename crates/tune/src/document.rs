@@ -41,6 +41,8 @@ pub struct Tune {
     pub found: Option<PointFound>,
     /// No gains have this value of the objective, or a better one, rounded away from the best one; `null` where the optimum is exact or without end.
     pub proved: Option<String>,
+    /// So many boxes of gains prove the bracket, or that no gains meet what is required; `null` where sets or maps do.
+    pub cells: Option<u64>,
     /// The gains that are typed in; `null` where there are none.
     pub rounded: Option<Named<Exact>>,
     /// What these lose of the best value, in per cent; `null` where it is not a number.
@@ -119,13 +121,14 @@ impl TuneAnswer {
                 Best::Between([_, proved]) => Some(level_text(level, proved, digits)),
                 _ => None,
             }),
+            cells: self.cells().map(|cells| cells as u64),
             rounded: typed.map(|typed| named(&typed.values)),
             loss_percent: optimum.and_then(|optimum| self.lost(optimum)),
             requirements: typed
                 .map(|typed| typed.requirements.iter().map(|found| RequirementFound::new(found, digits)).collect())
                 .unwrap_or_default(),
             conflict: match &self.outcome {
-                Outcome::Infeasible { conflict } => conflict.clone(),
+                Outcome::Infeasible { conflict, .. } => conflict.clone(),
                 _ => Vec::new(),
             },
             undecided: self.stopped().map(Into::into),

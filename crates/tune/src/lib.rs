@@ -11,22 +11,27 @@
 //! neighbouring critical values of a height, the points of the set above it change by continuity only, so whether there are any does not change.
 //! Critical values are roots of leading coefficients, discriminants and resultants of the boundary's polynomials
 //! ([Collins1975](jurist_algebra::bibliography#collins1975), [McCallum1998](jurist_algebra::bibliography#mccallum1998)). Where the boundary is not
-//! algebraic the optimum is enclosed between a value that some gain has and one that no gain has.
+//! algebraic, and over many gains, the optimum is enclosed between a value that some gains have and one that none have: boxes of gains are cut until no
+//! point of any of them can be better (branch and bound).
 
 #![warn(missing_docs)]
 
 pub mod answer;
 pub mod asked;
+mod climb;
 mod conflict;
 mod critical;
 pub mod decimals;
 pub mod document;
 mod lines;
+mod many_gains;
 mod near;
 mod one_gain;
+mod parts;
 mod search;
 mod seed;
 mod sets;
+mod target;
 mod text;
 mod two_gains;
 mod typed;

@@ -6,6 +6,7 @@ use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::real::Real;
 use jurist_engine::answer::{Answer, PointVerdict, Verdict};
+use jurist_engine::coverage::CoefficientRing;
 use jurist_engine::error::Error;
 use jurist_engine::problem::{Bound, Problem, Question, Region};
 use jurist_engine::response::{Level, LevelAsked, RequiredSet, Requirement, RequirementMet};
@@ -85,8 +86,13 @@ impl<'a> Lines<'a> {
 
     /// All gains free.
     pub fn problem(&self) -> Result<Arc<Problem>, Error> {
+        self.problem_within(self.region.clone())
+    }
+
+    /// The same in another region.
+    pub fn problem_within(&self, region: Region) -> Result<Arc<Problem>, Error> {
         let question = (0..self.asked.gains.len()).fold(self.base.clone(), |question, gain| self.free(question, gain));
-        question.within(self.region.clone()).problem()
+        question.within(region).problem()
     }
 
     /// The values of a gain that meet what is asked, with a value for the other one.
@@ -134,6 +140,30 @@ impl<'a> Lines<'a> {
     pub fn is_met(&self, values: &[(String, Rational)], scale: Option<&Rational>) -> Result<bool, Error> {
         let (verdict, met) = self.point(values, scale)?;
         Ok(verdict.value().verdict == Verdict::Stable && met.iter().all(|found| found.met))
+    }
+
+    /// The same, without a look at requirements where the point is not stable.
+    pub fn is_met_in_order(&self, values: &[(String, Rational)], scale: Option<&Rational>) -> Result<bool, Error> {
+        let (list, region) = self.asks(scale)?;
+        let problem = self.base.clone().set_all(values.iter().cloned()).within(region).problem()?;
+        if problem.verdict(self.budget)?.value().verdict != Verdict::Stable {
+            return Ok(false);
+        }
+        Ok(problem.requirements_met(&list, self.at(), self.budget)?.iter().all(|found| found.met))
+    }
+
+    /// Whether boxes of gains are searched: of three gains or more, and of two behind a hold where the map takes minutes.
+    pub fn are_boxes_asked(&self) -> Result<bool, Error> {
+        if self.asked.gains.len() != 2 || self.asked.by_boxes {
+            return Ok(self.asked.gains.len() > 1);
+        }
+        let is_simple = self.asked.requirements.list.is_empty() && self.asked.level().is_none();
+        let is_bounded = self.ranges.iter().all(|range| range.lower.is_some() && range.upper.is_some());
+        if is_simple || !is_bounded {
+            return Ok(false);
+        }
+        let ring = self.problem()?.coefficient_ring(self.budget)?;
+        Ok(matches!(ring, CoefficientRing::Constants | CoefficientRing::Functions))
     }
 
     /// Where margins are taken.

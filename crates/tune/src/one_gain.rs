@@ -38,7 +38,7 @@ pub(crate) fn nothing(set: &RequiredSet) -> Option<Outcome> {
         return None;
     }
     Some(match set.undecided.first() {
-        None => Outcome::Infeasible { conflict: Vec::new() },
+        None => Outcome::Infeasible { conflict: Vec::new(), cells: None },
         Some(bracket) => {
             Outcome::Open(Exhausted::by_method(bracket.why.clone(), "whether any gain meets what is required"))
         }

@@ -36,7 +36,7 @@ impl TuneAnswer {
             if required.is_empty() { "stability".to_owned() } else { format!("stability, {}", required.join(", ")) };
         writeln!(out, "{} free, required: {whole}", names.join(", ")).expect(TAKES);
         match &self.outcome {
-            Outcome::Infeasible { conflict } => self.conflict_text(&mut out, conflict),
+            Outcome::Infeasible { conflict, cells } => self.conflict_text(&mut out, conflict, *cells),
             Outcome::Optimum(optimum) => self.optimum_text(&mut out, optimum, digits),
             Outcome::Open(_) => writeln!(out, "whether any gains meet this was not decided").expect(TAKES),
         }
@@ -57,11 +57,15 @@ impl TuneAnswer {
         out
     }
 
-    fn conflict_text(&self, out: &mut String, conflict: &[String]) {
-        writeln!(out, "no gains meet all of this").expect(TAKES);
+    fn conflict_text(&self, out: &mut String, conflict: &[String], cells: Option<usize>) {
+        let (within, proof) = match cells {
+            Some(cells) => (" within the bounds", format!(" (proof: {})", counted(cells))),
+            None => ("", String::new()),
+        };
+        writeln!(out, "no gains{within} meet all of this{proof}").expect(TAKES);
         match conflict {
-            [] => writeln!(out, "    not even stability is reached"),
-            [one] => writeln!(out, "    no stable loop has {one}"),
+            [] => writeln!(out, "    not even stability is reached{within}"),
+            [one] => writeln!(out, "    no stable loop{within} has {one}"),
             _ => writeln!(out, "    these exclude each other: {}", conflict.join(", ")),
         }
         .expect(TAKES);
@@ -90,7 +94,8 @@ impl TuneAnswer {
             }
             Best::Between([found, proved]) => {
                 let [low, high] = bracket(level, found, proved);
-                writeln!(out, "{wanted}: between {low} and {high}{}", unit(level))
+                let proof = optimum.cells.map(|cells| format!(" (a bracket, proof: {})", counted(cells)));
+                writeln!(out, "{wanted}: between {low} and {high}{}{}", unit(level), proof.unwrap_or_default())
             }
         }
         .expect(TAKES);
@@ -176,6 +181,11 @@ impl TuneAnswer {
 pub(crate) fn regional(name: &str, text: &str) -> String {
     let sign = if name == "decay" { ">=" } else { "<=" };
     format!("{name} {sign} {text}")
+}
+
+/// `1 cell`, `214 cells`.
+fn counted(cells: usize) -> String {
+    if cells == 1 { "1 cell".to_owned() } else { format!("{cells} cells") }
 }
 
 fn percent(share: &Rational) -> String {

@@ -39,7 +39,7 @@ fn met_point(strips: &[Strip]) -> Option<[Rational; 2]> {
 
 fn anything(lines: &Lines<'_>) -> Result<Outcome, Error> {
     Ok(match met_point(&lines.strips(0, None)?) {
-        None => Outcome::Infeasible { conflict: Vec::new() },
+        None => Outcome::Infeasible { conflict: Vec::new(), cells: None },
         Some(point) => Optimum::some(point.into()).into(),
     })
 }
@@ -52,7 +52,7 @@ fn best_gain(lines: &Lines<'_>, gain: usize, is_greatest: bool) -> Result<Outcom
     let strips = lines.strips(gain, None)?;
     let is_met = |strip: &&Strip| strip.cells.iter().any(|cell| cell.stable);
     let strip = if is_greatest { strips.iter().rfind(is_met) } else { strips.iter().find(is_met) };
-    let Some(strip) = strip else { return Ok(Outcome::Infeasible { conflict: Vec::new() }) };
+    let Some(strip) = strip else { return Ok(Outcome::Infeasible { conflict: Vec::new(), cells: None }) };
     let in_order =
         |height: Rational, place: Rational| if gain == 0 { vec![height, place] } else { vec![place, height] };
     let end = if is_greatest { &strip.x.upper } else { &strip.x.lower };
@@ -107,7 +107,7 @@ fn best_gain(lines: &Lines<'_>, gain: usize, is_greatest: bool) -> Result<Outcom
 /// A bracket of a level, a map for each halving.
 fn best_level(lines: &Lines<'_>, level: Level) -> Result<Outcome, Error> {
     let Some(plain) = met_point(&lines.strips(0, None)?) else {
-        return Ok(Outcome::Infeasible { conflict: Vec::new() });
+        return Ok(Outcome::Infeasible { conflict: Vec::new(), cells: None });
     };
     let search =
         Search { ends: scale(lines, level), is_rising: level.is_rising(), is_without_end: is_without_end(level) };

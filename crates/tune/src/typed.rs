@@ -32,6 +32,11 @@ pub(crate) fn typed(lines: &Lines<'_>, optimum: &Optimum) -> Result<Option<Typed
     let loss = lines.asked.loss.clone().unwrap_or_else(|| Rational::new(LOSS.0.into(), LOSS.1.into()));
     let (Some(inside), Some(best)) = (&optimum.found_value, best_of(optimum)) else { return Ok(None) };
     let values = match (&lines.asked.objective, lines.asked.gains.len()) {
+        (Objective::Greatest(gain) | Objective::Least(gain), _) if optimum.cells.is_some() => {
+            let given_up = &best - best.abs() * signed(&lines.asked.objective, &loss);
+            let (low, high) = sorted(given_up, best);
+            by_trial(lines, &optimum.found, None, |values| low <= values[*gain] && values[*gain] <= high)?
+        }
         (Objective::Greatest(gain) | Objective::Least(gain), count) => {
             let given_up = &best - best.abs() * signed(&lines.asked.objective, &loss);
             // The best value itself, where it is one that gains have.
@@ -57,7 +62,7 @@ pub(crate) fn typed(lines: &Lines<'_>, optimum: &Optimum) -> Result<Option<Typed
                     let near = middle(&optimum.at[0]).unwrap_or(Rational::ZERO);
                     short_in(set.value().intervals.iter(), &near).map(|x| vec![x])
                 }
-                _ => by_trial(lines, &optimum.found, &scale)?,
+                _ => by_trial(lines, &optimum.found, Some(&scale), |_| true)?,
             }
         }
         (Objective::Anything, _) => None,
@@ -180,8 +185,19 @@ fn beside(
     Ok(other.map(|other| if gain == 0 { vec![height.clone(), other] } else { vec![other, height.clone()] }))
 }
 
-/// The nearest points of few digits, until one meets all.
-fn by_trial(lines: &Lines<'_>, found: &[Rational], scale: &Rational) -> Result<Option<Vec<Rational>>, Error> {
+/// The nearest points of few digits within the bounds, until one is good and meets all.
+fn by_trial(
+    lines: &Lines<'_>,
+    found: &[Rational],
+    scale: Option<&Rational>,
+    is_good: impl Fn(&[Rational]) -> bool,
+) -> Result<Option<Vec<Rational>>, Error> {
+    let is_within = |values: &[Rational]| {
+        let mut all = values.iter().enumerate().map(|(i, x)| (lines.range(i), x));
+        all.all(|(range, x)| {
+            range.lower.as_ref().is_none_or(|low| low <= x) && range.upper.as_ref().is_none_or(|high| x <= high)
+        })
+    };
     /// Significant digits.
     const DIGITS: std::ops::RangeInclusive<i64> = 1..=8;
     for digits in DIGITS {
@@ -194,7 +210,7 @@ fn by_trial(lines: &Lines<'_>, found: &[Rational], scale: &Rational) -> Result<O
             points = longer.collect();
         }
         for values in points {
-            if lines.is_met(&named(lines, &values), Some(scale))? {
+            if is_within(&values) && is_good(&values) && lines.is_met_in_order(&named(lines, &values), scale)? {
                 return Ok(Some(values));
             }
         }

@@ -25,7 +25,7 @@ pub(in crate::cli) struct Options {
     pub region: RegionOptions,
     #[command(flatten)]
     pub require: RequirementOptions,
-    /// A gain whose best value is asked for, one or two [default: those of [tune]] [repeatable]
+    /// A gain whose best value is asked for, up to five; three and more need bounds [default: those of [tune]] [repeatable]
     #[arg(long, value_name = "NAME")]
     pub free: Vec<String>,
     /// What is to be best: 'max NAME' or 'min NAME' of a free gain, 'max decay', 'min radius', 'max damping', 'max gain_margin',

@@ -4,16 +4,16 @@
 //! parameters enclose the coefficients ([MakinoBerz2003](jurist_algebra::bibliography#makinoberz2003)), behind a hold as well as of a
 //! rational loop. The half plane is brought to the disc, so that there is one circle to go along.
 
-use super::affine::Affine;
-use super::along_circle::{Asked, Coefficient, twice_real};
+use super::along_circle::{Asked, twice_real};
 use super::family::{Quotient, nothing_comes_back};
 use super::requirement::{Requirement, Rule};
+use super::taylor_along::{beyond_axis, binomial, combined, combined_to, of_octave, on_ray, on_wider_disc};
 use crate::coverage::refusals::MARGINS_AT_POINTS;
 use crate::error::{Code, Diagnostic, Error};
 use crate::model::{Cut, Opened};
 use crate::problem::{Problem, parametric_symbols};
 use crate::stability::Shape;
-use jurist_algebra::ball::{Ball, Elementary, Enclosed, MultiTaylorModel, exp};
+use jurist_algebra::ball::{Ball, Elementary, MultiTaylorModel, exp};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RealAlgebraic};
@@ -46,16 +46,23 @@ enum Asks {
     Sector { coefficients: Vec<MultiPoly>, cosine: Rational },
     /// All roots in a smaller disc: the coefficients of the closed loop, and the logarithm of its radius.
     Disc { coefficients: Vec<MultiPoly>, exponent: Rational },
+    /// All roots in the region of the question: the coefficients of the closed loop, of the disc in `z - 1`.
+    Stable { coefficients: Vec<MultiPoly> },
 }
 
-/// What is known of all stable loops of a box.
+/// What is known of all points of a box.
+///
+/// ```
+/// use jurist_engine::response::Certain;
+/// assert_ne!(Certain::Met, Certain::Same);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Certain {
-    /// All meet the requirement.
+pub enum Certain {
+    /// Each stable point meets the requirement.
     Met,
-    /// None does.
+    /// No point meets the requirement.
     Unmet,
-    /// All or none: any of them tells.
+    /// All stable points meet it, or none does: one of them tells.
     Same,
 }
 
@@ -92,18 +99,57 @@ impl OverBox {
             }
             rule => open_loop(&whole, rule, at, budget)?,
         };
+        OverBox::new(symbols, shape, asks, near, budget).map(Some)
+    }
+
+    fn new(
+        symbols: ParametricSymbols,
+        shape: Shape,
+        asks: Asks,
+        near: &[Rational],
+        budget: &Budget,
+    ) -> Result<OverBox, Error> {
         let mut found = OverBox { symbols, shape, like: model(near.len(), 1), octave: 0, asks };
         // What cancels is seen where no terms of the parameters are left out.
         let own = found.functions().iter().map(|f| degree_in(f, near.len())).max().unwrap_or(0);
         found.like = model(near.len(), model_degree(near.len(), LEAST_DEGREE.max(own)));
         found.octave = budget.enter(|| found.octave_at(near))?;
-        Ok(Some(found))
+        Ok(found)
+    }
+
+    /// Of the stability that a problem asks for, in its own region. `None` for a loop with dead time.
+    pub fn of_stability(problem: &Arc<Problem>, near: &[Rational], budget: &Budget) -> Result<Option<OverBox>, Error> {
+        let algebra = problem.algebra_over_symbols(budget)?;
+        let Some(d) = algebra.polynomial().filter(|_| algebra.symbols().delays().is_empty()) else { return Ok(None) };
+        let (p, _) = budget.enter(|| d.cleared())?;
+        let own: Vec<MultiPoly> = (0..=d.formal_degree).map(|k| p.coeff(k)).collect();
+        let one_more = Poly::new(vec![MultiPoly::one(), MultiPoly::one()]);
+        let coefficients = match problem.shape() {
+            Shape::UnitDisc => {
+                let mut moved = budget.enter(|| Poly::new(own).compose(&one_more).into_coeffs())?;
+                moved.resize(d.formal_degree + 1, MultiPoly::zero());
+                moved
+            }
+            Shape::LeftHalfPlane => own,
+        };
+        let symbols = parametric_symbols(algebra.symbols())?;
+        OverBox::new(symbols, problem.shape(), Asks::Stable { coefficients }, near, budget).map(Some)
     }
 
     /// What is known of all points of a closed box whose points are stable; `None` where nothing is.
     ///
     /// Cost: Taylor models of the coefficients, and values on some hundred pieces of the circle.
     pub fn certain(&self, sides: &[[Rational; 2]]) -> Option<Certain> {
+        self.certain_beyond(sides, None)
+    }
+
+    /// By how much the region of stability is wider: a share of the disc's radius, or a distance in the half plane.
+    pub fn wider(&self, halvings: u32) -> Rational {
+        Rational::from(2).pow(self.octave - i64::from(halvings)).expect("two is not zero")
+    }
+
+    /// The same of stability in a region that is wider by as much as [`OverBox::wider`] says of so many halvings.
+    pub fn certain_beyond(&self, sides: &[[Rational; 2]], halvings: Option<u32>) -> Option<Certain> {
         let width = sides.iter().map(|[low, high]| high - low).filter(|w| !w.is_zero()).min().unwrap_or(Rational::ONE);
         let small = width.denominator().bit_length().saturating_sub(width.numerator().bit_length());
         let bits = BITS + small.min(1 << 12);
@@ -137,12 +183,40 @@ impl OverBox {
                 let radius = exp(&Ball::from_rational(exponent, bits));
                 let mut power = Ball::from_integer(&Integer::ONE, bits);
                 let mut scaled = Vec::new();
-                for c in at(coefficients) {
+                let d = at(coefficients);
+                if Elementary::range(d.last()?).contains_zero() {
+                    return None;
+                }
+                for c in d {
                     scaled.push(c.mul(&c.constant(&power)));
                     power = power.mul(&radius);
                 }
                 let moved = combined(&scaled, |j, k| binomial(k, j));
                 Asked::positive(&twice_real(&moved, &moved)).certain()?.then_some(Certain::Same)
+            }
+            Asks::Stable { coefficients } => {
+                let d = at(coefficients);
+                // A root that comes from infinity is none that the count at one point tells of.
+                if Elementary::range(d.last()?).contains_zero() {
+                    return None;
+                }
+                let square = self.square_beyond(&d, halvings);
+                Asked::positive(&square).certain()?.then_some(Certain::Same)
+            }
+        }
+    }
+
+    /// The square of the modulus along the boundary of the region of stability, or of one that is wider.
+    fn square_beyond(&self, d: &[MultiTaylorModel], halvings: Option<u32>) -> Vec<MultiTaylorModel> {
+        match self.shape {
+            Shape::UnitDisc => {
+                let moved = halvings.map_or(d.to_vec(), |e| on_wider_disc(d, u64::from(e)));
+                twice_real(&moved, &moved)
+            }
+            Shape::LeftHalfPlane => {
+                let scaled = of_octave(d, self.octave, d.len() - 1);
+                let moved = halvings.map_or(scaled.clone(), |e| beyond_axis(&scaled, u64::from(e)));
+                on_ray(&moved, &Rational::ZERO, 0)
             }
         }
     }
@@ -168,7 +242,9 @@ impl OverBox {
     fn functions(&self) -> &[MultiPoly] {
         match &self.asks {
             Asks::OpenLoop { functions, .. } => functions,
-            Asks::Sector { coefficients, .. } | Asks::Disc { coefficients, .. } => coefficients,
+            Asks::Sector { coefficients, .. } | Asks::Disc { coefficients, .. } | Asks::Stable { coefficients } => {
+                coefficients
+            }
         }
     }
 
@@ -261,102 +337,4 @@ fn model(parameters: usize, degree: usize) -> MultiTaylorModel {
 fn model_degree(variables: usize, most: usize) -> usize {
     let terms = |degree: usize| (1..=variables).fold(1, |n, i| n * (degree + i) / i);
     (1..=most).rev().find(|&degree| terms(degree) <= MOST_TERMS).unwrap_or(1)
-}
-
-/// The square of the modulus on the ray with an angle of this negative cosine, `s = c t exp(j phi)`, as a polynomial in `y` with
-/// `t = y/(4 - y)`, times a power of `4 - y`.
-fn on_ray(p: &[MultiTaylorModel], cosine: &Rational, octave: i64) -> Vec<MultiTaylorModel> {
-    let n = p.len() - 1;
-    let scaled = of_octave(p, octave, n);
-    // q^m cos(m phi), of cos phi = -p/q.
-    let (top, bottom) = (-cosine.numerator(), cosine.denominator());
-    let mut cosines = vec![Integer::ONE, top.clone()];
-    for m in 2..=n {
-        let next = &(&(&top * &cosines[m - 1]) << 1) - &(&(&bottom * &bottom) * &cosines[m - 2]);
-        cosines.push(next);
-    }
-    let mut in_t = vec![p[0].nothing(); 2 * n + 1];
-    for (i, x) in scaled.iter().enumerate() {
-        for (j, y) in scaled.iter().enumerate() {
-            let m = i.abs_diff(j);
-            let weight = &cosines[m] * &bottom.pow((n - m) as u64);
-            in_t[i + j] = in_t[i + j].add(&x.mul(y).scaled(&weight));
-        }
-    }
-    // t^k (4 - y)^(2n) = y^k (4 - y)^(2n - k)
-    let degree = 2 * n;
-    combined_to(&in_t, degree + 1, |j, k| match j.checked_sub(k) {
-        Some(i) if i <= degree - k => {
-            let size = binomial(degree - k, i) << (2 * (degree - k - i)) as u64;
-            if i % 2 == 0 { size } else { -size }
-        }
-        _ => Integer::ZERO,
-    })
-}
-
-/// The coefficients of `p(c s)` with the frequency `c`, a power of two; where it is small, times `c^-degree`.
-fn of_octave(p: &[MultiTaylorModel], octave: i64, degree: usize) -> Vec<MultiTaylorModel> {
-    let power = |k: usize| match octave >= 0 {
-        true => octave as u64 * k as u64,
-        false => octave.unsigned_abs() * (degree - k) as u64,
-    };
-    p.iter().enumerate().map(|(k, c)| c.scaled(&(Integer::ONE << power(k)))).collect()
-}
-
-/// Sums of multiples, as many as there are terms.
-fn combined(p: &[MultiTaylorModel], share: impl Fn(usize, usize) -> Integer) -> Vec<MultiTaylorModel> {
-    combined_to(p, p.len(), share)
-}
-
-/// Sums of multiples: the first argument of `share` is the number of the sum, the second one that of the term.
-fn combined_to(p: &[MultiTaylorModel], count: usize, share: impl Fn(usize, usize) -> Integer) -> Vec<MultiTaylorModel> {
-    let one = |j: usize| {
-        p.iter().enumerate().fold(p[0].nothing(), |sum, (k, c)| {
-            let by = share(j, k);
-            if by.is_zero() { sum } else { sum.add(&c.scaled(&by)) }
-        })
-    };
-    (0..count).map(one).collect()
-}
-
-/// The number of ways to choose `k` of `n`.
-fn binomial(n: usize, k: usize) -> Integer {
-    if k > n {
-        return Integer::ZERO;
-    }
-    (0..k).fold(Integer::ONE, |product, i| {
-        (&product * &Integer::from((n - i) as u64)).div_mod_floor(&Integer::from(i as u64 + 1)).0
-    })
-}
-
-impl Coefficient for MultiTaylorModel {
-    fn plus(&self, other: &Self) -> Self {
-        self.add(other)
-    }
-
-    /// A product is rounded, but for that with zero.
-    fn times(&self, other: &Self) -> Self {
-        if self.is_nothing() || other.is_nothing() { self.nothing() } else { self.mul(other) }
-    }
-
-    fn scaled(&self, n: &Integer) -> Self {
-        MultiTaylorModel::scaled(self, n)
-    }
-
-    fn is_zero(&self) -> bool {
-        self.is_nothing()
-    }
-
-    fn affine(&self) -> Affine {
-        let mut terms = self.terms();
-        let middle = terms.next().map(|(_, c)| c.clone()).unwrap_or(Integer::ZERO);
-        let mut affine = Affine { middle, slopes: Vec::new(), rest: self.rest_units().clone(), bits: self.bits() };
-        for (exponents, c) in terms {
-            match exponents.iter().sum::<u32>() {
-                1 => affine.slopes.push(c.clone()),
-                _ => affine.rest += &c.abs(),
-            }
-        }
-        affine
-    }
 }

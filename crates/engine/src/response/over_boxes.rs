@@ -69,9 +69,7 @@ impl OverBoxes {
         let (d, rest) = taylor.split_at(self.sizes[0]);
         let (n, rest) = rest.split_at(self.sizes[1]);
         let [content, alpha, undefined] = rest else { return None };
-        if undefined.affine().sign().is_none() {
-            return None;
-        }
+        undefined.affine().sign()?;
         Asked::of(&self.asked, d, (n, content), alpha).certain()
     }
 }

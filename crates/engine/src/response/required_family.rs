@@ -25,12 +25,15 @@ const MOVED: u64 = 8;
 /// Halvings that find an end, beside a moved one.
 const HALVINGS: u32 = 24;
 
+/// Whether a point meets something.
+type IsMet<'a> = Box<dyn Fn(&[Rational]) -> bool + 'a>;
+
 /// One requirement of stable loops, by Taylor models of the open loop.
 pub(crate) struct RequiredFamily<'a> {
     over: OverBox,
     parameters: usize,
     /// Whether the requirement is met at a point, asked of the model.
-    is_met: Box<dyn Fn(&[Rational]) -> bool + 'a>,
+    is_met: IsMet<'a>,
 }
 
 impl<'a> RequiredFamily<'a> {

@@ -1,0 +1,257 @@
+//! Whether a loop is stable, or meets a requirement, at all points of a box of its free parameters at once.
+
+use super::over_box::{Certain, OverBox};
+use super::requirement::Requirement;
+use crate::answer::Verdict;
+use crate::error::Error;
+use crate::problem::{Bound, Problem, Question, Region};
+use crate::stability::boxes::BoxPolynomial;
+use crate::stability::{AtPoint, RootCount, Shape, count_roots};
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::{Poly, UniPoly};
+use std::sync::Arc;
+
+/// A requirement, or stability itself, over boxes of any number of free parameters.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::number::Rational;
+/// use jurist_engine::error::Source;
+/// use jurist_engine::model::Model;
+/// use jurist_engine::response::{OverPoints, RequirementBoxes};
+/// // s^3 + a s^2 + b s + c is stable where a, c > 0 and a b > c.
+/// let text = "time = 'continuous'\nparameters = { a = 2, b = 2, c = 1 }\nloop.characteristic = 's^3 + a*s^2 + b*s + c'\n";
+/// let (model, _) = Model::from_toml(&Source::new("loop.toml", text))?;
+/// let problem = model.ask().free("a").free("b").free("c").problem()?;
+/// let budget = Budget::unlimited();
+/// let box_of = |sides: [[i64; 2]; 3]| sides.map(|side| side.map(Rational::from));
+/// let near = [2, 2, 1].map(Rational::from);
+/// let stable = RequirementBoxes::of_stability(&problem, &near, &budget)?.unwrap();
+/// assert_eq!(stable.look(&box_of([[3, 3], [3, 4], [1, 2]]), &budget)?, OverPoints::All);
+/// assert_eq!(stable.look(&box_of([[1, 1], [1, 2], [8, 9]]), &budget)?, OverPoints::None);
+/// // Some points of this box are stable, others are not.
+/// assert_eq!(stable.look(&box_of([[1, 2], [1, 2], [1, 9]]), &budget)?, OverPoints::Open { middle: Some(false) });
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct RequirementBoxes {
+    problem: Arc<Problem>,
+    over: OverBox,
+    asked: Asked,
+}
+
+/// What a look at a box says of its points.
+///
+/// ```
+/// use jurist_engine::response::OverPoints;
+/// assert_ne!(OverPoints::All, OverPoints::Open { middle: Some(true) });
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OverPoints {
+    /// All stable points meet the requirement; of stability, all points are stable.
+    All,
+    /// No point does.
+    None,
+    /// Neither is proved.
+    Open {
+        /// Of stability, whether the middle of the box is stable, where that is known.
+        middle: Option<bool>,
+    },
+}
+
+/// What is asked.
+enum Asked {
+    /// With the polynomial of a loop that is rational.
+    Stability(Option<BoxPolynomial>),
+    Requirement {
+        one: Requirement,
+        at: Option<String>,
+    },
+}
+
+/// So often 1 is halved, or the loop's own frequency: regions that are wider by this are asked where the region of stability itself tells nothing.
+const HALVINGS: [u32; 6] = [0, 2, 4, 6, 8, 10];
+
+/// In so many places between the region of stability and a root it is asked whether the count of roots beyond is the same in a box.
+const OTHERS: u64 = 3;
+
+impl RequirementBoxes {
+    /// Of a requirement, margins being taken at a cut; `near` is a point that tells how fast the loop is. `None` for a requirement that is not asked of
+    /// boxes.
+    ///
+    /// Cost: the open loop in the free parameters.
+    ///
+    /// # Errors
+    /// As [`OpenLoop::of`](super::OpenLoop::of); [`Error::Refused`] for a loop with dead time.
+    pub fn of(
+        problem: &Arc<Problem>,
+        requirement: &Requirement,
+        at: Option<&str>,
+        near: &[Rational],
+        budget: &Budget,
+    ) -> Result<Option<RequirementBoxes>, Error> {
+        let over = OverBox::of(problem, requirement, at, near, budget)?;
+        let asked = Asked::Requirement { one: requirement.clone(), at: at.map(str::to_owned) };
+        Ok(over.map(|over| RequirementBoxes { problem: Arc::clone(problem), over, asked }))
+    }
+
+    /// Of stability, in the region of the problem. `None` for a loop with dead time.
+    ///
+    /// Cost: that of [`Problem::algebra_over_symbols`].
+    ///
+    /// # Errors
+    /// As [`Problem::algebra_over_symbols`].
+    pub fn of_stability(
+        problem: &Arc<Problem>,
+        near: &[Rational],
+        budget: &Budget,
+    ) -> Result<Option<RequirementBoxes>, Error> {
+        let Some(over) = OverBox::of_stability(problem, near, budget)? else { return Ok(None) };
+        let algebra = problem.algebra_over_symbols(budget)?;
+        let rational = algebra.polynomial().filter(|_| algebra.symbols().is_empty());
+        let polynomial = rational.map(|d| budget.enter(|| BoxPolynomial::over(d, near.len(), problem.shape())));
+        let asked = Asked::Stability(polynomial.transpose()?);
+        Ok(Some(RequirementBoxes { problem: Arc::clone(problem), over, asked }))
+    }
+
+    /// What is known of all points of a closed box without a look at any point; `None` where nothing is.
+    ///
+    /// Cost: Taylor models of the coefficients, and values on some hundred pieces of the circle.
+    pub fn certain(&self, sides: &[[Rational; 2]]) -> Option<Certain> {
+        self.over.certain(sides)
+    }
+
+    /// Whether all stable points of a closed box meet the requirement, or no stable point does; of stability, whether all points are stable, or none is.
+    ///
+    /// Cost: that of [`RequirementBoxes::certain`], and at most one exact decision in the middle of the box; of stability up to four of them.
+    ///
+    /// # Errors
+    /// When the budget runs out.
+    pub fn look(&self, sides: &[[Rational; 2]], budget: &Budget) -> Result<OverPoints, Exhausted> {
+        let middle = || -> Vec<Rational> { sides.iter().map(|[low, high]| low.midpoint(high)).collect() };
+        let all_or_none = |is_met: Option<bool>| match is_met {
+            Some(true) => OverPoints::All,
+            Some(false) => OverPoints::None,
+            None => OverPoints::Open { middle: None },
+        };
+        Ok(match (budget.enter(|| self.over.certain(sides))?, &self.asked) {
+            (Some(Certain::Met), _) => OverPoints::All,
+            (Some(Certain::Unmet), _) => OverPoints::None,
+            (Some(Certain::Same), Asked::Stability(_)) => all_or_none(self.is_stable(&middle(), None, budget)?),
+            (Some(Certain::Same), Asked::Requirement { one, at }) => {
+                // A point that is undefined tells nothing of its neighbours.
+                match self.is_stable(&middle(), None, budget)? {
+                    Some(true) => all_or_none(self.is_met(&middle(), one, at.as_deref(), budget)?),
+                    other => all_or_none(other),
+                }
+            }
+            (None, Asked::Requirement { .. }) => OverPoints::Open { middle: None },
+            (None, Asked::Stability(_)) => match self.is_stable(&middle(), None, budget)? {
+                Some(false) if self.has_root_beyond(sides, &middle(), budget)? => OverPoints::None,
+                middle => OverPoints::Open { middle },
+            },
+        })
+    }
+
+    /// Whether each point of a box, the middle of which is not stable, has a root outside of a region that is wider than that of stability.
+    fn has_root_beyond(
+        &self,
+        sides: &[[Rational; 2]],
+        middle: &[Rational],
+        budget: &Budget,
+    ) -> Result<bool, Exhausted> {
+        // The widest region that does not hold all roots of the middle.
+        let (mut first, mut last) = (0, HALVINGS.len());
+        while first < last {
+            let k = (first + last) / 2;
+            match self.is_stable(middle, Some(HALVINGS[k]), budget)? {
+                Some(false) => last = k,
+                _ => first = k + 1,
+            }
+        }
+        let Some(halvings) = HALVINGS.get(last) else { return Ok(false) };
+        // Between the region and the root. Another root may lie just there: halves of the box are asked somewhere else.
+        let bits: u64 = sides.iter().map(|[low, high]| (high - low).denominator().bit_length()).sum();
+        let halvings = halvings + 1 + (bits % OTHERS) as u32;
+        Ok(budget.enter(|| self.over.certain_beyond(sides, Some(halvings)))? == Some(Certain::Same))
+    }
+
+    fn wider(&self, halvings: u32) -> Option<Region> {
+        let by = self.over.wider(halvings);
+        match self.problem.region() {
+            Region::HalfPlane(Bound::Number(decay)) => Some(Region::half_plane(decay - &by)),
+            Region::Disc(Bound::Number(radius)) => Region::disc(radius + &(radius * &by)).ok(),
+            Region::HalfPlane(Bound::Free) | Region::Disc(Bound::Free) => None,
+        }
+    }
+
+    /// The question at a point.
+    fn at(&self, point: &[Rational]) -> Question {
+        let names = self.problem.free().iter().map(|free| free.name.clone());
+        let question = self.problem.model().ask().set_all(self.problem.set().to_vec());
+        question.set_all(names.zip(point.iter().cloned()))
+    }
+
+    /// Whether all roots of a point lie in the region of stability, or in one that is wider; `None` where that is not told.
+    fn is_stable(&self, point: &[Rational], wider: Option<u32>, budget: &Budget) -> Result<Option<bool>, Exhausted> {
+        if let Asked::Stability(Some(polynomial)) = &self.asked {
+            return budget.enter(|| self.is_stable_there(polynomial, point, wider));
+        }
+        let region = match (&self.asked, wider) {
+            (Asked::Requirement { .. }, _) => Some(Region::of(self.problem.time())),
+            (Asked::Stability(_), None) => Some(self.problem.region().clone()),
+            (Asked::Stability(_), Some(halvings)) => self.wider(halvings),
+        };
+        let Some(region) = region else { return Ok(None) };
+        let found = self.at(point).within(region).problem().and_then(|problem| problem.verdict(budget));
+        Ok(told(found)?.and_then(|answer| match answer.value().verdict {
+            Verdict::Stable => Some(true),
+            Verdict::Unstable => Some(false),
+            Verdict::Marginal | Verdict::Undefined => None,
+        }))
+    }
+
+    /// The same of a rational loop; `None` where it is undefined, loses its order or has a root on the boundary.
+    fn is_stable_there(&self, polynomial: &BoxPolynomial, point: &[Rational], wider: Option<u32>) -> Option<bool> {
+        let shape = self.problem.shape();
+        let AtPoint::Defined { count, infinite: 0 } = polynomial.at(point) else { return None };
+        let Some(halvings) = wider else { return told_by(&count) };
+        let by = self.over.wider(halvings);
+        let p = Poly::new(polynomial.coefficients_in_region().iter().map(|c| c.eval(point)).collect());
+        let moved = match shape {
+            Shape::LeftHalfPlane => p.taylor_shift(&by),
+            Shape::UnitDisc => p.compose(&Poly::new(vec![Rational::ZERO, Rational::ONE + by])),
+        };
+        told_by(&count_roots(&UniPoly::from_rational_poly(&moved).1, shape))
+    }
+
+    /// Whether a point meets a requirement; `None` where that is not told.
+    fn is_met(
+        &self,
+        point: &[Rational],
+        one: &Requirement,
+        at: Option<&str>,
+        budget: &Budget,
+    ) -> Result<Option<bool>, Exhausted> {
+        let list = std::slice::from_ref(one);
+        let met = self.at(point).problem().and_then(|problem| problem.requirements_met(list, at, budget));
+        Ok(told(met)?.map(|met| met.iter().all(|found| found.met)))
+    }
+}
+
+fn told_by(count: &RootCount) -> Option<bool> {
+    match (count.outside, count.on) {
+        (0, 0) => Some(true),
+        (0, _) => None,
+        _ => Some(false),
+    }
+}
+
+/// What was found, if it was; an end of the work is passed on.
+fn told<T>(found: Result<T, Error>) -> Result<Option<T>, Exhausted> {
+    match found {
+        Ok(found) => Ok(Some(found)),
+        Err(Error::Stopped(stopped)) if !stopped.stop.is_precision() => Err(stopped),
+        Err(_) => Ok(None),
+    }
+}

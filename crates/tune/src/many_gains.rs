@@ -1,0 +1,186 @@
+//! The best value over a box of many gains, between one that some gains have and one that none have.
+
+use crate::answer::{Best, Optimum, Outcome, Place};
+use crate::asked::Objective;
+use crate::climb::climb;
+use crate::lines::Lines;
+use crate::one_gain::{bracketed, not_found};
+use crate::parts::{Part, Parts, Sweep};
+use crate::target::{Target, Value};
+use jurist_algebra::limits::Exhausted;
+use jurist_algebra::number::Rational;
+use jurist_engine::error::Error;
+
+/// More parts are not looked at.
+const MOST_PARTS: usize = 1 << 20;
+
+/// The first gap, and what each is of the one before.
+const FIRST_GAP: (i64, i64) = (1, 2);
+const FINER: (i64, i64) = (1, 8);
+
+/// The best of what is asked over many gains.
+///
+/// # Errors
+/// As `Parts::new`.
+pub(crate) fn best(lines: &Lines<'_>) -> Result<Outcome, Error> {
+    let mut parts = Parts::new(lines, MOST_PARTS)?;
+    lines.budget.step("gains that meet all requirements");
+    let whole = vec![parts.all()];
+    let (point, rest) = match parts.sweep(whole, None, None)? {
+        Sweep::Refuted(_) => {
+            return Ok(Outcome::Infeasible { conflict: Vec::new(), cells: Some(parts.cells) });
+        }
+        Sweep::Stopped(stopped, _) => return Ok(Outcome::Open(stopped)),
+        Sweep::Found(point, rest) => (point, rest),
+    };
+    if lines.asked.objective == Objective::Anything {
+        return Ok(Optimum::some(point).into());
+    }
+    let target = Target::of(lines);
+    let mut search = Search { parts, target, point, value: None, proved: None };
+    let stopped = match search.narrow(rest) {
+        Ok(stopped) => stopped,
+        Err(Error::Stopped(stopped)) => Some(stopped),
+        Err(error) => return Err(error),
+    };
+    Ok(search.outcome(stopped).into())
+}
+
+/// Whether no gains meet all; `None` where so many parts do not tell.
+///
+/// # Errors
+/// As [`best`].
+pub(crate) fn is_infeasible(lines: &Lines<'_>, most: usize) -> Result<bool, Error> {
+    let mut parts = Parts::new(lines, most)?;
+    let whole = vec![parts.all()];
+    match parts.sweep(whole, None, None)? {
+        Sweep::Refuted(_) => Ok(true),
+        Sweep::Stopped(stopped, _) if stopped.stop.is_budget() => Err(stopped.into()),
+        Sweep::Stopped(..) | Sweep::Found(..) => Ok(false),
+    }
+}
+
+/// A search for the best value.
+struct Search<'l, 'a> {
+    parts: Parts<'l, 'a>,
+    target: Target,
+    /// The best point that is known, and a value that it has at least.
+    point: Vec<Rational>,
+    value: Option<Value>,
+    /// No point has this value.
+    proved: Option<Value>,
+}
+
+impl Search<'_, '_> {
+    /// Narrows the bracket, from a wide gap to the one that is asked for.
+    fn narrow(&mut self, rest: Vec<Part>) -> Result<Option<Exhausted>, Error> {
+        let budget = self.parts.lines.budget;
+        budget.step("better gains");
+        let first = self.point.clone();
+        self.value = self.target.first_value(&self.parts, &first)?;
+        if self.value.is_none() {
+            return Ok(Some(not_found()));
+        }
+        self.improve()?;
+        let share = |(a, b): (i64, i64)| Rational::new(a.into(), b.into());
+        let (mut gap, least) = (share(FIRST_GAP), self.parts.lines.asked.gap.clone());
+        let mut open = rest;
+        loop {
+            gap = gap.max(least.clone());
+            budget.step(&format!("that no gains are better by {}", jurist_algebra::number::to_decimal(&gap, 2)));
+            match self.prove(open, &gap)? {
+                Ok(next) => open = next,
+                Err(stopped) => return Ok(Some(stopped)),
+            }
+            if gap <= least {
+                return Ok(None);
+            }
+            gap *= share(FINER);
+        }
+    }
+
+    /// Proves that no gains are better by a gap, finding better ones where there are some. Returns the parts in which better ones by less may be, or what
+    /// ended the work.
+    fn prove(&mut self, open: Vec<Part>, gap: &Rational) -> Result<Result<Vec<Part>, Exhausted>, Error> {
+        let mut aside = Vec::new();
+        let mut open = open;
+        loop {
+            let value = self.value.clone().expect("a value was found");
+            let Some(goal) = self.target.beyond(&value, gap) else {
+                // Beyond the bounds there is nothing to refute.
+                open.extend(aside);
+                return Ok(Ok(open));
+            };
+            let (asked, below) = self.target.split(open, &goal);
+            aside.extend(below);
+            let scale = self.target.scale(&goal);
+            let level = scale.map(|scale| self.parts.level(scale)).transpose()?.flatten();
+            match self.parts.sweep(asked, scale, level.as_ref())? {
+                Sweep::Refuted(beside) => {
+                    self.proved = Some(goal);
+                    aside.extend(beside);
+                    return Ok(Ok(aside));
+                }
+                Sweep::Found(point, rest) => {
+                    self.value = Some(self.target.value_at(&point, &goal));
+                    self.point = point;
+                    self.improve()?;
+                    open = rest;
+                    open.append(&mut aside);
+                }
+                Sweep::Stopped(stopped, rest) => {
+                    self.seen_so_far(&rest);
+                    return Ok(Err(stopped));
+                }
+            }
+        }
+    }
+
+    /// Where a gain is to be best, no better value than that of the best part that is left.
+    fn seen_so_far(&mut self, rest: &[Part]) {
+        if let Some(value) = self.target.best_of(rest)
+            && self.proved.as_ref().is_none_or(|known| self.target.is_better(known, &value))
+        {
+            self.proved = Some(value);
+        }
+    }
+
+    /// Better points near to the best one, and a value that is near to what the last of them has.
+    fn improve(&mut self) -> Result<(), Error> {
+        let (parts, target) = (&self.parts, &self.target);
+        let (point, value) = (&mut self.point, &mut self.value);
+        let start = point.clone();
+        let gap = &parts.lines.asked.gap;
+        climb(parts, start, &mut |there| {
+            let known = value.clone().expect("a value was found");
+            let Some(better) = target.better_at(parts, there, &known, gap)? else { return Ok(false) };
+            *value = Some(better);
+            *point = there.to_vec();
+            Ok(true)
+        })
+    }
+
+    fn outcome(self, stopped: Option<Exhausted>) -> Optimum {
+        let Search { parts, target, point, value, proved } = self;
+        let cells = Some(parts.cells);
+        let Some(found) = value else {
+            return Optimum { stopped, cells, ..Optimum::some(point) };
+        };
+        let places = || point.iter().map(|x| Place::Exact(x.clone().into())).collect();
+        let (best, stopped, binding, attained) = match &target {
+            Target::Level { level, .. } => {
+                let (best, stopped) = bracketed(*level, &found, proved, stopped);
+                (best, stopped, vec![level.name().to_owned()], None)
+            }
+            Target::Gain { gain, end, .. } if found == *end => {
+                let bound = format!("bound of {}", parts.lines.asked.gains[*gain].name);
+                (Best::Exact(end.clone().into()), None, vec![bound], Some(true))
+            }
+            Target::Gain { .. } => {
+                let proved = proved.unwrap_or_else(|| target.beyond_end());
+                (Best::Between([found.clone(), proved]), stopped, Vec::new(), None)
+            }
+        };
+        Optimum { attained, binding, stopped, cells, ..Optimum::new(best, places(), point.clone(), Some(found)) }
+    }
+}
