@@ -124,7 +124,7 @@ pub trait Path {
     }
 
     /// A stretch `(lo, hi)` in which stability is lost, of width at most `hi / 2^bits`: `lo` is good, `hi` is not; up to
-    /// [`ROUGH_BITS`] by rounded numbers only. Looked for up to `limit`; `None` where nothing is found.
+    /// 40 by rounded numbers only. Looked for up to `limit`; `None` where nothing is found.
     fn crossing(&self, limit: Option<&Rational>, bits: u64) -> Option<(Rational, Rational)> {
         let is_good = |t: &Rational| self.is_good_for(t, bits);
         let (mut lo, mut hi) = (Rational::ZERO, None);
