@@ -9,7 +9,7 @@ use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, BoxRequest, MapBoxes, MapMethod, MapOrBoxes};
 use jurist_engine::error::Error;
 use jurist_engine::model::Model;
-use jurist_engine::response::{RequiredBox, Requirement};
+use jurist_engine::response::{OverPoints, RequiredBox, Requirement, RequirementBoxes};
 use jurist_engine::stability::Range;
 
 fn diagram(time: &str, names: [&str; 2], controller: &str, plant: &str, held: bool) -> Model {
@@ -186,4 +186,34 @@ fn a_delay_margin_is_refused() {
     let found = problem.required_map_by((MapMethod::Boxes, &request), (&[delay], Some("u")), 6, &Budget::unlimited());
     let Err(Error::Refused(all)) = found else { panic!("a set was found") };
     assert!(format!("{all}").contains("delay_margin"), "{all}");
+}
+
+/// `L(0)` is -2 whatever the parameters are: with half the gain a root is at 0, so a gain margin of more than 2 is met nowhere.
+#[test]
+fn a_gain_margin_that_is_reached_at_frequency_zero_everywhere_is_met_nowhere() {
+    let two = Requirement::gain_margin(&number("2")).unwrap();
+    let model = diagram("continuous", ["K", "L"], "2", "(K*s + 1)/((s - 1)*(L*s + 1))", false);
+    let answer = boxes(&model, ["K", "L"], [["1", "2"], ["1/2", "1"]], "1/10", std::slice::from_ref(&two));
+    assert!(!decided(&model, ["K", "L"], &[number("3/2"), number("3/4")], &two));
+    assert!(!required(&answer).is_empty() && required(&answer).iter().all(|b| b.met != Some(true)));
+    // With a little less it is met everywhere.
+    let less = Requirement::gain_margin(&number("1.99")).unwrap();
+    let answer = boxes(&model, ["K", "L"], [["1", "2"], ["1/2", "1"]], "1/10", std::slice::from_ref(&less));
+    assert!(required(&answer).iter().any(|b| b.met == Some(true)));
+}
+
+/// Where a divisor of the model vanishes inside of a box not all points are stable, though no root crosses.
+#[test]
+fn a_box_with_a_pole_of_the_model_is_not_stable_everywhere() {
+    let model = diagram("continuous", ["K", "L"], "K/(L - 1)", "(L - 1)/(s + 1)", false);
+    let problem = keeping(&model, &["K", "L"]).plane_problem().unwrap();
+    let budget = Budget::unlimited();
+    let near = [number("1"), number("3")];
+    let stable = RequirementBoxes::of_stability(&problem, &near, &budget).unwrap().unwrap();
+    let look = |low: &str, high: &str| {
+        let sides = [[number("1"), number("2")], [number(low), number(high)]];
+        stable.look(&sides, &budget).unwrap()
+    };
+    assert_eq!(look("2", "4"), OverPoints::All);
+    assert_eq!(look("0", "4"), OverPoints::Open { middle: Some(true) });
 }

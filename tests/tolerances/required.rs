@@ -43,6 +43,16 @@ fn is_met(answer: &Answer<ToleranceAnswer>, requirement: &Requirement, point: &[
     }
 }
 
+/// The four corners of a box of two sides, and then points of it.
+fn points(sides: &[[Rational; 2]], count: usize, random: &mut Random) -> Vec<Vec<Rational>> {
+    let mut share = |k: usize, i: usize| match k {
+        0..4 => Rational::from(i64::from(k >> i & 1 == 1)),
+        _ => Rational::new((random.below(1 << 16) as i64).into(), (1i64 << 16).into()),
+    };
+    let mut at = |k: usize| (0..2).map(|i| &sides[i][0] + &(&(&sides[i][1] - &sides[i][0]) * &share(k, i))).collect();
+    (0..count).map(&mut at).collect()
+}
+
 const MARGINS: [(&str, &str); 8] = [
     ("phase_margin", "45 deg"),
     ("phase_margin", "60"),
@@ -91,13 +101,7 @@ fn points_of_a_proved_box_meet_the_requirement_and_the_point_beyond_does_not() {
         let answer = asked(&model, &request(&model, &["K", "a"], requirement.clone()));
         let factor = answer.value().factor.as_ref().unwrap();
         let sides: Vec<[Rational; 2]> = answer.value().sides.iter().map(|side| side.at(&factor.lower)).collect();
-        for k in 0..10 {
-            let share = |i: usize, random: &mut Random| match k {
-                0..4 => Rational::from(i64::from(k >> i & 1 == 1)),
-                _ => Rational::new((random.below(1 << 16) as i64).into(), (1i64 << 16).into()),
-            };
-            let point: Vec<Rational> =
-                (0..2).map(|i| &sides[i][0] + &(&(&sides[i][1] - &sides[i][0]) * &share(i, &mut random))).collect();
+        for point in points(&sides, 10, &mut random) {
             assert!(is_met(&answer, &requirement, &point, None), "{name} {text}: {point:?}");
         }
         let witness = factor.witness.as_ref().expect("a point beyond");
@@ -272,13 +276,7 @@ fn requirements_behind_a_hold_hold_for_constants_of_the_plant() {
         let factor = required.factor.as_ref().unwrap();
         assert!(factor.lower.sign().is_gt(), "{name} {text}");
         let sides: Vec<[Rational; 2]> = answer.value().sides.iter().map(|side| side.at(&factor.lower)).collect();
-        for k in 0..8 {
-            let share = |i: usize, random: &mut Random| match k {
-                0..4 => Rational::from(i64::from(k >> i & 1 == 1)),
-                _ => Rational::new((random.below(1 << 16) as i64).into(), (1i64 << 16).into()),
-            };
-            let point: Vec<Rational> =
-                (0..2).map(|i| &sides[i][0] + &(&(&sides[i][1] - &sides[i][0]) * &share(i, &mut random))).collect();
+        for point in points(&sides, 8, &mut random) {
             assert!(is_met(&answer, &requirement, &point, None), "{name} {text}: {point:?}");
         }
         let upper = factor.upper.as_ref().unwrap();

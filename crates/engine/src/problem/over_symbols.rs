@@ -9,7 +9,7 @@ use crate::stability::boxes::MovingPolynomial;
 use crate::stability::{SymbolicPlane, SymbolicPolynomial};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::CharacteristicPolynomial;
-use jurist_algebra::poly::RationalFunction;
+use jurist_algebra::poly::{MultiPoly, RationalFunction};
 use jurist_algebra::symbols::{Definition, MovingSymbols, ParametricSymbols, Symbols};
 use std::sync::Arc;
 
@@ -129,15 +129,24 @@ impl Problem {
         let is_moving = algebra.symbols().is_moving() && algebra.symbols().delays().is_empty();
         let Some(d) = algebra.polynomial().filter(|_| is_moving) else { return Ok(None) };
         let symbols = parametric_symbols(algebra.symbols())?;
-        // Where the sample time is not positive there is no loop, and where an argument divides by zero no function.
-        let time = algebra.sample_time().into_iter().flat_map(|t| [t.numerator(), t.denominator()]);
-        let below = symbols.arguments().map(RationalFunction::denominator);
+        let d = CharacteristicPolynomial { poles: self.divisors(budget)?, ..d.clone() };
         let positive = self.positive();
-        let poles = d.poles.iter().chain(time).chain(below).chain(&positive).cloned().collect();
-        let d = CharacteristicPolynomial { poles, ..d.clone() };
         let free = self.free().len();
         let family = budget.enter(|| MovingPolynomial::new(&d, free, symbols, self.shape()))?;
         Ok(Some(family.defined_where_positive(positive)))
+    }
+}
+
+impl Problem {
+    /// What does not vanish where the loop is defined, in the free names and symbols: the model's divisors, the sample time, what the symbols'
+    /// arguments are divided by, and what is presupposed to be positive.
+    pub(crate) fn divisors(&self, budget: &Budget) -> Result<Vec<MultiPoly>, Error> {
+        let algebra = self.algebra_over_symbols(budget)?;
+        let symbols = parametric_symbols(algebra.symbols())?;
+        let poles = algebra.polynomial().into_iter().flat_map(|d| &d.poles);
+        let time = algebra.sample_time().into_iter().flat_map(|t| [t.numerator(), t.denominator()]);
+        let below = symbols.arguments().map(RationalFunction::denominator);
+        Ok(poles.chain(time).chain(below).cloned().chain(self.positive()).collect())
     }
 }
 

@@ -116,12 +116,14 @@ impl Asked {
         }
     }
 
-    /// Of polynomials given by coefficients of powers of `y`. Each is divided by a power of `y`, which is positive: with integrators all vanish
-    /// at 0.
+    /// Of polynomials given by coefficients of powers of `y`. They are divided by powers of `y`, which is positive: with integrators they vanish
+    /// at 0. Signs that are compared with each other are divided by the same power, so that one that vanishes at 0 alone is seen there.
     fn new<C: Coefficient>(mut crossing: Option<Vec<C>>, mut signs: Vec<Vec<C>>, rule: Allows) -> Asked {
-        for p in crossing.iter_mut().chain(&mut signs) {
-            let zeros = p.iter().take_while(|c| c.is_zero()).count();
-            p.drain(..zeros.min(p.len() - 1));
+        let zeros = |p: &Vec<C>| p.iter().take_while(|c| c.is_zero()).count().min(p.len() - 1);
+        let common = signs.iter().map(zeros).min().unwrap_or(0);
+        signs.iter_mut().for_each(|p| drop(p.drain(..common)));
+        if let Some(p) = &mut crossing {
+            p.drain(..zeros(p));
         }
         // Sums of patches are taken term by term: all have as many coefficients.
         let length = crossing.iter().chain(&signs).map(Vec::len).max().unwrap_or(0);

@@ -6,6 +6,7 @@
 
 use super::along_circle::{Asked, twice_real};
 use super::family::{Quotient, nothing_comes_back};
+use super::loop_functions::{LoopFunctions, number_asked};
 use super::requirement::{Requirement, Rule};
 use super::taylor_along::{beyond_axis, binomial, combined, combined_to, of_octave, on_ray, on_wider_disc};
 use crate::coverage::refusals::MARGINS_AT_POINTS;
@@ -16,7 +17,7 @@ use crate::stability::Shape;
 use jurist_algebra::ball::{Ball, Elementary, MultiTaylorModel, exp};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::{Domain, MultiPoly, Poly, RealAlgebraic};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly};
 use jurist_algebra::symbols::{Definition, ParametricSymbols};
 use std::sync::Arc;
 
@@ -39,15 +40,15 @@ pub(crate) struct OverBox {
 }
 
 enum Asks {
-    /// Of the open loop: the coefficients of the denominator, of the numerator without its content, that content, the number that is asked for,
-    /// and what must not vanish.
-    OpenLoop { rule: Rule, functions: Vec<MultiPoly>, sizes: [usize; 2] },
+    /// Of the open loop.
+    OpenLoop(LoopFunctions),
     /// All roots in a sector: the coefficients of the closed loop, and the cosine of the sector's edge.
     Sector { coefficients: Vec<MultiPoly>, cosine: Rational },
     /// All roots in a smaller disc: the coefficients of the closed loop, and the logarithm of its radius.
     Disc { coefficients: Vec<MultiPoly>, exponent: Rational },
-    /// All roots in the region of the question: the coefficients of the closed loop, of the disc in `z - 1`.
-    Stable { coefficients: Vec<MultiPoly> },
+    /// All roots in the region of the question: the coefficients of the closed loop, of the disc in `z - 1`, and what must not vanish where the
+    /// loop is defined.
+    Stable { coefficients: Vec<MultiPoly>, divisors: Vec<MultiPoly> },
 }
 
 /// What is known of all points of a box.
@@ -121,7 +122,8 @@ impl OverBox {
     pub fn of_stability(problem: &Arc<Problem>, near: &[Rational], budget: &Budget) -> Result<Option<OverBox>, Error> {
         let algebra = problem.algebra_over_symbols(budget)?;
         let Some(d) = algebra.polynomial().filter(|_| algebra.symbols().delays().is_empty()) else { return Ok(None) };
-        let (p, _) = budget.enter(|| d.cleared())?;
+        let (p, denominator) = budget.enter(|| d.cleared())?;
+        let divisors = problem.divisors(budget)?.into_iter().chain([denominator]).collect();
         let own: Vec<MultiPoly> = (0..=d.formal_degree).map(|k| p.coeff(k)).collect();
         let one_more = Poly::new(vec![MultiPoly::one(), MultiPoly::one()]);
         let coefficients = match problem.shape() {
@@ -133,7 +135,7 @@ impl OverBox {
             Shape::LeftHalfPlane => own,
         };
         let symbols = parametric_symbols(algebra.symbols())?;
-        OverBox::new(symbols, problem.shape(), Asks::Stable { coefficients }, near, budget).map(Some)
+        OverBox::new(symbols, problem.shape(), Asks::Stable { coefficients, divisors }, near, budget).map(Some)
     }
 
     /// What is known of all points of a closed box whose points are stable; `None` where nothing is.
@@ -150,30 +152,15 @@ impl OverBox {
 
     /// The same of stability in a region that is wider by as much as [`OverBox::wider`] says of so many halvings.
     pub fn certain_beyond(&self, sides: &[[Rational; 2]], halvings: Option<u32>) -> Option<Certain> {
-        let width = sides.iter().map(|[low, high]| high - low).filter(|w| !w.is_zero()).min().unwrap_or(Rational::ONE);
-        let small = width.denominator().bit_length().saturating_sub(width.numerator().bit_length());
-        let bits = BITS + small.min(1 << 12);
-        let line = |[low, high]: &[Rational; 2]| {
-            let middle = low.midpoint(high);
-            (Ball::from_rational(&middle, bits), Ball::from_rational(&(high - &middle), bits))
-        };
-        let parameters = self.like.lines(&sides.iter().map(line).collect::<Vec<_>>());
-        let values = self.symbols.values(&parameters)?;
+        let bits = bits_of(sides);
+        let values = self.values(sides, bits)?;
         let at = |list: &[MultiPoly]| -> Vec<MultiTaylorModel> {
             list.iter().map(|p| self.symbols.value(p, &values)).collect()
         };
         match &self.asks {
-            Asks::OpenLoop { rule, functions, sizes } => {
-                let all = at(functions);
-                let (d, rest) = all.split_at(sizes[0]);
-                let (n, rest) = rest.split_at(sizes[1]);
-                let [content, alpha, undefined] = rest else { return None };
-                if Elementary::range(undefined).contains_zero() {
-                    return None;
-                }
-                let [d, n] = self.on_circle([d, n]);
-                let is_met = Asked::of(rule, &d, (&n, content), alpha).certain()?;
-                Some(if is_met { Certain::Met } else { Certain::Unmet })
+            Asks::OpenLoop(functions) => {
+                let asked = functions.asked(&at(&functions.all), |both| self.on_circle(both))?;
+                Some(if asked.certain()? { Certain::Met } else { Certain::Unmet })
             }
             Asks::Sector { coefficients, cosine } => {
                 let square = on_ray(&at(coefficients), cosine, self.octave);
@@ -194,7 +181,7 @@ impl OverBox {
                 let moved = combined(&scaled, |j, k| binomial(k, j));
                 Asked::positive(&twice_real(&moved, &moved)).certain()?.then_some(Certain::Same)
             }
-            Asks::Stable { coefficients } => {
+            Asks::Stable { coefficients, .. } => {
                 let d = at(coefficients);
                 // A root that comes from infinity is none that the count at one point tells of.
                 if Elementary::range(d.last()?).contains_zero() {
@@ -204,6 +191,24 @@ impl OverBox {
                 Asked::positive(&square).certain()?.then_some(Certain::Same)
             }
         }
+    }
+
+    /// Whether it is seen that the loop is defined at all points of a closed box; of a requirement, which is asked of stable points, nothing has to
+    /// be seen.
+    pub fn is_defined(&self, sides: &[[Rational; 2]]) -> bool {
+        let Asks::Stable { divisors, .. } = &self.asks else { return true };
+        let Some(values) = self.values(sides, bits_of(sides)) else { return false };
+        let is_clear = |p: &MultiPoly| !Elementary::range(&self.symbols.value(p, &values)).contains_zero();
+        divisors.iter().all(is_clear)
+    }
+
+    /// The parameters and symbols in a box.
+    fn values(&self, sides: &[[Rational; 2]], bits: u64) -> Option<Vec<MultiTaylorModel>> {
+        let line = |[low, high]: &[Rational; 2]| {
+            let middle = low.midpoint(high);
+            (Ball::from_rational(&middle, bits), Ball::from_rational(&(high - &middle), bits))
+        };
+        self.symbols.values(&self.like.lines(&sides.iter().map(line).collect::<Vec<_>>()))
     }
 
     /// The square of the modulus along the boundary of the region of stability, or of one that is wider.
@@ -241,8 +246,8 @@ impl OverBox {
 
     fn functions(&self) -> &[MultiPoly] {
         match &self.asks {
-            Asks::OpenLoop { functions, .. } => functions,
-            Asks::Sector { coefficients, .. } | Asks::Disc { coefficients, .. } | Asks::Stable { coefficients } => {
+            Asks::OpenLoop(functions) => &functions.all,
+            Asks::Sector { coefficients, .. } | Asks::Disc { coefficients, .. } | Asks::Stable { coefficients, .. } => {
                 coefficients
             }
         }
@@ -254,7 +259,7 @@ impl OverBox {
             return 0;
         }
         let list = match &self.asks {
-            Asks::OpenLoop { functions, sizes, .. } => &functions[..sizes[0]],
+            Asks::OpenLoop(functions) => functions.denominator(),
             _ => self.functions(),
         };
         let parameters: Vec<MultiTaylorModel> = {
@@ -274,6 +279,12 @@ impl OverBox {
             _ => 0,
         }
     }
+}
+
+/// Bits of coefficients in a box: more in a small one.
+fn bits_of(sides: &[[Rational; 2]]) -> u64 {
+    let width = sides.iter().map(|[low, high]| high - low).filter(|w| !w.is_zero()).min().unwrap_or(Rational::ONE);
+    BITS + width.denominator().bit_length().saturating_sub(width.numerator().bit_length()).min(1 << 12)
 }
 
 /// The open loop in the free parameters and symbols, and the number that a rule asks for as the last of them.
@@ -297,27 +308,10 @@ fn open_loop(
     if quotient.numerator.is_zero() {
         return Err(nothing_comes_back(&cut));
     }
-    let content = budget.enter(|| quotient.numerator.content())?;
-    let numerator = quotient.numerator.map(|c| c.div_exact(&content).expect("the content divides"));
-    let alpha = match rule {
-        Rule::Turned { twice_cosine } => twice_cosine.clone(),
-        Rule::Factors(factor) => factor.clone(),
-        _ => RealAlgebraic::from_rational(Rational::ZERO),
-    };
     let table = parametric_symbols(&symbols)?;
-    let place = kept.len() + table.len();
-    let table = table.with("alpha", Definition::Algebraic(alpha));
-    let one_more = Poly::new(vec![MultiPoly::one(), MultiPoly::one()]);
-    let moved = |p: &Poly<MultiPoly>| match problem.shape() {
-        // In symbols, so that what cancels at z = 1 is seen.
-        Shape::UnitDisc => p.compose(&one_more).into_coeffs(),
-        Shape::LeftHalfPlane => p.coeffs().to_vec(),
-    };
-    let parts = budget.enter(|| [&quotient.denominator, &numerator].map(moved))?;
-    let sizes = [parts[0].len(), parts[1].len()];
-    let mut functions: Vec<MultiPoly> = parts.into_iter().flatten().collect();
-    functions.extend([content, MultiPoly::variable(place), undefined]);
-    Ok((table, Asks::OpenLoop { rule: rule.clone(), functions, sizes }))
+    let alpha = MultiPoly::variable(kept.len() + table.len());
+    let functions = budget.enter(|| LoopFunctions::new(&quotient, &undefined, rule, alpha))?;
+    Ok((table.with("alpha", Definition::Algebraic(number_asked(rule))), Asks::OpenLoop(functions)))
 }
 
 /// The total degree in the first variables.

@@ -1,15 +1,16 @@
 //! Whether requirements on margins are met for all values of a parameter in an interval at once.
 
 use super::affine::Affine;
-use super::along_circle::{Asked, Coefficient};
+use super::along_circle::Coefficient;
 use super::family::Quotient;
+use super::loop_functions::LoopFunctions;
 use super::requirement::Rule;
 use crate::stability::Shape;
 use crate::stability::subdivision::{BoxPart, Look, Octaves, Order, Tally, subdivide};
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational, Sign};
-use jurist_algebra::poly::{Domain, MultiPoly, Poly};
+use jurist_algebra::poly::MultiPoly;
 use jurist_algebra::symbols::MovingSymbols;
 
 /// Terms of the Taylor polynomials in the parameter.
@@ -21,12 +22,7 @@ const BITS: u64 = 256;
 /// One requirement on an open loop over a parameter and symbols.
 pub(super) struct OverBoxes {
     symbols: MovingSymbols,
-    /// The coefficients of the denominator and of the numerator without its content in `z - 1`, that content, the number that is asked for, and
-    /// what must not vanish.
-    functions: Vec<MultiPoly>,
-    /// How many are the denominator's, and the numerator's.
-    sizes: [usize; 2],
-    asked: Rule,
+    functions: LoopFunctions,
 }
 
 impl OverBoxes {
@@ -41,14 +37,8 @@ impl OverBoxes {
         if quotient.shape != Shape::UnitDisc || !is_known {
             return None;
         }
-        let one_more = Poly::new(vec![MultiPoly::one(), MultiPoly::one()]);
-        let content = quotient.numerator.content();
-        let numerator = quotient.numerator.map(|c| c.div_exact(&content).expect("the content divides"));
-        let parts = [&quotient.denominator, &numerator].map(|p| p.compose(&one_more).into_coeffs());
-        let sizes = [parts[0].len(), parts[1].len()];
-        let mut functions: Vec<MultiPoly> = parts.into_iter().flatten().collect();
-        functions.extend([content, MultiPoly::variable(symbols.len()), undefined.clone()]);
-        Some(OverBoxes { symbols, functions, sizes, asked: asked.clone() })
+        let functions = LoopFunctions::new(quotient, undefined, asked, MultiPoly::variable(symbols.len()));
+        Some(OverBoxes { symbols, functions })
     }
 
     /// Whether the requirement is met by all stable loops of a closed interval of the parameter, or by none; `None` where that is not
@@ -60,17 +50,13 @@ impl OverBoxes {
         let small = width.denominator().bit_length().saturating_sub(width.numerator().bit_length());
         let bits = BITS + small.min(1 << 12);
         let taylor: Vec<Share> = if width.is_zero() {
-            let balls = self.symbols.enclose(&self.functions, &Ball::from_rational(lower, bits))?;
+            let balls = self.symbols.enclose(&self.functions.all, &Ball::from_rational(lower, bits))?;
             balls.into_iter().map(|c| Share(vec![c])).collect()
         } else {
-            let taylor = self.symbols.taylor_from_end(&self.functions, lower, upper, TERMS, bits)?;
+            let taylor = self.symbols.taylor_from_end(&self.functions.all, lower, upper, TERMS, bits)?;
             taylor.into_iter().map(Share).collect()
         };
-        let (d, rest) = taylor.split_at(self.sizes[0]);
-        let (n, rest) = rest.split_at(self.sizes[1]);
-        let [content, alpha, undefined] = rest else { return None };
-        undefined.affine().sign()?;
-        Asked::of(&self.asked, d, (n, content), alpha).certain()
+        self.functions.asked(&taylor, |both| both.map(<[Share]>::to_vec))?.certain()
     }
 }
 

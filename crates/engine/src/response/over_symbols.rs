@@ -2,6 +2,7 @@
 
 use super::cells::{around, edge, outward, parts_beside, required_parts};
 use super::family::{Elimination, Quotient, nothing_comes_back, plus_multiple, plus_multiple_of};
+use super::loop_functions::number_asked;
 use super::met::AtPoint;
 use super::open_loop::OpenLoop;
 use super::over_boxes::{OverBoxes, certain, segments};
@@ -72,6 +73,14 @@ impl Elimination<MultiPoly> for Unexpanded {
     }
 }
 
+/// What is asked of all parts of a set.
+struct Wanted<'w> {
+    requirements: &'w [Requirement],
+    /// Of each requirement what is known of short intervals; none where intervals are not asked.
+    boxes: Vec<OverBoxes>,
+    budget: &'w Budget,
+}
+
 /// A value at which a requirement may begin or cease to be met.
 struct Candidate {
     value: Real,
@@ -117,9 +126,9 @@ impl<'a> SymbolicFamily<'a> {
             OverBoxes::new(&self.quotient, &self.undefined, requirement.rule(), symbols)
         };
         let boxes: Option<Vec<OverBoxes>> = budget.enter(|| requirements.iter().map(of).collect())?;
-        let boxes = boxes.unwrap_or_default();
+        let wanted = Wanted { requirements, boxes: boxes.unwrap_or_default(), budget };
         for interval in stable.intervals() {
-            self.in_segments(interval, requirements, &boxes, &mut found, budget)?;
+            self.in_segments(interval, &wanted, &mut found)?;
         }
         found.sort();
         Ok(found)
@@ -127,12 +136,7 @@ impl<'a> SymbolicFamily<'a> {
 
     /// The symbols, and the number that a requirement asks for as the last one.
     fn symbols_of(&self, requirement: &Requirement) -> MovingSymbols {
-        let alpha = match requirement.rule() {
-            Rule::Turned { twice_cosine } => twice_cosine.clone(),
-            Rule::Factors(factor) => factor.clone(),
-            _ => RealAlgebraic::from_rational(Rational::ZERO),
-        };
-        self.symbols.with("alpha", Definition::Algebraic(alpha))
+        self.symbols.with("alpha", Definition::Algebraic(number_asked(requirement.rule())))
     }
 
     /// The parts of a stable interval: most of it is decided for short intervals as a whole, and only what is left is looked at for single
@@ -140,18 +144,16 @@ impl<'a> SymbolicFamily<'a> {
     fn in_segments(
         &self,
         interval: &StableInterval,
-        requirements: &[Requirement],
-        boxes: &[OverBoxes],
+        wanted: &Wanted<'_>,
         found: &mut RequiredSet,
-        budget: &Budget,
     ) -> Result<(), Error> {
         let [Some(lower), Some(upper)] = [outward(&interval.lower, true), outward(&interval.upper, false)] else {
-            return self.within(interval, requirements, boxes, found, budget);
+            return self.within(interval, wanted, found);
         };
-        if boxes.is_empty() {
-            return self.within(interval, requirements, boxes, found, budget);
+        if wanted.boxes.is_empty() {
+            return self.within(interval, wanted, found);
         }
-        let segments = segments(boxes, &lower, &upper, MOST_PIECES, budget)?;
+        let segments = segments(&wanted.boxes, &lower, &upper, MOST_PIECES, wanted.budget)?;
         let begun = found.intervals.len();
         // Rational numbers beyond the ends of the interval are not in it.
         let is_above = |x: &Rational| interval.upper.as_ref().is_some_and(|end| end.value.compare_rational(x).is_le());
@@ -168,7 +170,7 @@ impl<'a> SymbolicFamily<'a> {
                     found.intervals.push(RequiredInterval { lower, upper });
                 }
                 None => {
-                    self.within(&StableInterval::new(lower, upper), requirements, boxes, found, budget)?;
+                    self.within(&StableInterval::new(lower, upper), wanted, found)?;
                 }
             }
         }
@@ -188,19 +190,14 @@ impl<'a> SymbolicFamily<'a> {
         Ok(())
     }
 
-    fn within(
-        &self,
-        interval: &StableInterval,
-        requirements: &[Requirement],
-        boxes: &[OverBoxes],
-        found: &mut RequiredSet,
-        budget: &Budget,
-    ) -> Result<(), Error> {
+    /// The same of a part that is decided at single values.
+    fn within(&self, interval: &StableInterval, wanted: &Wanted<'_>, found: &mut RequiredSet) -> Result<(), Error> {
+        let &Wanted { requirements, ref boxes, budget } = wanted;
         let part = budget.clone().within_work(WORK);
         let (candidates, all) = match self.candidates(interval, requirements, boxes, &part) {
             Err(Error::Stopped(_)) if budget.check().is_ok() && !boxes.is_empty() => match self.beyond(interval) {
-                None => (Vec::new(), vec![self.left_open(interval, requirements)]),
-                Some(beyond) => return self.up_to(&beyond, interval, requirements, boxes, found, budget),
+                None => (Vec::new(), vec![left_open(interval, requirements)]),
+                Some(beyond) => return self.up_to(&beyond, interval, wanted, found),
             },
             found => found?,
         };
@@ -223,15 +220,13 @@ impl<'a> SymbolicFamily<'a> {
         &self,
         beyond: &Rational,
         interval: &StableInterval,
-        requirements: &[Requirement],
-        boxes: &[OverBoxes],
+        wanted: &Wanted<'_>,
         found: &mut RequiredSet,
-        budget: &Budget,
     ) -> Result<(), Error> {
         let below = StableInterval::new(interval.lower.clone(), Some(edge(beyond)));
-        self.in_segments(&below, requirements, boxes, found, budget)?;
+        self.in_segments(&below, wanted, found)?;
         let above = StableInterval::new(Some(edge(beyond)), interval.upper.clone());
-        found.undecided.push(self.left_open(&above, requirements));
+        found.undecided.push(left_open(&above, wanted.requirements));
         Ok(())
     }
 
@@ -240,13 +235,6 @@ impl<'a> SymbolicFamily<'a> {
         let lower = outward(&interval.lower, true).filter(|_| interval.upper.is_none())?;
         let nominal = self.problem.parameter().nominal.clone().unwrap_or(Rational::ONE).abs();
         Some(&lower.abs().max(nominal).max(Rational::dyadic(&Integer::ONE, 64)) * &Rational::from(FARTHEST))
-    }
-
-    /// A part of an interval as a bracket that stays undecided.
-    fn left_open(&self, interval: &StableInterval, requirements: &[Requirement]) -> UndecidedBracket {
-        let names: Vec<&str> = requirements.iter().map(Requirement::name).collect();
-        let why = format!("where {} begins or ceases to be met", names.join(" or "));
-        UndecidedBracket::new(outward(&interval.lower, true), outward(&interval.upper, false), why)
     }
 
     /// All values strictly inside of a stable interval at which a requirement may begin or cease to be met, and what may have
@@ -361,6 +349,13 @@ impl<'a> SymbolicFamily<'a> {
         }
         Ok(out)
     }
+}
+
+/// A part of an interval as a bracket that stays undecided.
+fn left_open(interval: &StableInterval, requirements: &[Requirement]) -> UndecidedBracket {
+    let names: Vec<&str> = requirements.iter().map(Requirement::name).collect();
+    let why = format!("where {} begins or ceases to be met", names.join(" or "));
+    UndecidedBracket::new(outward(&interval.lower, true), outward(&interval.upper, false), why)
 }
 
 /// Resultants of long open loops take minutes and much memory: after so much work what pieces of the interval leave open stays a bracket.

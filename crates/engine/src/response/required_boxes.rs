@@ -1,7 +1,7 @@
 //! In which boxes of a window a loop meets its requirements.
 
-use super::over_box::{Certain, OverBox};
 use super::requirement::Requirement;
+use super::requirement_boxes::{OverPoints, RequirementBoxes};
 use crate::answer::{Answer, MapBoxes};
 use crate::coverage::refusals::NOT_IN_A_PLANE;
 use crate::error::Error;
@@ -116,67 +116,41 @@ impl Problem {
         budget.step("boundaries of the requirements");
         let largest = stable.iter().max_by_key(|b| b.area()).unwrap_or(window);
         let near = middle(largest);
-        let mut of_boxes = Vec::with_capacity(requirements.len());
+        let mut tests = Vec::with_capacity(requirements.len());
         for requirement in requirements {
-            let known = OverBox::of(self, requirement, at, &near, budget)?;
-            of_boxes.push(known.ok_or_else(|| not_in_boxes(requirement))?);
+            let known = RequirementBoxes::of(self, requirement, at, &near, budget)?;
+            tests.push(known.ok_or_else(|| not_in_boxes(requirement))?);
         }
-        let asked = Wanted { problem: self, requirements, at, of_boxes: &of_boxes, budget };
         budget.step("requirements in the stable boxes");
         let open: Vec<usize> = (0..requirements.len()).collect();
         let refined = refined(window, &stable, open, &found.goal, budget, |place, open| {
-            asked.look(&place.window(window), open).map(|seen| seen.unwrap_or(Look::Cut(place.wider())))
+            let seen = look(&tests, &place.window(window), open, budget)?;
+            Ok(seen.map_or(Look::Cut(place.wider()), Look::Decided))
         });
         Ok(RequiredBoxes::new(requirements, at, refined))
     }
 }
 
-/// What is asked of each box.
-struct Wanted<'a> {
-    problem: &'a Arc<Problem>,
-    requirements: &'a [Requirement],
-    at: Option<&'a str>,
-    of_boxes: &'a [OverBox],
-    budget: &'a Budget,
-}
-
-impl Wanted<'_> {
-    /// The number of a requirement that no point of a box meets, or that all meet all; what is met everywhere leaves the list. `None` where
-    /// nothing is known of some requirement.
-    fn look<O>(&self, window: &Window, open: &mut Vec<usize>) -> Result<Option<Look<Option<usize>, O>>, Exhausted> {
-        let sides = [window.x.clone(), window.y.clone()];
-        let mut rest = Vec::new();
-        for &k in open.iter() {
-            self.budget.check()?;
-            let is_met = match self.of_boxes[k].certain(&sides) {
-                Some(Certain::Met) => Some(true),
-                Some(Certain::Unmet) => Some(false),
-                Some(Certain::Same) => self.is_met_at(k, &middle(window))?,
-                None => None,
-            };
-            match is_met {
-                Some(true) => {}
-                Some(false) => return Ok(Some(Look::Decided(Some(k)))),
-                None => rest.push(k),
-            }
-        }
-        *open = rest;
-        Ok(open.is_empty().then_some(Look::Decided(None)))
-    }
-
-    /// Whether a requirement is met at a stable point; `None` where that is not told.
-    fn is_met_at(&self, k: usize, point: &[Rational]) -> Result<Option<bool>, Exhausted> {
-        let names = self.problem.free().iter().map(|free| free.name.clone());
-        let question = self.problem.model().ask().set_all(self.problem.set().to_vec());
-        let question = question.set_all(names.zip(point.iter().cloned()));
-        let one = std::slice::from_ref(&self.requirements[k]);
-        let met = question.problem().and_then(|problem| problem.requirements_met(one, self.at, self.budget));
-        match met {
-            Ok(met) => Ok(Some(met.iter().all(|found| found.met))),
-            Err(Error::Stopped(stopped)) if !stopped.stop.is_precision() => Err(stopped),
-            Err(_) => Ok(None),
+/// The number of a requirement that no point of a stable box meets, or none where all points meet all; the outer one is none where nothing is
+/// known of some requirement. What is met everywhere leaves the list.
+fn look(
+    tests: &[RequirementBoxes],
+    window: &Window,
+    open: &mut Vec<usize>,
+    budget: &Budget,
+) -> Result<Option<Option<usize>>, Exhausted> {
+    let sides = [window.x.clone(), window.y.clone()];
+    let mut rest = Vec::new();
+    for &k in open.iter() {
+        budget.check()?;
+        match tests[k].look(&sides, budget)? {
+            OverPoints::All => {}
+            OverPoints::None => return Ok(Some(Some(k))),
+            OverPoints::Open { .. } => rest.push(k),
         }
     }
+    *open = rest;
+    Ok(open.is_empty().then_some(None))
 }
 
 fn middle(window: &Window) -> Vec<Rational> {

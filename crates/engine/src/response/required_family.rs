@@ -1,11 +1,14 @@
 //! A requirement as a family of loops over tolerances: "stable" is read as "meets the requirement".
 
-use super::over_box::{Certain, OverBox};
+use super::requirement_boxes::{OverPoints, RequirementBoxes};
 use crate::stability::AtPoint;
 use crate::stability::boxes::{BoxProof, Family, Gradient, OpenReason, Outcome, Path};
 use crate::stability::subdivision::{BoxPart, Look, Order, Tally, decided, subdivide};
 use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
 use jurist_algebra::number::{Integer, Rational, Sign};
+
+/// Work of a look, in units of a budget.
+const WORK: u64 = 2000;
 
 /// A box is cut into so many parts at most.
 const MOST_PARTS: usize = 600;
@@ -25,35 +28,23 @@ const MOVED: u64 = 8;
 /// Halvings that find an end, beside a moved one.
 const HALVINGS: u32 = 24;
 
-/// Whether a point meets something.
-type IsMet<'a> = Box<dyn Fn(&[Rational]) -> bool + 'a>;
-
-/// One requirement of stable loops, by Taylor models of the open loop.
+/// One requirement of stable loops.
 pub(crate) struct RequiredFamily<'a> {
-    over: OverBox,
+    boxes: RequirementBoxes,
     parameters: usize,
-    /// Whether the requirement is met at a point, asked of the model.
-    is_met: IsMet<'a>,
+    budget: &'a Budget,
 }
 
 impl<'a> RequiredFamily<'a> {
-    /// Of so many parameters; `is_met` decides at a point.
-    pub fn new(over: OverBox, parameters: usize, is_met: impl Fn(&[Rational]) -> bool + 'a) -> Self {
-        RequiredFamily { over, parameters, is_met: Box::new(is_met) }
+    /// Of so many parameters.
+    pub fn new(boxes: RequirementBoxes, parameters: usize, budget: &'a Budget) -> Self {
+        RequiredFamily { boxes, parameters, budget }
     }
 
-    fn at_point(&self, point: &[Rational]) -> Option<bool> {
-        checkpoint(2000);
-        let sides: Vec<[Rational; 2]> = point.iter().map(|x| [x.clone(), x.clone()]).collect();
-        match self.over.certain(&sides)? {
-            Certain::Met => Some(true),
-            Certain::Unmet => Some(false),
-            Certain::Same => None,
-        }
-    }
-
+    /// Whether a point is seen to meet the requirement. A budget that runs out is noticed by who asks next.
     fn meets(&self, point: &[Rational]) -> bool {
-        self.at_point(point).unwrap_or_else(|| (self.is_met)(point))
+        checkpoint(WORK);
+        matches!(self.boxes.meets(point, self.budget), Ok(Some(true)))
     }
 }
 
@@ -94,8 +85,7 @@ impl Family for RequiredFamily<'_> {
         (0..2 * n).map(along).collect()
     }
 
-    /// A box whose parts all meet the requirement, or of which each has all or none of its points do so: parts that touch then agree with the
-    /// nominal point.
+    /// A box all of whose parts meet the requirement.
     fn prove(
         &self,
         sides: &[[Rational; 2]],
@@ -105,15 +95,15 @@ impl Family for RequiredFamily<'_> {
     ) -> Result<Outcome, Exhausted> {
         let most = cells.min(MOST_PARTS);
         let look = |part: &mut BoxPart, tally: Tally| {
-            checkpoint(2000);
+            checkpoint(WORK);
             let middle = || part.sides.iter().map(|[low, high]| low.midpoint(high)).collect::<Vec<Rational>>();
-            match self.over.certain(&part.sides) {
-                Some(Certain::Met | Certain::Same) => return Ok(Look::Decided(())),
-                Some(Certain::Unmet) => return Ok(Look::Open(Outcome::Refuted(middle()))),
-                None => {}
+            match self.boxes.look(&part.sides, budget)? {
+                OverPoints::All => return Ok(Look::Decided(())),
+                OverPoints::None => return Ok(Look::Open(Outcome::Refuted(middle()))),
+                OverPoints::Open { .. } => {}
             }
             let is_last = tally.cells() >= most;
-            if (is_last || tally.halved.is_multiple_of(TESTED_EVERY)) && self.at_point(&middle()) == Some(false) {
+            if (is_last || tally.halved.is_multiple_of(TESTED_EVERY)) && !self.meets(&middle()) {
                 return Ok(Look::Open(Outcome::Refuted(middle())));
             }
             let is_wide = |i: &usize| part.sides[*i][0] < part.sides[*i][1] && part.halvings[*i] < MOST_HALVINGS;

@@ -137,7 +137,11 @@ impl RequirementBoxes {
         Ok(match (budget.enter(|| self.over.certain(sides))?, &self.asked) {
             (Some(Certain::Met), _) => OverPoints::All,
             (Some(Certain::Unmet), _) => OverPoints::None,
-            (Some(Certain::Same), Asked::Stability(_)) => all_or_none(self.is_stable(&middle(), None, budget)?),
+            (Some(Certain::Same), Asked::Stability(_)) => match self.is_stable(&middle(), None, budget)? {
+                // No root crosses; that the loop is defined at all points is more.
+                Some(true) if !budget.enter(|| self.over.is_defined(sides))? => OverPoints::Open { middle: Some(true) },
+                told => all_or_none(told),
+            },
             (Some(Certain::Same), Asked::Requirement { one, at }) => {
                 // A point that is undefined tells nothing of its neighbours.
                 match self.is_stable(&middle(), None, budget)? {
@@ -151,6 +155,17 @@ impl RequirementBoxes {
                 middle => OverPoints::Open { middle },
             },
         })
+    }
+
+    /// Whether a stable point meets what is asked, by the look where that tells, else by the exact decision; `None` where that is not told.
+    pub(crate) fn meets(&self, point: &[Rational], budget: &Budget) -> Result<Option<bool>, Exhausted> {
+        let sides: Vec<[Rational; 2]> = point.iter().map(|x| [x.clone(), x.clone()]).collect();
+        match (self.look(&sides, budget)?, &self.asked) {
+            (OverPoints::All, _) => Ok(Some(true)),
+            (OverPoints::None, _) => Ok(Some(false)),
+            (OverPoints::Open { middle }, Asked::Stability(_)) => Ok(middle),
+            (OverPoints::Open { .. }, Asked::Requirement { one, at }) => self.is_met(point, one, at.as_deref(), budget),
+        }
     }
 
     /// Whether each point of a box, the middle of which is not stable, has a root outside of a region that is wider than that of stability.

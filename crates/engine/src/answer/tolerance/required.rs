@@ -6,7 +6,7 @@ use super::{RequiredBox, ToleranceRequest};
 use crate::coverage::refusals::{MARGINS_IN_ONE, NOT_OVER_A_BOX};
 use crate::error::Error;
 use crate::problem::Problem;
-use crate::response::{Family, OverBox, RequiredFamily, Requirement, Rule, half_tangent, radius_below};
+use crate::response::{Family, RequiredFamily, Requirement, RequirementBoxes, Rule, half_tangent, radius_below};
 use crate::stability::boxes::{
     BoxDecision, BoxPolynomial, Family as StableFamily, LargestFactor, OpenReason, Side, ToleranceProblem, Witness,
 };
@@ -49,10 +49,9 @@ impl Problem {
             BoxAsked { sides, request, most, breaks: &breaks, budget, found: RequiredBox::new(requirement) };
         if base.as_polynomial().is_none() {
             let at = request.at.as_deref();
-            let over = OverBox::of(self, requirement, at, &asked.nominal(), budget)?;
-            let over = over.ok_or_else(|| not_over_a_box(requirement, "ask 'verdict' at points"))?;
-            let is_met = |point: &[Rational]| matches!(breaks(point), Ok(None));
-            let family = RequiredFamily::new(over, sides.len(), is_met);
+            let boxes = RequirementBoxes::of(self, requirement, at, &asked.nominal(), budget)?;
+            let boxes = boxes.ok_or_else(|| not_over_a_box(requirement, "ask 'verdict' at points"))?;
+            let family = RequiredFamily::new(boxes, sides.len(), budget);
             asked.add(&family, sides.to_vec())?;
             return Ok(asked.found);
         }
