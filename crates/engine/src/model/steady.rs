@@ -90,7 +90,7 @@ impl Model {
             let names = list(kept.iter().map(String::as_str));
             return Err(refused(
                 format!(
-                    "the duty ratio of the orbit of '{block}' moves with what is asked for ({names}), and its pulse begins between samples"
+                    "the duty ratio of '{block}' at rest depends on {names}, and its pulse begins between samples: this is not solved"
                 ),
                 "set what moves it (--set), or write the duty ratio as an expression from the mean over a period, such as duty = \"V_0/K_pwm\"",
             ));
@@ -230,7 +230,7 @@ impl Equation {
         }
     }
 
-    /// An interval in which the left side falls, and outside of which there is no solution; `None` where that is not shown.
+    /// An interval that holds the only solution: the left side falls on it, and has no zero in the rest of [0, 1]. `None` where that is not shown.
     fn bracket(&self) -> Option<Enclosure> {
         let (mut lo, mut hi) = (Rational::ZERO, Rational::ONE);
         // The left side falls on both halves, so that it has no other zero.

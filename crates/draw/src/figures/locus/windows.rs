@@ -52,7 +52,8 @@ const BRANCHES: f64 = 3.3;
 /// The same in a discrete picture, where the unit circle tells the size.
 const MOST_BRANCHES: f64 = 1.6;
 
-/// All crossings, and what is not too far from them; poles, zeros and crossings are well inside.
+/// The window that a picture begins with. It holds all crossings, and the poles, zeros and branches that are near enough to leave the
+/// crossings apart.
 pub(super) fn whole(figure: &LocusFigure<'_>) -> Square {
     let is_finite = |z: &(f64, f64)| z.0.is_finite() && z.1.is_finite();
     let branches = || figure.locus.samples().flat_map(|s| s.roots.iter()).map(|z| (z.re, z.im)).filter(is_finite);
