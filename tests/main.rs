@@ -84,6 +84,7 @@ mod maps {
     mod oracle;
     mod program;
     mod required;
+    mod delayed_required;
     mod required_boxes;
 }
 

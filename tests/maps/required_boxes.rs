@@ -12,7 +12,7 @@ use jurist_engine::model::Model;
 use jurist_engine::response::{OverPoints, RequiredBox, Requirement, RequirementBoxes};
 use jurist_engine::stability::Range;
 
-fn diagram(time: &str, names: [&str; 2], controller: &str, plant: &str, held: bool) -> Model {
+pub(super) fn diagram(time: &str, names: [&str; 2], controller: &str, plant: &str, held: bool) -> Model {
     let [x, y] = names;
     let hold = if held { "discretize = 'zoh'\n" } else { "" };
     read(&format!(
@@ -22,7 +22,7 @@ fn diagram(time: &str, names: [&str; 2], controller: &str, plant: &str, held: bo
     ))
 }
 
-fn boxes(
+pub(super) fn boxes(
     model: &Model,
     names: [&str; 2],
     sides: [[&str; 2]; 2],
@@ -40,7 +40,7 @@ fn boxes(
     }
 }
 
-fn required(answer: &Answer<MapBoxes>) -> &[RequiredBox] {
+pub(super) fn required(answer: &Answer<MapBoxes>) -> &[RequiredBox] {
     &answer.value().required.as_ref().unwrap().boxes
 }
 
@@ -53,7 +53,7 @@ fn inside(b: &RequiredBox, random: &mut Random) -> [Rational; 2] {
 }
 
 /// Boxes that say something of their points, and how many met and unmet ones were asked at a point.
-fn agrees(
+pub(super) fn agrees(
     answer: &Answer<MapBoxes>,
     random: &mut Random,
     points: usize,
@@ -71,7 +71,7 @@ fn agrees(
     seen
 }
 
-fn decided(model: &Model, names: [&str; 2], point: &[Rational; 2], requirement: &Requirement) -> bool {
+pub(super) fn decided(model: &Model, names: [&str; 2], point: &[Rational; 2], requirement: &Requirement) -> bool {
     let question = names.iter().zip(point).fold(model.ask(), |q, (name, x)| q.set(*name, x.clone()));
     let problem = question.problem().unwrap();
     problem.requirements_met(std::slice::from_ref(requirement), Some("u"), &Budget::unlimited()).unwrap()[0].met

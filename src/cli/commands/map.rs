@@ -219,7 +219,8 @@ fn required(
         let ring = problem.coefficient_ring(&context.budget)?;
         for requirement in &asked.list {
             let coverage = Asked::Map.with_requirement(requirement, problem.time()).over(ring);
-            match coverage.refusal() {
+            // What is answered in part is asked.
+            match coverage.refusal().filter(|_| coverage.method().is_none()) {
                 Some(refusal) if !refusal.help.contains('{') => return Err(refusal.diagnostic(&[]).into()),
                 // What a loop is asked depends on its ring.
                 Some(refusal) if refusal.help.contains("{known}") => drop(problem.algebra(&context.budget)?),

@@ -125,6 +125,13 @@ pub(super) static REQUIRED_BOXES: Method = Method::new(
      requirement allows it there. A box where all are allowed meets the requirement, one where a sign changes among forbidden ones does not; others are halved.",
     "answer::MapBoxes",
 );
+pub(super) static DELAYED_REQUIRED: Method = Method::new(
+    "pieces of the imaginary axis by Taylor models in the parameters",
+    "Taylor models of the coefficients of the open loop's rational factor in a box of the parameters, times the cosine and the sine of the dead time: cubics \
+     with a bound on each piece of the frequency, any numbers from -1 to 1 where the open loop is small. They tell on which pieces a crossing may be, and \
+     whether the requirement allows it there.",
+    "answer::MapBoxes",
+);
 pub(super) static POLYNOMIAL: Method = Method::new(
     "characteristic polynomial",
     "The determinant of the closed loop by the multimodular Hessenberg form; constants and functions that are not rational are further variables.",

@@ -62,6 +62,7 @@ const NO_COQ: Coverage = R(&NOT_FOR_COQ);
 const NO_SMT: Coverage = R(&NOT_ALGEBRAIC);
 const UNCERTIFIED: Coverage = R(&NO_CERTIFICATE);
 const OPEN_LOOP: Coverage = P(&FREQUENCIES, &ONE_FACTOR);
+const BOXES_WITH_DEAD_TIME: Coverage = P(&DELAYED_REQUIRED, &ONE_FACTOR);
 const CERTIFIED: Coverage = P(&WITNESSES, &NO_CERTIFICATE);
 
 #[rustfmt::skip]
@@ -101,7 +102,7 @@ static ROWS: &[Row] = &[
     Row::new(Asked::ToleranceInRegion, "tolerance --tol NAME=10% REGION", [A(&TENSOR), A(&TENSOR), A(&FUNCTION_TENSOR), R(&DECAY), R(&DECAY), NO_ORDER]),
     at_a_point(Asked::VerdictWithMargins, "verdict --modulus-margin 1/100", [A(&FREQUENCIES), A(&FREQUENCIES), OPEN_LOOP, BESIDE]),
     Row::new(Asked::IntervalsWithMargins, "intervals --param NAME --modulus-margin 1/100", [A(&RESULTANTS), A(&ENCLOSED_RESULTANTS), A(&ENCLOSED_RESULTANTS), R(&MARGINS_AT_POINTS), BESIDE, NO_ORDER]),
-    Row::new(Asked::MapWithMargins, "map -x NAME -y NAME --modulus-margin 1/100", [A(&RESULTANTS), A(&RESULTANTS), B(&REQUIRED_BOXES), R(&MARGINS_AT_POINTS), R(&MARGINS_AT_POINTS), NO_ORDER]),
+    Row::new(Asked::MapWithMargins, "map -x NAME -y NAME --modulus-margin 1/100", [A(&RESULTANTS), A(&RESULTANTS), B(&REQUIRED_BOXES), BOXES_WITH_DEAD_TIME, BESIDE, NO_ORDER]),
     Row::new(Asked::ToleranceWithMargins, "tolerance --tol NAME=10% --modulus-margin 1/100", [A(&TENSOR), A(&TENSOR), A(&REQUIRED_BOXES), BOX_ALONE, BOX_ALONE, NO_ORDER]),
     at_a_point(Asked::VerdictWithDamping, "verdict --damping 1/10", [A(&ROOTS), A(&ROOTS), NO_DELAY, BESIDE]),
     Row::new(Asked::IntervalsWithDamping, "intervals --param NAME --damping 1/10", [A(&ROOTS), A(&ROOTS), A(&ROOTS), NO_DELAY, BESIDE, NO_ORDER]),
@@ -113,7 +114,7 @@ static ROWS: &[Row] = &[
     Row::new(Asked::IntervalsWithDelayMargin, "intervals --param NAME --delay-margin 1/1000", [R(&DELAY_AT_POINTS), R(&DELAY_AT_POINTS), R(&DELAY_AT_POINTS), R(&MARGINS_AT_POINTS), BESIDE, NO_ORDER]),
     Row::new(Asked::MapWithDelayMargin, "map -x NAME -y NAME --delay-margin 1/1000", [R(&NOT_IN_A_PLANE), R(&NOT_IN_A_PLANE), R(&NOT_IN_A_PLANE), NO_DELAY, NO_DELAY, NO_ORDER]),
     Row::new(Asked::ToleranceWithDelayMargin, "tolerance --tol NAME=10% --delay-margin 1/1000", [R(&NOT_OVER_A_BOX), R(&NOT_OVER_A_BOX), R(&NOT_OVER_A_BOX), BOX_ALONE, BOX_ALONE, NO_ORDER]),
-    Row::new(Asked::BoxMapWithRequirements, "map -x NAME -y NAME --method boxes --modulus-margin 1/100", [B(&REQUIRED_BOXES), B(&REQUIRED_BOXES), B(&REQUIRED_BOXES), R(&MARGINS_AT_POINTS), R(&MARGINS_AT_POINTS), NO_ORDER]),
+    Row::new(Asked::BoxMapWithRequirements, "map -x NAME -y NAME --method boxes --modulus-margin 1/100", [B(&REQUIRED_BOXES), B(&REQUIRED_BOXES), B(&REQUIRED_BOXES), BOXES_WITH_DEAD_TIME, BESIDE, NO_ORDER]),
     Row::new(Asked::SlicesWithRequirements, "map -x NAME -y NAME -z NAME=LO..HI:N --modulus-margin 1/100", [R(&SLICES_ARE_OF_STABILITY); 6]),
     at_a_point(Asked::VerdictCertificate, "verdict --certificate FILE", [A(&WITNESSES), CERTIFIED, A(&WITNESSES), BESIDE]),
     Row::new(Asked::IntervalsCertificate, "intervals --param NAME --certificate FILE", [A(&WITNESSES), CERTIFIED, CERTIFIED, CERTIFIED, BESIDE, NO_ORDER]),

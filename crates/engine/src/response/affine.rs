@@ -46,10 +46,15 @@ impl AlongCircle {
     /// From coefficients of powers of `y`, read with the degree `length - 1`.
     ///
     /// Cost: half the square of the degree, in sums of coefficients.
-    pub fn new<C: Coefficient>(mut p: Vec<C>, length: usize) -> AlongCircle {
+    pub fn new<C: Coefficient>(p: Vec<C>, length: usize) -> AlongCircle {
+        AlongCircle::up_to(p, length, 2)
+    }
+
+    /// The same for `y` from 0 to a power of two.
+    pub fn up_to<C: Coefficient>(mut p: Vec<C>, length: usize, exponent: u64) -> AlongCircle {
         let zero = p[0].scaled(&Integer::ZERO);
         p.resize(length, zero);
-        let all: Vec<Affine> = bernstein(p).iter().map(C::affine).collect();
+        let all: Vec<Affine> = bernstein(p, exponent).iter().map(C::affine).collect();
         let bits = all[0].bits;
         let ball = |n: &Integer| Ball::from_units(n.clone(), n.clone(), bits);
         let slopes = (0..all[0].slopes.len()).map(|k| all.iter().map(|f| ball(&f.slopes[k])).collect());
@@ -58,10 +63,22 @@ impl AlongCircle {
         AlongCircle { columns: std::iter::once(middles).chain(slopes).collect(), rest }
     }
 
+    /// As a function of what is left of `y` to its end.
+    pub fn reversed(mut self) -> AlongCircle {
+        self.columns.iter_mut().chain([&mut self.rest]).for_each(|column| column.reverse());
+        self
+    }
+
     /// The polynomial on a piece of the circle; at a point where the ends are the same.
     ///
     /// Cost: `d^2` products for the degree `d`, for each coordinate.
-    pub fn on(&self, [lower, upper]: [&Rational; 2]) -> Patch {
+    pub fn on(&self, ends: [&Rational; 2]) -> Patch {
+        let [patch] = AlongCircle::all_on([self], ends);
+        patch
+    }
+
+    /// Polynomials of one degree on a piece, in the same unit.
+    pub fn all_on<const N: usize>(all: [&AlongCircle; N], [lower, upper]: [&Rational; 2]) -> [Patch; N] {
         let quarter = |y: &Rational| y * &Rational::dyadic(&Integer::ONE, 2);
         let (from, to) = (quarter(lower), quarter(upper));
         let coefficients = |p: &Vec<Ball>| match from == to {
@@ -73,24 +90,32 @@ impl AlongCircle {
                 split(beyond, &share)[0].clone()
             }
         };
-        let columns: Vec<Vec<Ball>> = self.columns.iter().map(coefficients).collect();
-        let rest: Vec<Integer> = coefficients(&self.rest).iter().map(Ball::magnitude_units).collect();
-        let sizes = columns.iter().flatten().map(|b| b.magnitude_units().bit_length());
-        let bits = sizes.chain(rest.iter().map(Integer::bit_length)).max().unwrap_or(0);
-        let shift = bits.saturating_sub(BITS);
+        let pieces = all.map(|p| {
+            let columns: Vec<Vec<Ball>> = p.columns.iter().map(coefficients).collect();
+            let rest: Vec<Integer> = coefficients(&p.rest).iter().map(Ball::magnitude_units).collect();
+            (columns, rest)
+        });
+        let size = |(columns, rest): &(Vec<Vec<Ball>>, Vec<Integer>)| {
+            let sizes = columns.iter().flatten().map(|b| b.magnitude_units().bit_length());
+            sizes.chain(rest.iter().map(Integer::bit_length)).max().unwrap_or(0)
+        };
+        let shift = pieces.iter().map(size).max().unwrap_or(0).saturating_sub(BITS);
         let fixed = |n: &Integer| (n >> shift).to_i128().expect("so many bits fit");
-        // What the columns are off together.
-        let width = |k: usize| columns.iter().fold(Integer::ZERO, |sum, c| sum + (c[k].width_units() + Integer::ONE));
-        Patch {
-            rest: rest.iter().enumerate().map(|(k, rest)| fixed(&(rest + &width(k))) + 1).collect(),
-            error: if shift > 0 { columns.len() as i128 } else { 0 },
-            columns: columns.iter().map(|c| c.iter().map(|b| fixed(&b.middle_units())).collect()).collect(),
-        }
+        pieces.map(|(columns, rest)| {
+            // What the columns are off together.
+            let width =
+                |k: usize| columns.iter().fold(Integer::ZERO, |sum, c| sum + (c[k].width_units() + Integer::ONE));
+            Patch {
+                rest: rest.iter().enumerate().map(|(k, rest)| fixed(&(rest + &width(k))) + 1).collect(),
+                error: if shift > 0 { columns.len() as i128 } else { 0 },
+                columns: columns.iter().map(|c| c.iter().map(|b| fixed(&b.middle_units())).collect()).collect(),
+            }
+        })
     }
 }
 
-/// The Bernstein coefficients for `y` from 0 to 4, times a positive number that depends on the degree alone.
-fn bernstein<C: Coefficient>(p: Vec<C>) -> Vec<C> {
+/// The Bernstein coefficients for `y` from 0 to a power of two, times a positive number that depends on the degree alone.
+fn bernstein<C: Coefficient>(p: Vec<C>, exponent: u64) -> Vec<C> {
     let d = p.len() - 1;
     let mut choices = vec![Integer::ONE];
     for k in 0..d {
@@ -98,7 +123,7 @@ fn bernstein<C: Coefficient>(p: Vec<C>) -> Vec<C> {
         choices.push(next.div_exact(&Integer::from(k as u64 + 1)));
     }
     let common = choices.iter().fold(Integer::ONE, |l, c| l.lcm(c));
-    let scale = |(k, c): (usize, C)| c.scaled(&(&common.div_exact(&choices[k]) << (2 * k as u64)));
+    let scale = |(k, c): (usize, C)| c.scaled(&(&common.div_exact(&choices[k]) << (exponent * k as u64)));
     let mut c: Vec<C> = p.into_iter().enumerate().map(scale).collect();
     for r in 1..=d {
         for k in (r..=d).rev() {
@@ -130,11 +155,11 @@ fn split(c: &[Ball], share: &Rational) -> [Vec<Ball>; 2] {
 #[derive(Clone, Debug)]
 pub(super) struct Patch {
     /// Middles, then the factors of each coordinate.
-    columns: Vec<Vec<i128>>,
+    pub(super) columns: Vec<Vec<i128>>,
     /// A bound for each coefficient.
-    rest: Vec<i128>,
+    pub(super) rest: Vec<i128>,
     /// What rounding adds to each bound.
-    error: i128,
+    pub(super) error: i128,
 }
 
 impl Patch {
@@ -160,10 +185,20 @@ impl Patch {
         }
     }
 
+    /// Whether it is 0 up to the last digit of what it stands beside.
+    pub fn is_nothing(&self) -> bool {
+        self.columns.iter().flatten().all(|c| *c == 0) && self.rest.iter().all(|c| *c <= self.columns.len() as i128 + 1)
+    }
+
     /// Whether so many digits are lost that the patch is to be computed again.
     pub fn is_blurred(&self) -> bool {
-        let greatest = self.columns.iter().flatten().map(|v| v.abs()).max().unwrap_or(0);
-        greatest >> SPARE_BITS < self.error
+        Patch::are_blurred(std::slice::from_ref(self))
+    }
+
+    /// The same of the largest of several in one unit.
+    pub fn are_blurred(all: &[Patch]) -> bool {
+        let greatest = all.iter().flat_map(|p| p.columns.iter().flatten()).map(|v| v.abs()).max().unwrap_or(0);
+        all.iter().any(|p| greatest >> SPARE_BITS < p.error)
     }
 
     /// The sign wherever another polynomial is zero: that of a sum with a multiple of the other one. With a good multiple both have the

@@ -6,11 +6,11 @@
 //! it is not. So nothing is cut where a discriminant or a resultant vanishes that means nothing.
 
 use super::affine::{Affine, AlongCircle, Patch};
+use super::on_circle::OnCircle;
 use super::requirement::Rule;
 use crate::stability::subdivision::{BoxPart, Halves, Look, Order, Tally, subdivide};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational, Sign};
-use jurist_algebra::poly::{Domain, UniPoly};
 
 /// A coefficient of the open loop as a function of the parameters in a box.
 pub(super) trait Coefficient: Clone {
@@ -37,12 +37,34 @@ const MOST_HOPELESS: usize = 96;
 const MOST_SHORTER: usize = 48;
 
 /// What a requirement asks along the circle, for one interval of the parameter.
-pub(super) struct Asked {
-    /// The polynomial in `y` that is zero at a crossing; none where each frequency counts.
-    crossing: Option<AlongCircle>,
-    /// The polynomials that tell whether a crossing is allowed.
-    signs: Vec<AlongCircle>,
+pub(super) struct Asked<A> {
+    /// The function that is zero at a crossing; none where each frequency counts.
+    crossing: Option<A>,
+    /// The functions that tell whether a crossing is allowed.
+    signs: Vec<A>,
     rule: Allows,
+}
+
+/// A function along the boundary of stability, for `y` from 0 to 4, whose values are nearly linear in a box of parameters.
+pub(super) trait Along {
+    /// The function on a piece.
+    type Piece: OnPiece;
+
+    /// The pieces with which a look begins, ascending.
+    fn pieces() -> Vec<[Rational; 2]>;
+
+    /// The function on a piece, or at a point where the ends are the same.
+    fn on(&self, ends: [&Rational; 2]) -> Self::Piece;
+}
+
+/// A function on a piece.
+pub(super) trait OnPiece: Halves + Clone {
+    /// Its Bernstein coefficients.
+    fn patch(&self) -> &Patch;
+    /// The value at the lower end.
+    fn first(&self) -> Self;
+    /// Whether so many digits are lost that the piece is to be computed again.
+    fn is_blurred(&self) -> bool;
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -63,147 +85,145 @@ enum Crossing {
     Unknown,
 }
 
-impl Asked {
-    /// That a polynomial in `y` is positive.
-    pub fn positive<C: Coefficient>(p: &[C]) -> Asked {
-        Asked::new(None, vec![p.to_vec()], Allows::Positive)
-    }
+/// A function along the boundary of stability: polynomials, of which those after the first one are multiplied by something.
+pub(super) type Function<C, const N: usize> = [Vec<C>; N];
 
-    /// The polynomials in `y` for which the requirement asks, of the open loop's denominator and of its numerator without a factor, which
-    /// comes with it: where a gain is zero all frequencies would be crossings, and none of them matters.
-    pub fn of<C: Coefficient>(rule: &Rule, d: &[C], (bare, factor): (&[C], &C), alpha: &C) -> Asked {
-        let sum = |p: &[C], q: &[C]| -> Vec<C> {
-            let at = |p: &[C], k: usize| p.get(k).cloned();
-            let both = |k| match (at(p, k), at(q, k)) {
-                (Some(x), Some(y)) => x.plus(&y),
-                (Some(x), None) | (None, Some(x)) => x,
-                (None, None) => unreachable!("one list is so long"),
-            };
-            (0..p.len().max(q.len())).map(both).collect()
+/// What requirements ask of an open loop along the boundary of stability, as functions whose coefficients depend on parameters.
+pub(super) trait Products<C: Coefficient, const N: usize> {
+    /// A function in the form in which it is looked at.
+    type Along: Along;
+
+    /// Twice the squares of the moduli of the denominator and of the numerator.
+    fn moduli(&self) -> [Function<C, N>; 2];
+    /// Twice the real part of the numerator times the conjugate of the denominator.
+    fn twice_real(&self) -> Function<C, N>;
+    /// Its imaginary part without a factor of the numerator, divided by something positive: where a gain is zero all frequencies would be
+    /// crossings, and none of them matters.
+    fn imaginary(&self) -> Function<C, N>;
+    /// Twice the square of the modulus of `u D + v N`.
+    fn combined(&self, u: &Integer, v: &Integer) -> Function<C, N>;
+    /// Whether the open loop is infinite at the lowest frequency.
+    fn has_integrator(&self) -> bool;
+    /// Functions in the form in which they are looked at, in lists that have as many coefficients.
+    fn along(&self, functions: Vec<Function<C, N>>) -> Vec<Self::Along>;
+}
+
+impl Asked<AlongCircle> {
+    /// That a polynomial in `y` is positive.
+    pub fn positive<C: Coefficient>(p: &[C]) -> Asked<AlongCircle> {
+        Asked::new(None, vec![[p.to_vec()]], Allows::Positive, OnCircle::along)
+    }
+}
+
+impl<A: Along> Asked<A> {
+    /// The functions for which the requirement asks; `alpha` is the number that is asked for.
+    pub fn of<C: Coefficient, const N: usize>(
+        rule: &Rule,
+        products: &impl Products<C, N, Along = A>,
+        alpha: &C,
+    ) -> Asked<A> {
+        let sum = |p: &Function<C, N>, q: &Function<C, N>| -> Function<C, N> {
+            std::array::from_fn(|i| sum_of(&p[i], &q[i]))
         };
-        let times = |p: &[C], c: &C| -> Vec<C> { p.iter().map(|x| x.times(c)).collect() };
-        let scaled = |p: &[C], c: &Integer| -> Vec<C> { p.iter().map(|x| x.scaled(c)).collect() };
-        let n = &times(bare, factor)[..];
-        let two = Integer::from(2);
-        // Twice the squares of the moduli.
-        let (below, twice_real) = (twice_real(d, d), twice_real(n, d));
+        let times = |p: &Function<C, N>, c: &C| p.each_ref().map(|p| p.iter().map(|x| x.times(c)).collect());
+        let scaled =
+            |p: &Function<C, N>, c: &Integer| p.each_ref().map(|p| p.iter().map(|x| x.scaled(c)).collect());
+        let new = |crossing, signs, rule| Asked::new(crossing, signs, rule, |all| products.along(all));
         match rule {
             Rule::Factors(_) => {
                 // 2 |D|^2 + k 2 Re(N conj D) at both ends of the factors.
+                let ([below, _], twice_real) = (products.moduli(), products.twice_real());
                 let signs = [sum(&times(&below, alpha), &twice_real), sum(&below, &times(&twice_real, alpha))];
-                // With an integrator the open loop is infinite at y = 0: nothing crosses there.
-                let has_integrator = d.first().is_some_and(C::is_zero);
-                Asked::new(Some(imaginary(bare, d)), signs.into(), Allows::Same { at_zero: !has_integrator })
+                // With an integrator the open loop is infinite at the lowest frequency: nothing crosses there.
+                let rule = Allows::Same { at_zero: !products.has_integrator() };
+                new(Some(products.imaginary()), signs.into(), rule)
             }
             Rule::Circle(circle) => {
-                let all = sum(d, n);
-                let combined = match circle.combined().map(Integer::from) {
-                    [u, v] if v.is_zero() => scaled(d, &u),
-                    [u, v] if u.is_zero() => scaled(n, &v),
-                    [u, v] => sum(&scaled(d, &u), &scaled(n, &v)),
-                };
+                let [u, v] = circle.combined().map(Integer::from);
                 let [p, q] = [circle.least().numerator(), circle.least().denominator()];
-                let [whole, part] = [self::twice_real(&all, &all), self::twice_real(&combined, &combined)];
+                let (whole, part) = (products.combined(&Integer::ONE, &Integer::ONE), products.combined(&u, &v));
                 let excess = sum(&scaled(&whole, &(&q * &q)), &scaled(&part, &-(&p * &p)));
-                Asked::new(None, vec![excess], Allows::Positive)
+                new(None, vec![excess], Allows::Positive)
             }
             _ => {
-                let above = self::twice_real(n, n);
+                let ([below, above], twice_real) = (products.moduli(), products.twice_real());
                 let excess = sum(&above, &scaled(&below, &-Integer::ONE));
-                let sign = sum(&scaled(&twice_real, &two), &times(&above, alpha));
-                Asked::new(Some(excess), vec![sign], Allows::Positive)
+                let sign = sum(&scaled(&twice_real, &Integer::from(2)), &times(&above, alpha));
+                new(Some(excess), vec![sign], Allows::Positive)
             }
         }
     }
 
-    /// Of polynomials given by coefficients of powers of `y`. They are divided by powers of `y`, which is positive: with integrators they vanish
-    /// at 0. Signs that are compared with each other are divided by the same power, so that one that vanishes at 0 alone is seen there.
-    fn new<C: Coefficient>(mut crossing: Option<Vec<C>>, mut signs: Vec<Vec<C>>, rule: Allows) -> Asked {
-        let zeros = |p: &Vec<C>| p.iter().take_while(|c| c.is_zero()).count().min(p.len() - 1);
+    /// Of functions given by coefficients of powers of the variable. They are divided by powers of it, which are positive: with integrators they
+    /// vanish at 0. Signs that are compared with each other are divided by the same power, so that one that vanishes at 0 alone is seen there.
+    fn new<C: Coefficient, const N: usize>(
+        mut crossing: Option<Function<C, N>>,
+        mut signs: Vec<Function<C, N>>,
+        rule: Allows,
+        along: impl FnOnce(Vec<Function<C, N>>) -> Vec<A>,
+    ) -> Asked<A> {
+        let of_one = |p: &Vec<C>| p.iter().take_while(|c| c.is_zero()).count();
+        let zeros = |f: &Function<C, N>| {
+            let most = f.iter().map(Vec::len).max().unwrap_or(1) - 1;
+            f.iter().filter(|p| of_one(p) < p.len()).map(of_one).min().unwrap_or(0).min(most)
+        };
+        let divide = |f: &mut Function<C, N>, by: usize| {
+            for p in f {
+                let all = p.len().saturating_sub(1);
+                p.drain(..by.min(all));
+            }
+        };
         let common = signs.iter().map(zeros).min().unwrap_or(0);
-        signs.iter_mut().for_each(|p| drop(p.drain(..common)));
-        if let Some(p) = &mut crossing {
-            p.drain(..zeros(p));
+        signs.iter_mut().for_each(|f| divide(f, common));
+        if let Some(f) = &mut crossing {
+            let by = zeros(f);
+            divide(f, by);
         }
-        // Sums of patches are taken term by term: all have as many coefficients.
-        let length = crossing.iter().chain(&signs).map(Vec::len).max().unwrap_or(0);
-        let along = |p: Vec<C>| AlongCircle::new(p, length);
-        Asked { crossing: crossing.map(along), signs: signs.into_iter().map(along).collect(), rule }
+        let has_crossing = crossing.is_some();
+        let mut all = along(crossing.into_iter().chain(signs).collect());
+        let crossing = has_crossing.then(|| all.remove(0));
+        Asked { crossing, signs: all, rule }
     }
 }
 
-/// Twice the real part of `p` times the conjugate of `q` on the circle, both given by their coefficients in `w = z - 1`, as a polynomial
-/// in `y`: as `w` and its conjugate have the sum `-y` and the product `y`, the sums of their powers follow from one another.
-pub(super) fn twice_real<C: Coefficient>(p: &[C], q: &[C]) -> Vec<C> {
-    paired(p, q, [Integer::from(2), Integer::ZERO], [Integer::ZERO, -Integer::ONE], false)
-}
-
-/// The imaginary part divided by that of `w`.
-fn imaginary<C: Coefficient>(p: &[C], q: &[C]) -> Vec<C> {
-    paired(p, q, [Integer::ZERO, Integer::ZERO], [Integer::ONE, Integer::ZERO], true)
-}
-
-/// The sum of `p_i q_j y^min(i, j) s_|i - j|`, where `s_0` and `s_1` are linear in `y` and `s_k = -y (s_(k-1) + s_(k-2))`; with the other sign
-/// for `i < j` if asked for.
-fn paired<C: Coefficient>(p: &[C], q: &[C], zeroth: [Integer; 2], first: [Integer; 2], is_odd: bool) -> Vec<C> {
-    let most = p.len().max(q.len());
-    let mut sums = vec![UniPoly::new(zeroth.to_vec()), UniPoly::new(first.to_vec())];
-    let minus_y = UniPoly::new(vec![Integer::ZERO, -Integer::ONE]);
-    for k in 2..most {
-        let next = minus_y.times(&sums[k - 1].plus(&sums[k - 2]));
-        sums.push(next);
-    }
-    let mut out = vec![p[0].scaled(&Integer::ZERO); 2 * most];
-    // Of a square both products of two different coefficients are the same.
-    let is_square = std::ptr::eq(p, q) && !is_odd;
-    for (i, x) in p.iter().enumerate() {
-        for (j, y) in q.iter().enumerate().filter(|(j, _)| !is_square || *j <= i) {
-            let product = x.times(y);
-            let product = if is_square && j < i { product.scaled(&Integer::from(2)) } else { product };
-            for (k, c) in sums[i.abs_diff(j)].coeffs().iter().enumerate().filter(|(_, c)| !c.is_zero()) {
-                let c = if is_odd && i < j { -c.clone() } else { c.clone() };
-                let at = i.min(j) + k;
-                out[at] = out[at].plus(&product.scaled(&c));
-            }
-        }
-    }
-    while out.len() > 1 && out.last().is_some_and(C::is_zero) {
-        out.pop();
-    }
-    out
+/// The sum of two polynomials.
+pub(super) fn sum_of<C: Coefficient>(p: &[C], q: &[C]) -> Vec<C> {
+    let (long, short) = if p.len() >= q.len() { (p, q) } else { (q, p) };
+    let one = |(k, x): (usize, &C)| short.get(k).map_or_else(|| x.clone(), |y| x.plus(y));
+    long.iter().enumerate().map(one).collect()
 }
 
 /// The polynomials on a piece of the circle.
-struct Cell {
+struct Cell<P> {
     ends: [Rational; 2],
     halvings: u32,
-    crossing: Option<Patch>,
-    signs: Vec<Patch>,
+    crossing: Option<P>,
+    signs: Vec<P>,
 }
 
-impl Cell {
+impl<P: OnPiece> Cell<P> {
     /// The lower end alone.
-    fn lower_end(&self) -> Cell {
+    fn lower_end(&self) -> Cell<P> {
         let [lower, _] = &self.ends;
         Cell {
             ends: [lower.clone(), lower.clone()],
             halvings: self.halvings,
-            crossing: self.crossing.as_ref().map(Patch::first),
-            signs: self.signs.iter().map(Patch::first).collect(),
+            crossing: self.crossing.as_ref().map(P::first),
+            signs: self.signs.iter().map(P::first).collect(),
         }
     }
 
     fn is_blurred(&self) -> bool {
-        self.crossing.iter().chain(&self.signs).any(Patch::is_blurred)
+        self.crossing.iter().chain(&self.signs).any(P::is_blurred)
     }
 }
 
-impl Halves for Cell {
-    fn halves(self, axis: usize) -> [Cell; 2] {
+impl<P: OnPiece> Halves for Cell<P> {
+    fn halves(self, axis: usize) -> [Cell<P>; 2] {
         let [lower, upper] = self.ends;
         let middle = lower.midpoint(&upper);
         let crossing = self.crossing.map(|f| f.halves(axis));
-        let signs: Vec<[Patch; 2]> = self.signs.into_iter().map(|g| g.halves(axis)).collect();
+        let signs: Vec<[P; 2]> = self.signs.into_iter().map(|g| g.halves(axis)).collect();
         [[lower, middle.clone()], [middle, upper]]
             .into_iter()
             .enumerate()
@@ -226,7 +246,7 @@ struct Piece {
     crossing: Crossing,
 }
 
-impl Asked {
+impl<A: Along> Asked<A> {
     /// Whether the requirement is met throughout, or nowhere; `None` where that is not seen.
     pub fn certain(&self) -> Option<bool> {
         let four = Rational::from(4);
@@ -242,7 +262,7 @@ impl Asked {
         let mut pieces: Vec<Piece> = Vec::new();
         // The number of the look that showed that not all points of the box meet the requirement, or that this is not seen.
         let mut hopeless = None;
-        let look = |cell: &mut Cell, tally: Tally| {
+        let look = |cell: &mut Cell<A::Piece>, tally: Tally| {
             let most = hopeless.map_or(MOST_PIECES, |first| MOST_PIECES.min(first + MOST_HOPELESS));
             if tally.looks() >= most {
                 return Ok(Look::Open(None));
@@ -264,8 +284,8 @@ impl Asked {
             pieces.push(Piece { lower, upper, crossing: here });
             Ok(Look::Decided(()))
         };
-        let whole = self.cell(&[Rational::ZERO, four], 0);
-        let all = subdivide([whole], Order::Breadth, &Budget::unlimited(), look);
+        let whole: Vec<_> = A::pieces().iter().map(|ends| self.cell(ends, 0)).collect();
+        let all = subdivide(whole, Order::Breadth, &Budget::unlimited(), look);
         if let Ok(Err(Some(is_met))) = all {
             return Some(is_met);
         }
@@ -281,15 +301,20 @@ impl Asked {
         (matches!(all, Ok(Ok(_))) && pieces.iter().all(is_allowed)).then_some(true)
     }
 
-    fn cell(&self, ends: &[Rational; 2], halvings: u32) -> Cell {
-        let on = |p: &AlongCircle| p.on(ends.each_ref());
+    /// Whether the last of the pieces with which a look begins is told as a whole.
+    pub fn is_told_last(&self) -> bool {
+        A::pieces().last().is_none_or(|ends| self.told(&self.cell(ends, 0)) != Crossing::Unknown)
+    }
+
+    fn cell(&self, ends: &[Rational; 2], halvings: u32) -> Cell<A::Piece> {
+        let on = |p: &A| p.on(ends.each_ref());
         let (crossing, signs) = (self.crossing.as_ref().map(on), self.signs.iter().map(on).collect());
         Cell { ends: ends.clone(), halvings, crossing, signs }
     }
 
     /// What is known of crossings on a piece.
-    fn told(&self, cell: &Cell) -> Crossing {
-        match cell.crossing.as_ref().and_then(Patch::sign) {
+    fn told(&self, cell: &Cell<A::Piece>) -> Crossing {
+        match cell.crossing.as_ref().and_then(|f| f.patch().sign()) {
             Some(sign) => Crossing::None(sign),
             None => self.allowed(cell),
         }
@@ -298,7 +323,7 @@ impl Asked {
     /// Whether a sign of the polynomial of crossings changes over neighbouring pieces that all forbid one.
     fn is_forbidden(&self, pieces: &[Piece]) -> bool {
         let Some(crossing) = &self.crossing else { return false };
-        let at = |y: &Rational| crossing.on([y, y]).sign();
+        let at = |y: &Rational| crossing.on([y, y]).patch().sign();
         // The sign on one side of pieces that forbid a crossing, and where they end.
         let mut before: Option<(Sign, &Rational)> = None;
         for piece in pieces {
@@ -320,8 +345,9 @@ impl Asked {
     }
 
     /// Whether a crossing is allowed on a piece, if there is one; without a polynomial of crossings, whether all is.
-    fn allowed(&self, cell: &Cell) -> Crossing {
-        let sign = |g: &Patch| g.sign_beside(cell.crossing.as_ref());
+    fn allowed(&self, cell: &Cell<A::Piece>) -> Crossing {
+        let zero = cell.crossing.as_ref().map(A::Piece::patch);
+        let sign = |g: &A::Piece| g.patch().sign_beside(zero);
         let signs = cell.signs.iter().map(sign).collect::<Option<Vec<Sign>>>();
         match (signs.as_deref(), self.rule) {
             (None | Some([]), _) => Crossing::Unknown,
@@ -336,7 +362,7 @@ impl Asked {
         let Some(crossing) = &self.crossing else { return false };
         let look = |part: &mut BoxPart, tally: Tally| {
             let [lower, upper] = &part.sides[0];
-            Ok(match crossing.on([lower, upper]).sign() {
+            Ok(match crossing.on([lower, upper]).patch().sign() {
                 _ if tally.looks() >= MOST_SHORTER => Look::Open(()),
                 Some(_) => Look::Decided(()),
                 None => Look::Cut(0),

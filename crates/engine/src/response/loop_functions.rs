@@ -1,11 +1,17 @@
 //! The open loop as functions of parameters, in the form in which it is asked along the circle.
 
+use super::affine::AlongCircle;
+use super::along_axis::{AlongAxis, Turn};
 use super::along_circle::{Asked, Coefficient};
 use super::family::Quotient;
+use super::on_axis::OnAxis;
+use super::on_circle::OnCircle;
 use super::requirement::Rule;
+use super::taylor_along::of_octave;
 use crate::stability::Shape;
-use jurist_algebra::number::Rational;
-use jurist_algebra::poly::{Domain, MultiPoly, Poly, RealAlgebraic};
+use jurist_algebra::ball::{Ball, Elementary, MultiTaylorModel};
+use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, RealAlgebraic};
 
 /// What a requirement asks of an open loop in parameters, as polynomials in these and in symbols.
 pub(super) struct LoopFunctions {
@@ -15,11 +21,27 @@ pub(super) struct LoopFunctions {
     /// How many are the denominator's, and the numerator's.
     sizes: [usize; 2],
     rule: Rule,
+    /// Whether the open loop has a dead time: its numerator and denominator are the last functions.
+    has_dead_time: bool,
+}
+
+/// Values of all functions.
+struct Values<'v, C> {
+    denominator: &'v [C],
+    numerator: &'v [C],
+    content: &'v C,
+    alpha: &'v C,
+    dead_time: Option<[&'v C; 2]>,
 }
 
 impl LoopFunctions {
-    /// Of an open loop; `alpha` is the number that is asked for.
-    pub fn new(quotient: &Quotient<MultiPoly>, undefined: &MultiPoly, rule: &Rule, alpha: MultiPoly) -> LoopFunctions {
+    /// Of an open loop, which may have a factor with dead time beside the quotient; `alpha` is the number that is asked for.
+    pub fn new(
+        (quotient, dead_time): (&Quotient<MultiPoly>, Option<&RationalFunction>),
+        undefined: &MultiPoly,
+        rule: &Rule,
+        alpha: MultiPoly,
+    ) -> LoopFunctions {
         let content = quotient.numerator.content();
         let numerator = quotient.numerator.map(|c| c.div_exact(&content).expect("the content divides"));
         let one_more = Poly::new(vec![MultiPoly::one(), MultiPoly::one()]);
@@ -28,8 +50,14 @@ impl LoopFunctions {
             Shape::LeftHalfPlane => p.coeffs().to_vec(),
         });
         let sizes = [parts[0].len(), parts[1].len()];
-        let all = parts.into_iter().flatten().chain([content, alpha, undefined.clone()]).collect();
-        LoopFunctions { all, sizes, rule: rule.clone() }
+        let time = dead_time.into_iter().flat_map(|t| [t.numerator().clone(), t.denominator().clone()]);
+        let all = parts.into_iter().flatten().chain([content, alpha, undefined.clone()]).chain(time).collect();
+        LoopFunctions { all, sizes, rule: rule.clone(), has_dead_time: dead_time.is_some() }
+    }
+
+    /// Whether the open loop has a dead time.
+    pub fn has_dead_time(&self) -> bool {
+        self.has_dead_time
     }
 
     /// The coefficients of the denominator.
@@ -39,15 +67,57 @@ impl LoopFunctions {
 
     /// What is asked along the circle, of all functions' values in a box; `on_circle` brings both polynomials there. `None` where the loop may be
     /// undefined.
-    pub fn asked<C: Coefficient>(&self, values: &[C], on_circle: impl Fn([&[C]; 2]) -> [Vec<C>; 2]) -> Option<Asked> {
-        let (d, rest) = values.split_at(self.sizes[0]);
-        let (n, rest) = rest.split_at(self.sizes[1]);
-        let [content, alpha, undefined] = rest else { return None };
+    pub fn asked<C: Coefficient>(
+        &self,
+        values: &[C],
+        on_circle: impl Fn([&[C]; 2]) -> [Vec<C>; 2],
+    ) -> Option<Asked<AlongCircle>> {
+        let Values { denominator, numerator, content, alpha, .. } = self.values(values)?;
+        let [d, n] = on_circle([denominator, numerator]);
+        Some(Asked::of(&self.rule, &OnCircle::new(d, n, content), alpha))
+    }
+
+    /// Whether the requirement is met at all points of a box, or at none, of an open loop with dead time; `octave` is that of a frequency beyond which the
+    /// open loop is small enough in whatever direction it points. Where it is not in this box, a higher one is taken.
+    pub fn certain_on_axis(&self, values: &[MultiTaylorModel], octave: i64) -> Option<bool> {
+        let (asked, _) = self.asked_on_axis(values, octave)?;
+        asked.certain()
+    }
+
+    /// The octave of a frequency beyond which the open loop is small enough in a box, from a known one on; `None` where there is none.
+    pub fn octave_from(&self, values: &[MultiTaylorModel], octave: i64) -> Option<i64> {
+        self.asked_on_axis(values, octave).map(|(_, octave)| octave)
+    }
+
+    fn asked_on_axis(&self, values: &[MultiTaylorModel], octave: i64) -> Option<(Asked<AlongAxis>, i64)> {
+        let Values { denominator, numerator, content, alpha, dead_time } = self.values(values)?;
+        let [above, below] = dead_time?;
+        let time = above.div(below)?;
+        let degree = denominator.len().max(numerator.len()) - 1;
+        let [d, n] = [denominator, numerator].map(|p| of_octave(p, octave, degree));
+        let unit = Ball::from_integer(&Integer::ONE, time.bits()).shifted(octave);
+        let time = time.mul(&time.constant(&unit));
+        let products = OnAxis::new(&d, &n, content);
+        (0..MOST_OCTAVES).find_map(|more| {
+            let products = products.from(more, Turn::new(&time.scaled(&(Integer::ONE << more)).affine()));
+            let asked = Asked::of(&self.rule, &products, alpha);
+            asked.is_told_last().then_some((asked, octave + more as i64))
+        })
+    }
+
+    /// The values in their places; `None` where the loop may be undefined.
+    fn values<'v, C: Coefficient>(&self, values: &'v [C]) -> Option<Values<'v, C>> {
+        let (denominator, rest) = values.split_at(self.sizes[0]);
+        let (numerator, rest) = rest.split_at(self.sizes[1]);
+        let [content, alpha, undefined, time @ ..] = rest else { return None };
         undefined.affine().sign()?;
-        let [d, n] = on_circle([d, n]);
-        Some(Asked::of(&self.rule, &d, (&n, content), alpha))
+        let dead_time = if let [above, below] = time { Some([above, below]) } else { None };
+        Some(Values { denominator, numerator, content, alpha, dead_time })
     }
 }
+
+/// The frequency beyond which nothing turns that matters is raised by so many octaves at most.
+const MOST_OCTAVES: u64 = 32;
 
 /// The number that a rule asks for; zero where that is part of the rule.
 pub(super) fn number_asked(rule: &Rule) -> RealAlgebraic {

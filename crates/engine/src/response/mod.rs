@@ -6,6 +6,7 @@
 //! ([`HalfSizePair`](crate::stability::HalfSizePair)), whose zeros are isolated; every margin is an algebraic number or a known function of one.
 
 mod affine;
+mod along_axis;
 mod along_circle;
 mod asked;
 mod by_gain;
@@ -25,6 +26,8 @@ mod loop_functions;
 mod margins;
 mod met;
 mod norm;
+mod on_axis;
+mod on_circle;
 mod on_roots;
 mod open_loop;
 mod over_box;

@@ -4,20 +4,21 @@
 //! parameters enclose the coefficients ([MakinoBerz2003](jurist_algebra::bibliography#makinoberz2003)), behind a hold as well as of a
 //! rational loop. The half plane is brought to the disc, so that there is one circle to go along.
 
-use super::along_circle::{Asked, twice_real};
+use super::along_circle::Asked;
 use super::family::{Quotient, nothing_comes_back};
 use super::loop_functions::{LoopFunctions, number_asked};
+use super::on_circle::twice_real;
 use super::requirement::{Requirement, Rule};
 use super::taylor_along::{beyond_axis, binomial, combined, combined_to, of_octave, on_ray, on_wider_disc};
-use crate::coverage::refusals::MARGINS_AT_POINTS;
+use crate::coverage::refusals::{BESIDE_DEAD_TIME, MARGINS_AT_POINTS, ONE_FACTOR};
 use crate::error::{Code, Diagnostic, Error};
-use crate::model::{Cut, Opened};
+use crate::model::{Cut, Opened, Symbols};
 use crate::problem::{Problem, parametric_symbols};
 use crate::stability::Shape;
 use jurist_algebra::ball::{Ball, Elementary, MultiTaylorModel, exp};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::{Domain, MultiPoly, Poly};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction};
 use jurist_algebra::symbols::{Definition, ParametricSymbols};
 use std::sync::Arc;
 
@@ -115,6 +116,17 @@ impl OverBox {
         let own = found.functions().iter().map(|f| degree_in(f, near.len())).max().unwrap_or(0);
         found.like = model(near.len(), model_degree(near.len(), LEAST_DEGREE.max(own)));
         found.octave = budget.enter(|| found.octave_at(near))?;
+        if let Asks::OpenLoop(functions) = &found.asks
+            && functions.has_dead_time()
+        {
+            let point: Vec<[Rational; 2]> = near.iter().map(|x| [x.clone(), x.clone()]).collect();
+            let at = |values: Vec<MultiTaylorModel>| -> Vec<MultiTaylorModel> {
+                functions.all.iter().map(|p| found.symbols.value(p, &values)).collect()
+            };
+            let values = || found.values(&point, BITS).map(at);
+            let known = budget.enter(|| functions.octave_from(&values()?, found.octave))?;
+            found.octave = known.unwrap_or(found.octave);
+        }
         Ok(found)
     }
 
@@ -158,6 +170,10 @@ impl OverBox {
             list.iter().map(|p| self.symbols.value(p, &values)).collect()
         };
         match &self.asks {
+            Asks::OpenLoop(functions) if functions.has_dead_time() => {
+                let is_met = functions.certain_on_axis(&at(&functions.all), self.octave)?;
+                Some(if is_met { Certain::Met } else { Certain::Unmet })
+            }
             Asks::OpenLoop(functions) => {
                 let asked = functions.asked(&at(&functions.all), |both| self.on_circle(both))?;
                 Some(if asked.certain()? { Certain::Met } else { Certain::Unmet })
@@ -301,17 +317,53 @@ fn open_loop(
     }
     let kept: Vec<String> = problem.free().iter().map(|free| free.name.clone()).collect();
     let Opened { system, symbols, .. } = problem.model().opened(&cut, &kept, problem.set(), budget)?;
-    if !symbols.delays().is_empty() {
-        return Err(MARGINS_AT_POINTS.diagnostic(&[]).into());
-    }
-    let (quotient, undefined) = Quotient::of(&system, problem.shape(), MultiPoly::clone, budget)?;
+    let (mut quotient, undefined) = Quotient::of(&system, problem.shape(), MultiPoly::clone, budget)?;
     if quotient.numerator.is_zero() {
         return Err(nothing_comes_back(&cut));
     }
-    let table = parametric_symbols(&symbols)?;
+    let dead_time = dead_time(&mut quotient, &undefined, &symbols)?;
+    let table = match &dead_time {
+        Some(_) => ParametricSymbols::new(Vec::new()),
+        None => parametric_symbols(&symbols)?,
+    };
     let alpha = MultiPoly::variable(kept.len() + table.len());
-    let functions = budget.enter(|| LoopFunctions::new(&quotient, &undefined, rule, alpha))?;
+    let parts = (&quotient, dead_time.as_ref());
+    let functions = budget.enter(|| LoopFunctions::new(parts, &undefined, rule, alpha))?;
     Ok((table.with("alpha", Definition::Algebraic(number_asked(rule))), Asks::OpenLoop(functions)))
+}
+
+/// The dead time of the one factor of an open loop that has it, which is divided away; `None` of a loop without.
+///
+/// # Errors
+/// Refused where the dead time is elsewhere, or beside other functions.
+fn dead_time(
+    quotient: &mut Quotient<MultiPoly>,
+    undefined: &MultiPoly,
+    symbols: &Symbols,
+) -> Result<Option<RationalFunction>, Error> {
+    let delays = symbols.delays();
+    if delays.is_empty() {
+        return Ok(None);
+    }
+    if symbols.iter().count() > delays.len() {
+        return Err(BESIDE_DEAD_TIME.diagnostic(&[]).into());
+    }
+    let mut total = RationalFunction::zero();
+    let mut factor = MultiPoly::one();
+    for (variable, time) in &delays {
+        let powers = quotient.numerator.coeffs().iter().flat_map(MultiPoly::terms).map(|(m, _)| m.exponent(*variable));
+        for _ in 0..powers.min().unwrap_or(0) {
+            total = &total + time;
+            factor = factor.times(&MultiPoly::variable(*variable));
+        }
+    }
+    quotient.numerator = quotient.numerator.map(|c| c.div_exact(&factor).expect("each term has the factor"));
+    let all = quotient.numerator.coeffs().iter().chain(quotient.denominator.coeffs()).chain([undefined]);
+    let has_delay = |p: &MultiPoly| delays.iter().any(|(variable, _)| p.degree_in(*variable) > 0);
+    if all.into_iter().any(has_delay) {
+        return Err(ONE_FACTOR.diagnostic(&[]).into());
+    }
+    Ok(Some(total))
 }
 
 /// The total degree in the first variables.

@@ -37,7 +37,7 @@ impl OverBoxes {
         if quotient.shape != Shape::UnitDisc || !is_known {
             return None;
         }
-        let functions = LoopFunctions::new(quotient, undefined, asked, MultiPoly::variable(symbols.len()));
+        let functions = LoopFunctions::new((quotient, None), undefined, asked, MultiPoly::variable(symbols.len()));
         Some(OverBoxes { symbols, functions })
     }
 

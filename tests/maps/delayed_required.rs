@@ -1,0 +1,42 @@
+//! Requirements on margins of loops with dead time, over boxes, against decisions at points.
+
+use super::required_boxes::{agrees, boxes, decided, diagram, required};
+use crate::helpers::number::number;
+use crate::helpers::random::Random;
+use jurist_engine::response::Requirement;
+
+fn kinds() -> [Requirement; 5] {
+    [
+        Requirement::phase_margin(&number("40")).unwrap(),
+        Requirement::gain_margin(&number("2")).unwrap(),
+        Requirement::modulus_margin(number("1/2")).unwrap(),
+        Requirement::complementary_peak(number("3/2")).unwrap(),
+        Requirement::disk_margin(number("1/2")).unwrap(),
+    ]
+}
+
+/// Gains, a dead time, a zero and a time constant on the axes; with one pole at 0, with two, and with none.
+#[test]
+fn boxes_of_loops_with_dead_time_agree_with_decisions_at_points() {
+    let mut random = Random::new(41);
+    let loops = [
+        ("K + L/s", "exp(-s)/(2*s + 1)", [["0", "3"], ["0", "2"]]),
+        ("K", "exp(-L*s)/(s + 1)", [["-1", "6"], ["0", "2"]]),
+        ("K", "(1 + L*s)*exp(-0.25*s)/s^2", [["0", "4"], ["0", "3"]]),
+        ("K", "(1 - L*s)*exp(-0.5*s)/(s*(s + 3))", [["0", "6"], ["-1", "1"]]),
+        ("K", "exp(-0.3*s)/(L*s - 1)", [["0", "6"], ["1/2", "3"]]),
+    ];
+    let mut seen = [0; 2];
+    for (controller, plant, sides) in loops {
+        let model = diagram("continuous", ["K", "L"], controller, plant, false);
+        for requirement in &kinds() {
+            let answer = boxes(&model, ["K", "L"], sides, "1/8", std::slice::from_ref(requirement));
+            let [unmet, met] =
+                agrees(&answer, &mut random, 8, |p| decided(&model, ["K", "L"], p, requirement));
+            seen = [seen[0] + unmet, seen[1] + met];
+            let told = required(&answer).iter().filter(|b| b.met.is_some()).count();
+            assert!(told > 4, "{controller} {plant} {}", requirement.text());
+        }
+    }
+    assert!(seen[0] > 40 && seen[1] > 40, "{seen:?}");
+}
