@@ -101,7 +101,7 @@ static ROWS: &[Row] = &[
     Row::new(Asked::MapInRegion, "map -x NAME -y NAME REGION", [A(&DECOMPOSITION), A(&DECOMPOSITION), B(&FUNCTION_BOXES), R(&DECAY), R(&DECAY), NO_ORDER]),
     Row::new(Asked::ToleranceInRegion, "tolerance --tol NAME=10% REGION", [A(&TENSOR), A(&TENSOR), A(&FUNCTION_TENSOR), R(&DECAY), R(&DECAY), NO_ORDER]),
     at_a_point(Asked::VerdictWithMargins, "verdict --modulus-margin 1/100", [A(&FREQUENCIES), A(&FREQUENCIES), OPEN_LOOP, BESIDE]),
-    Row::new(Asked::IntervalsWithMargins, "intervals --param NAME --modulus-margin 1/100", [A(&RESULTANTS), A(&ENCLOSED_RESULTANTS), A(&ENCLOSED_RESULTANTS), R(&MARGINS_AT_POINTS), BESIDE, NO_ORDER]),
+    Row::new(Asked::IntervalsWithMargins, "intervals --param NAME --modulus-margin 1/100", [A(&RESULTANTS), A(&ENCLOSED_RESULTANTS), A(&ENCLOSED_RESULTANTS), BOXES_WITH_DEAD_TIME, BESIDE, NO_ORDER]),
     Row::new(Asked::MapWithMargins, "map -x NAME -y NAME --modulus-margin 1/100", [A(&RESULTANTS), A(&RESULTANTS), B(&REQUIRED_BOXES), BOXES_WITH_DEAD_TIME, BESIDE, NO_ORDER]),
     Row::new(Asked::ToleranceWithMargins, "tolerance --tol NAME=10% --modulus-margin 1/100", [A(&TENSOR), A(&TENSOR), A(&REQUIRED_BOXES), BOX_ALONE, BOX_ALONE, NO_ORDER]),
     at_a_point(Asked::VerdictWithDamping, "verdict --damping 1/10", [A(&ROOTS), A(&ROOTS), NO_DELAY, BESIDE]),

@@ -1,6 +1,6 @@
 //! Polynomials along the circle whose coefficients are nearly linear in a box of parameters.
 
-use super::along_circle::Coefficient;
+use super::along_circle::{Coefficient, NearlyLinear};
 use crate::stability::subdivision::Halves;
 use jurist_algebra::ball::Ball;
 use jurist_algebra::number::{Integer, Rational, Sign};
@@ -46,12 +46,12 @@ impl AlongCircle {
     /// From coefficients of powers of `y`, read with the degree `length - 1`.
     ///
     /// Cost: half the square of the degree, in sums of coefficients.
-    pub fn new<C: Coefficient>(p: Vec<C>, length: usize) -> AlongCircle {
+    pub fn new<C: NearlyLinear>(p: Vec<C>, length: usize) -> AlongCircle {
         AlongCircle::up_to(p, length, 2)
     }
 
     /// The same for `y` from 0 to a power of two.
-    pub fn up_to<C: Coefficient>(mut p: Vec<C>, length: usize, exponent: u64) -> AlongCircle {
+    pub fn up_to<C: NearlyLinear>(mut p: Vec<C>, length: usize, exponent: u64) -> AlongCircle {
         let zero = p[0].scaled(&Integer::ZERO);
         p.resize(length, zero);
         let all: Vec<Affine> = bernstein(p, exponent).iter().map(C::affine).collect();

@@ -4,7 +4,7 @@
 //! frequency, they are any numbers from -1 to 1. Where the open loop is small that is enough.
 
 use super::affine::{Affine, AlongCircle, Patch};
-use super::along_circle::{Along, Coefficient, Function, OnPiece};
+use super::along_circle::{Along, Coefficient, Function, NearlyLinear, OnPiece};
 use crate::stability::subdivision::Halves;
 use jurist_algebra::ball::{Ball, cos_sin};
 use jurist_algebra::number::{Integer, Rational};
@@ -162,7 +162,7 @@ pub(super) struct AlongAxis {
 
 impl AlongAxis {
     /// Functions given by the coefficients of powers of `omega`, in lists of one length.
-    pub fn all<C: Coefficient>(functions: Vec<Function<C, 3>>, turn: &Arc<Turn>) -> Vec<AlongAxis> {
+    pub fn all<C: NearlyLinear>(functions: Vec<Function<C, 3>>, turn: &Arc<Turn>) -> Vec<AlongAxis> {
         let length = functions.iter().flatten().map(Vec::len).max().unwrap_or(0);
         let far: Vec<Function<C, 3>> = functions.iter().map(beyond).collect();
         let far_length = far.iter().flatten().map(Vec::len).max().unwrap_or(0);

@@ -19,6 +19,10 @@ pub(super) trait Coefficient: Clone {
     fn scaled(&self, n: &Integer) -> Self;
     /// Whether it is zero in the whole box.
     fn is_zero(&self) -> bool;
+}
+
+/// One that is known to be near a linear function.
+pub(super) trait NearlyLinear: Coefficient {
     /// Near what linear function of coordinates from -1 to 1 it is.
     fn affine(&self) -> Affine;
 }
@@ -28,6 +32,10 @@ const MOST_PIECES: usize = 240;
 
 /// A piece is halved so often at most: what is slow beside the sample time is near to 0.
 const MOST_HALVINGS: u32 = 72;
+
+/// Pieces on which something changes are halved so often.
+const CROSSING_HALVINGS: u32 = 36;
+const DISTANCE_HALVINGS: u32 = 18;
 
 /// Where it is known that not all points of a box are seen to meet the requirement, so many pieces more are looked at for a crossing that
 /// none of them allows.
@@ -42,6 +50,8 @@ pub(super) struct Asked<A> {
     crossing: Option<A>,
     /// The functions that tell whether a crossing is allowed.
     signs: Vec<A>,
+    /// Where both have the same sign, any modulus is allowed.
+    upright: Vec<A>,
     rule: Allows,
 }
 
@@ -90,9 +100,6 @@ pub(super) type Function<C, const N: usize> = [Vec<C>; N];
 
 /// What requirements ask of an open loop along the boundary of stability, as functions whose coefficients depend on parameters.
 pub(super) trait Products<C: Coefficient, const N: usize> {
-    /// A function in the form in which it is looked at.
-    type Along: Along;
-
     /// Twice the squares of the moduli of the denominator and of the numerator.
     fn moduli(&self) -> [Function<C, N>; 2];
     /// Twice the real part of the numerator times the conjugate of the denominator.
@@ -102,33 +109,38 @@ pub(super) trait Products<C: Coefficient, const N: usize> {
     fn imaginary(&self) -> Function<C, N>;
     /// Twice the square of the modulus of `u D + v N`.
     fn combined(&self, u: &Integer, v: &Integer) -> Function<C, N>;
+    /// The real part in place of that imaginary part, times the same; `None` where it is not asked for.
+    fn real(&self) -> Option<Function<C, N>> {
+        None
+    }
     /// Whether the open loop is infinite at the lowest frequency.
     fn has_integrator(&self) -> bool;
-    /// Functions in the form in which they are looked at, in lists that have as many coefficients.
-    fn along(&self, functions: Vec<Function<C, N>>) -> Vec<Self::Along>;
 }
 
-impl Asked<AlongCircle> {
-    /// That a polynomial in `y` is positive.
-    pub fn positive<C: Coefficient>(p: &[C]) -> Asked<AlongCircle> {
-        Asked::new(None, vec![[p.to_vec()]], Allows::Positive, OnCircle::along)
+/// The functions for which a requirement asks.
+pub(super) struct Functions<C, const N: usize> {
+    /// What is zero at a crossing; none where each frequency counts.
+    pub crossing: Option<Function<C, N>>,
+    /// What tells whether a crossing is allowed.
+    pub signs: Vec<Function<C, N>>,
+    /// Where both have the same sign, the open loop is so near to a right angle that it may have any modulus.
+    upright: Vec<Function<C, N>>,
+    rule: Allows,
+}
+
+impl<C: Coefficient, const N: usize> Functions<C, N> {
+    /// Of a rule; `alpha` is the number that is asked for.
+    pub fn of(rule: &Rule, products: &impl Products<C, N>, alpha: &C) -> Functions<C, N> {
+        Functions::without_upright(rule, products, alpha).beside(rule, products)
     }
-}
 
-impl<A: Along> Asked<A> {
-    /// The functions for which the requirement asks; `alpha` is the number that is asked for.
-    pub fn of<C: Coefficient, const N: usize>(
-        rule: &Rule,
-        products: &impl Products<C, N, Along = A>,
-        alpha: &C,
-    ) -> Asked<A> {
+    fn without_upright(rule: &Rule, products: &impl Products<C, N>, alpha: &C) -> Functions<C, N> {
         let sum = |p: &Function<C, N>, q: &Function<C, N>| -> Function<C, N> {
             std::array::from_fn(|i| sum_of(&p[i], &q[i]))
         };
         let times = |p: &Function<C, N>, c: &C| p.each_ref().map(|p| p.iter().map(|x| x.times(c)).collect());
         let scaled =
             |p: &Function<C, N>, c: &Integer| p.each_ref().map(|p| p.iter().map(|x| x.scaled(c)).collect());
-        let new = |crossing, signs, rule| Asked::new(crossing, signs, rule, |all| products.along(all));
         match rule {
             Rule::Factors(_) => {
                 // 2 |D|^2 + k 2 Re(N conj D) at both ends of the factors.
@@ -136,32 +148,27 @@ impl<A: Along> Asked<A> {
                 let signs = [sum(&times(&below, alpha), &twice_real), sum(&below, &times(&twice_real, alpha))];
                 // With an integrator the open loop is infinite at the lowest frequency: nothing crosses there.
                 let rule = Allows::Same { at_zero: !products.has_integrator() };
-                new(Some(products.imaginary()), signs.into(), rule)
+                Functions::new(Some(products.imaginary()), signs.into(), rule)
             }
             Rule::Circle(circle) => {
                 let [u, v] = circle.combined().map(Integer::from);
                 let [p, q] = [circle.least().numerator(), circle.least().denominator()];
                 let (whole, part) = (products.combined(&Integer::ONE, &Integer::ONE), products.combined(&u, &v));
                 let excess = sum(&scaled(&whole, &(&q * &q)), &scaled(&part, &-(&p * &p)));
-                new(None, vec![excess], Allows::Positive)
+                Functions::new(None, vec![excess], Allows::Positive)
             }
             _ => {
                 let ([below, above], twice_real) = (products.moduli(), products.twice_real());
                 let excess = sum(&above, &scaled(&below, &-Integer::ONE));
                 let sign = sum(&scaled(&twice_real, &Integer::from(2)), &times(&above, alpha));
-                new(Some(excess), vec![sign], Allows::Positive)
+                Functions::new(Some(excess), vec![sign], Allows::Positive)
             }
         }
     }
 
     /// Of functions given by coefficients of powers of the variable. They are divided by powers of it, which are positive: with integrators they
     /// vanish at 0. Signs that are compared with each other are divided by the same power, so that one that vanishes at 0 alone is seen there.
-    fn new<C: Coefficient, const N: usize>(
-        mut crossing: Option<Function<C, N>>,
-        mut signs: Vec<Function<C, N>>,
-        rule: Allows,
-        along: impl FnOnce(Vec<Function<C, N>>) -> Vec<A>,
-    ) -> Asked<A> {
+    fn new(mut crossing: Option<Function<C, N>>, mut signs: Vec<Function<C, N>>, rule: Allows) -> Functions<C, N> {
         let of_one = |p: &Vec<C>| p.iter().take_while(|c| c.is_zero()).count();
         let zeros = |f: &Function<C, N>| {
             let most = f.iter().map(Vec::len).max().unwrap_or(1) - 1;
@@ -179,11 +186,71 @@ impl<A: Along> Asked<A> {
             let by = zeros(f);
             divide(f, by);
         }
-        let has_crossing = crossing.is_some();
-        let mut all = along(crossing.into_iter().chain(signs).collect());
-        let crossing = has_crossing.then(|| all.remove(0));
-        Asked { crossing, signs: all, rule }
+        Functions { crossing, signs, upright: Vec::new(), rule }
     }
+
+    /// With what tells where the open loop is near to a right angle.
+    fn beside(mut self, rule: &Rule, products: &impl Products<C, N>) -> Functions<C, N> {
+        if let (Some(real), Some(most)) = (products.real(), upright(rule)) {
+            let imaginary = products.imaginary();
+            let scaled =
+                |p: &Function<C, N>, c: &Integer| p.each_ref().map(|p| p.iter().map(|x| x.scaled(c)).collect::<Vec<C>>());
+            let sum = |p: &Function<C, N>, q: &Function<C, N>| std::array::from_fn(|i| sum_of(&p[i], &q[i]));
+            let (wide, below) = (scaled(&imaginary, &most.numerator()), most.denominator());
+            let both = [below.clone(), -below].map(|c| sum(&wide, &scaled(&real, &c)));
+            self.upright = Functions::new(None, both.into(), Allows::Positive).signs;
+        }
+        self
+    }
+
+    /// In the form in which they are looked at; the lists have as many coefficients.
+    pub fn along<A: Along>(self, along: impl FnOnce(Vec<Function<C, N>>) -> Vec<A>) -> Asked<A> {
+        let (has_crossing, count) = (self.crossing.is_some(), self.signs.len());
+        let mut all = along(self.crossing.into_iter().chain(self.signs).chain(self.upright).collect());
+        let crossing = has_crossing.then(|| all.remove(0));
+        let upright = all.split_off(count);
+        Asked { crossing, signs: all, upright, rule: self.rule }
+    }
+}
+
+impl Asked<AlongCircle> {
+    /// That a polynomial in `y` is positive.
+    pub fn positive<C: NearlyLinear>(p: &[C]) -> Asked<AlongCircle> {
+        Functions::new(None, vec![[p.to_vec()]], Allows::Positive).along(OnCircle::along)
+    }
+}
+
+/// The tangent of an angle by which an open loop of any modulus may be off a right angle and meets what is required; `None` where none is known.
+fn upright(rule: &Rule) -> Option<Rational> {
+    let positive = |x: Rational| Some(x).filter(|x| x.sign().is_gt());
+    match rule {
+        // |L| = 1 and 2 cos + alpha > 0.
+        Rule::Turned { twice_cosine } => {
+            let (lower, _) = twice_cosine.refined(&Rational::dyadic(&Integer::ONE, UPRIGHT_BITS)).enclosure();
+            positive(&lower * &Rational::dyadic(&Integer::ONE, 2))
+        }
+        // Nothing crosses the real axis.
+        Rule::Factors(_) => Some(Rational::ONE),
+        // With L = r (cos + j sin), q^2 |1 + L|^2 - p^2 |u + v L|^2 = (q^2 - p^2 u^2) + (q^2 - p^2 v^2) r^2 + 2 (q^2 - p^2 u v) r cos.
+        Rule::Circle(circle) => {
+            let [u, v] = circle.combined().map(Rational::from);
+            let square = circle.least() * circle.least();
+            let [first, last] = [&u, &v].map(|x| Rational::ONE - &square * &(x * x));
+            let between = Rational::ONE + &square * &(&u * &v).abs();
+            let least = first.min(last);
+            positive(&least.checked_div(&between)? * &Rational::dyadic(&Integer::ONE, 1))
+        }
+        _ => None,
+    }
+}
+
+/// Bits of the number that is asked for.
+const UPRIGHT_BITS: u64 = 32;
+
+/// Whether both functions have the same sign.
+fn is_upright<P: OnPiece>(both: &[P]) -> bool {
+    let signs: Vec<Option<Sign>> = both.iter().map(|f| f.patch().sign()).collect();
+    matches!(signs[..], [Some(a), Some(b)] if a == b)
 }
 
 /// The sum of two polynomials.
@@ -199,6 +266,7 @@ struct Cell<P> {
     halvings: u32,
     crossing: Option<P>,
     signs: Vec<P>,
+    upright: Vec<P>,
 }
 
 impl<P: OnPiece> Cell<P> {
@@ -210,11 +278,12 @@ impl<P: OnPiece> Cell<P> {
             halvings: self.halvings,
             crossing: self.crossing.as_ref().map(P::first),
             signs: self.signs.iter().map(P::first).collect(),
+            upright: self.upright.iter().map(P::first).collect(),
         }
     }
 
     fn is_blurred(&self) -> bool {
-        self.crossing.iter().chain(&self.signs).any(P::is_blurred)
+        self.crossing.iter().chain(&self.signs).chain(&self.upright).any(P::is_blurred)
     }
 }
 
@@ -223,7 +292,8 @@ impl<P: OnPiece> Halves for Cell<P> {
         let [lower, upper] = self.ends;
         let middle = lower.midpoint(&upper);
         let crossing = self.crossing.map(|f| f.halves(axis));
-        let signs: Vec<[P; 2]> = self.signs.into_iter().map(|g| g.halves(axis)).collect();
+        let [signs, upright] = [self.signs, self.upright]
+            .map(|list| -> Vec<[P; 2]> { list.into_iter().map(|g| g.halves(axis)).collect() });
         [[lower, middle.clone()], [middle, upper]]
             .into_iter()
             .enumerate()
@@ -232,6 +302,7 @@ impl<P: OnPiece> Halves for Cell<P> {
                 halvings: self.halvings + 1,
                 crossing: crossing.as_ref().map(|both| both[k].clone()),
                 signs: signs.iter().map(|both| both[k].clone()).collect(),
+                upright: upright.iter().map(|both| both[k].clone()).collect(),
             })
             .collect::<Vec<_>>()
             .try_into()
@@ -306,17 +377,55 @@ impl<A: Along> Asked<A> {
         A::pieces().last().is_none_or(|ends| self.told(&self.cell(ends, 0)) != Crossing::Unknown)
     }
 
+    /// The pieces, ascending and not touching, on which a crossing that is not allowed may be; `None` where there are too many.
+    pub fn open_pieces(&self) -> Option<Vec<[Rational; 2]>> {
+        // The least distance to a circle is looked for where it hardly changes.
+        let halvings = if self.crossing.is_some() { CROSSING_HALVINGS } else { DISTANCE_HALVINGS };
+        let mut open: Vec<[Rational; 2]> = Vec::new();
+        let look = |cell: &mut Cell<A::Piece>, tally: Tally| {
+            if tally.looks() >= 4 * MOST_PIECES {
+                return Ok(Look::Open(()));
+            }
+            if cell.is_blurred() {
+                *cell = self.cell(&cell.ends, cell.halvings);
+            }
+            if !matches!(self.told(cell), Crossing::Unknown | Crossing::Forbidden) {
+                return Ok(Look::Decided(()));
+            }
+            if cell.halvings < halvings {
+                return Ok(Look::Cut(0));
+            }
+            open.push(cell.ends.clone());
+            Ok(Look::Decided(()))
+        };
+        let whole: Vec<_> = A::pieces().iter().map(|ends| self.cell(ends, 0)).collect();
+        subdivide(whole, Order::Breadth, &Budget::unlimited(), look).ok()?.ok()?;
+        open.sort();
+        let mut out: Vec<[Rational; 2]> = Vec::new();
+        for [lower, upper] in open {
+            match out.last_mut().filter(|last| last[1] == lower) {
+                Some(last) => last[1] = upper,
+                None => out.push([lower, upper]),
+            }
+        }
+        Some(out)
+    }
+
     fn cell(&self, ends: &[Rational; 2], halvings: u32) -> Cell<A::Piece> {
         let on = |p: &A| p.on(ends.each_ref());
-        let (crossing, signs) = (self.crossing.as_ref().map(on), self.signs.iter().map(on).collect());
-        Cell { ends: ends.clone(), halvings, crossing, signs }
+        let all = |list: &[A]| list.iter().map(on).collect();
+        let crossing = self.crossing.as_ref().map(on);
+        Cell { ends: ends.clone(), halvings, crossing, signs: all(&self.signs), upright: all(&self.upright) }
     }
 
     /// What is known of crossings on a piece.
     fn told(&self, cell: &Cell<A::Piece>) -> Crossing {
         match cell.crossing.as_ref().and_then(|f| f.patch().sign()) {
             Some(sign) => Crossing::None(sign),
-            None => self.allowed(cell),
+            None => match self.allowed(cell) {
+                Crossing::Unknown if is_upright(&cell.upright) => Crossing::Allowed,
+                told => told,
+            },
         }
     }
 

@@ -134,6 +134,15 @@ pub(super) fn outward(end: &Option<End>, is_lower: bool) -> Option<Rational> {
     Some(if is_lower { lo } else { hi })
 }
 
+/// A large value on the side without an end of an interval with one end, up to which parts of it are asked.
+pub(super) fn beyond(end: Option<&Rational>, nominal: Option<&Rational>) -> Option<Rational> {
+    let nominal = nominal.cloned().unwrap_or(Rational::ONE).abs();
+    Some(&end?.abs().max(nominal).max(Rational::dyadic(&Integer::ONE, 64)) * &Rational::from(FARTHEST))
+}
+
+/// So many times the nominal value is far for an interval without an end.
+const FARTHEST: i64 = 1 << 10;
+
 pub(super) fn edge(x: &Rational) -> End {
     End::new(Real::from(x.clone()), Cause::Undecided.into(), None)
 }

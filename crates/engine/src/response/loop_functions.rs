@@ -2,7 +2,7 @@
 
 use super::affine::AlongCircle;
 use super::along_axis::{AlongAxis, Turn};
-use super::along_circle::{Asked, Coefficient};
+use super::along_circle::{Asked, Functions, NearlyLinear};
 use super::family::Quotient;
 use super::on_axis::OnAxis;
 use super::on_circle::OnCircle;
@@ -14,6 +14,7 @@ use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, RealAlgebraic};
 
 /// What a requirement asks of an open loop in parameters, as polynomials in these and in symbols.
+#[derive(Clone)]
 pub(super) struct LoopFunctions {
     /// The coefficients of the denominator and of the numerator without its content, that content, the number that is asked for, and what must
     /// not vanish. In discrete time the coefficients are those in `w = z - 1`: what cancels at `z = 1` is seen in symbols.
@@ -25,13 +26,15 @@ pub(super) struct LoopFunctions {
     has_dead_time: bool,
 }
 
-/// Values of all functions.
-struct Values<'v, C> {
-    denominator: &'v [C],
-    numerator: &'v [C],
-    content: &'v C,
-    alpha: &'v C,
-    dead_time: Option<[&'v C; 2]>,
+/// Values of all functions, in their places.
+pub(super) struct Values<'v, C> {
+    pub denominator: &'v [C],
+    pub numerator: &'v [C],
+    pub content: &'v C,
+    pub alpha: &'v C,
+    undefined: &'v C,
+    /// The numerator and the denominator of the dead time.
+    pub dead_time: Option<[&'v C; 2]>,
 }
 
 impl LoopFunctions {
@@ -67,14 +70,14 @@ impl LoopFunctions {
 
     /// What is asked along the circle, of all functions' values in a box; `on_circle` brings both polynomials there. `None` where the loop may be
     /// undefined.
-    pub fn asked<C: Coefficient>(
+    pub fn asked<C: NearlyLinear>(
         &self,
         values: &[C],
         on_circle: impl Fn([&[C]; 2]) -> [Vec<C>; 2],
     ) -> Option<Asked<AlongCircle>> {
         let Values { denominator, numerator, content, alpha, .. } = self.values(values)?;
         let [d, n] = on_circle([denominator, numerator]);
-        Some(Asked::of(&self.rule, &OnCircle::new(d, n, content), alpha))
+        Some(Functions::of(&self.rule, &OnCircle::new(d, n, content), alpha).along(OnCircle::along))
     }
 
     /// Whether the requirement is met at all points of a box, or at none, of an open loop with dead time; `octave` is that of a frequency beyond which the
@@ -89,8 +92,9 @@ impl LoopFunctions {
         self.asked_on_axis(values, octave).map(|(_, octave)| octave)
     }
 
-    fn asked_on_axis(&self, values: &[MultiTaylorModel], octave: i64) -> Option<(Asked<AlongAxis>, i64)> {
-        let Values { denominator, numerator, content, alpha, dead_time } = self.values(values)?;
+    /// What is asked along the axis, and the octave of the frequency up to which it is asked in full.
+    pub fn asked_on_axis(&self, values: &[MultiTaylorModel], octave: i64) -> Option<(Asked<AlongAxis>, i64)> {
+        let Values { denominator, numerator, content, alpha, dead_time, .. } = self.values(values)?;
         let [above, below] = dead_time?;
         let time = above.div(below)?;
         let degree = denominator.len().max(numerator.len()) - 1;
@@ -99,20 +103,32 @@ impl LoopFunctions {
         let time = time.mul(&time.constant(&unit));
         let products = OnAxis::new(&d, &n, content);
         (0..MOST_OCTAVES).find_map(|more| {
-            let products = products.from(more, Turn::new(&time.scaled(&(Integer::ONE << more)).affine()));
-            let asked = Asked::of(&self.rule, &products, alpha);
+            let turn = Turn::new(&time.scaled(&(Integer::ONE << more)).affine());
+            let functions = Functions::of(&self.rule, &products, alpha);
+            let asked = functions.along(|all| OnAxis::along(all, more, turn));
             asked.is_told_last().then_some((asked, octave + more as i64))
         })
     }
 
     /// The values in their places; `None` where the loop may be undefined.
-    fn values<'v, C: Coefficient>(&self, values: &'v [C]) -> Option<Values<'v, C>> {
+    fn values<'v, C: NearlyLinear>(&self, values: &'v [C]) -> Option<Values<'v, C>> {
+        let values = self.split(values)?;
+        values.undefined.affine().sign()?;
+        Some(values)
+    }
+
+    /// The values in their places.
+    pub fn split<'v, C>(&self, values: &'v [C]) -> Option<Values<'v, C>> {
         let (denominator, rest) = values.split_at(self.sizes[0]);
         let (numerator, rest) = rest.split_at(self.sizes[1]);
         let [content, alpha, undefined, time @ ..] = rest else { return None };
-        undefined.affine().sign()?;
         let dead_time = if let [above, below] = time { Some([above, below]) } else { None };
-        Some(Values { denominator, numerator, content, alpha, dead_time })
+        Some(Values { denominator, numerator, content, alpha, undefined, dead_time })
+    }
+
+    /// What is required.
+    pub fn rule(&self) -> &Rule {
+        &self.rule
     }
 }
 

@@ -1,7 +1,7 @@
 //! What requirements ask of an open loop with dead time along the imaginary axis.
 
 use super::along_axis::{AlongAxis, Turn};
-use super::along_circle::{Coefficient, Function, Products, sum_of};
+use super::along_circle::{Coefficient, Function, NearlyLinear, Products, sum_of};
 use jurist_algebra::number::Integer;
 use std::sync::Arc;
 
@@ -15,13 +15,6 @@ pub(super) struct OnAxis<C> {
     imaginary: Vec<C>,
     bare: [Vec<C>; 2],
     has_integrator: bool,
-}
-
-/// The same where frequencies up to a power of two are near.
-pub(super) struct UpTo<'a, C> {
-    of: &'a OnAxis<C>,
-    octaves: u64,
-    turn: Arc<Turn>,
 }
 
 impl<C: Coefficient> OnAxis<C> {
@@ -41,16 +34,27 @@ impl<C: Coefficient> OnAxis<C> {
     }
 
     /// With frequencies up to so many octaves above the unit; the dead time is in the unit of time that belongs to them.
-    pub fn from(&self, octaves: u64, turn: Turn) -> UpTo<'_, C> {
-        UpTo { of: self, octaves, turn: Arc::new(turn) }
+    pub fn along(functions: Vec<Function<C, 3>>, octaves: u64, turn: Turn) -> Vec<AlongAxis>
+    where
+        C: NearlyLinear,
+    {
+        let scaled = |(i, p): (usize, Vec<C>)| -> Vec<C> {
+            // The last one is multiplied by sin(tau omega)/omega.
+            let more = if i < 2 { octaves } else { 0 };
+            let power = |k: usize| Integer::ONE << (octaves * k as u64 + more);
+            p.iter().enumerate().map(|(k, c)| c.scaled(&power(k))).collect()
+        };
+        let near = functions.into_iter().map(|f| {
+            let mut all = f.into_iter().enumerate().map(scaled);
+            std::array::from_fn(|_| all.next().expect("three polynomials"))
+        });
+        AlongAxis::all(near.collect(), &Arc::new(turn))
     }
 }
 
-impl<C: Coefficient> Products<C, 3> for UpTo<'_, C> {
-    type Along = AlongAxis;
-
+impl<C: Coefficient> Products<C, 3> for OnAxis<C> {
     fn moduli(&self) -> [Function<C, 3>; 2] {
-        self.of.moduli.each_ref().map(|p| {
+        self.moduli.each_ref().map(|p| {
             let nothing = vec![p[0].scaled(&Integer::ZERO)];
             [doubled(p), nothing.clone(), nothing]
         })
@@ -58,15 +62,21 @@ impl<C: Coefficient> Products<C, 3> for UpTo<'_, C> {
 
     /// `Re((R + jI)(cos - j sin)) = R cos + I sin`.
     fn twice_real(&self) -> Function<C, 3> {
-        let nothing = vec![self.of.real[0].scaled(&Integer::ZERO)];
-        [nothing, doubled(&self.of.real), doubled(&up(&self.of.imaginary))]
+        let nothing = vec![self.real[0].scaled(&Integer::ZERO)];
+        [nothing, doubled(&self.real), doubled(&up(&self.imaginary))]
     }
 
     /// `I cos - R sin`.
     fn imaginary(&self) -> Function<C, 3> {
-        let [real, imaginary] = &self.of.bare;
+        let [real, imaginary] = &self.bare;
         let negative = up(real).iter().map(|x| x.scaled(&-Integer::ONE)).collect();
         [vec![real[0].scaled(&Integer::ZERO)], imaginary.clone(), negative]
+    }
+
+    /// `R cos + I sin`.
+    fn real(&self) -> Option<Function<C, 3>> {
+        let [real, imaginary] = &self.bare;
+        Some([vec![real[0].scaled(&Integer::ZERO)], real.clone(), up(imaginary)])
     }
 
     fn combined(&self, u: &Integer, v: &Integer) -> Function<C, 3> {
@@ -80,21 +90,7 @@ impl<C: Coefficient> Products<C, 3> for UpTo<'_, C> {
     }
 
     fn has_integrator(&self) -> bool {
-        self.of.has_integrator
-    }
-
-    fn along(&self, functions: Vec<Function<C, 3>>) -> Vec<AlongAxis> {
-        let scaled = |(i, p): (usize, Vec<C>)| -> Vec<C> {
-            // The last one is multiplied by sin(tau omega)/omega.
-            let more = if i < 2 { self.octaves } else { 0 };
-            let power = |k: usize| Integer::ONE << (self.octaves * k as u64 + more);
-            p.iter().enumerate().map(|(k, c)| c.scaled(&power(k))).collect()
-        };
-        let near = functions.into_iter().map(|f| {
-            let mut all = f.into_iter().enumerate().map(scaled);
-            std::array::from_fn(|_| all.next().expect("three polynomials"))
-        });
-        AlongAxis::all(near.collect(), &self.turn)
+        self.has_integrator
     }
 }
 

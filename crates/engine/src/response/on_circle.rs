@@ -1,7 +1,7 @@
 //! What requirements ask of an open loop along the circle.
 
 use super::affine::{AlongCircle, Patch};
-use super::along_circle::{Along, Coefficient, Function, OnPiece, Products, sum_of};
+use super::along_circle::{Along, Coefficient, Function, NearlyLinear, OnPiece, Products, sum_of};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, UniPoly};
 
@@ -21,15 +21,16 @@ impl<C: Coefficient> OnCircle<C> {
     }
 
     /// Polynomials in `y`. Sums of patches are taken term by term: all have as many coefficients.
-    pub fn along(functions: Vec<[Vec<C>; 1]>) -> Vec<AlongCircle> {
+    pub fn along(functions: Vec<Function<C, 1>>) -> Vec<AlongCircle>
+    where
+        C: NearlyLinear,
+    {
         let length = functions.iter().map(|[p]| p.len()).max().unwrap_or(0);
         functions.into_iter().map(|[p]| AlongCircle::new(p, length)).collect()
     }
 }
 
 impl<C: Coefficient> Products<C, 1> for OnCircle<C> {
-    type Along = AlongCircle;
-
     fn moduli(&self) -> [Function<C, 1>; 2] {
         [&self.denominator, &self.numerator].map(|p| [twice_real(p, p)])
     }
@@ -57,10 +58,6 @@ impl<C: Coefficient> Products<C, 1> for OnCircle<C> {
 
     fn has_integrator(&self) -> bool {
         self.denominator.first().is_some_and(C::is_zero)
-    }
-
-    fn along(&self, functions: Vec<Function<C, 1>>) -> Vec<AlongCircle> {
-        OnCircle::along(functions)
     }
 }
 

@@ -5,6 +5,7 @@
 //! rational loop. The half plane is brought to the disc, so that there is one circle to go along.
 
 use super::along_circle::Asked;
+use super::axis_end::AxisSystem;
 use super::family::{Quotient, nothing_comes_back};
 use super::loop_functions::{LoopFunctions, number_asked};
 use super::on_circle::twice_real;
@@ -19,6 +20,7 @@ use jurist_algebra::ball::{Ball, Elementary, MultiTaylorModel, exp};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction};
+use jurist_algebra::real::Real;
 use jurist_algebra::symbols::{Definition, ParametricSymbols};
 use std::sync::Arc;
 
@@ -207,6 +209,30 @@ impl OverBox {
                 Asked::positive(&square).certain()?.then_some(Certain::Same)
             }
         }
+    }
+
+    /// Of a loop with dead time and one parameter, the only value in a short interval at which the requirement begins or ceases to be met, or that there
+    /// is none; `None` where neither is seen.
+    pub fn only_end(&self, [lower, upper]: &[Rational; 2]) -> Option<Option<Real>> {
+        let Asks::OpenLoop(functions) = &self.asks else { return None };
+        let side = [lower.clone(), upper.clone()];
+        let values = self.values(std::slice::from_ref(&side), bits_of(std::slice::from_ref(&side)))?;
+        let values: Vec<MultiTaylorModel> =
+            functions.all.iter().map(|p| self.symbols.value(p, &values)).collect();
+        let (asked, octave) = functions.asked_on_axis(&values, self.octave)?;
+        let [[from, to]] = &asked.open_pieces()?[..] else { return None };
+        let two = Rational::from(2);
+        if from.is_zero() || *to > two {
+            return None;
+        }
+        // Frequencies from 0 to 1 are y/2, and a zero at an end of the box is to be inside.
+        let wider = |[lower, upper]: [Rational; 2]| {
+            let width = &upper - &lower;
+            [&lower - &width, upper + width]
+        };
+        let half = |y: &Rational| y * &Rational::dyadic(&Integer::ONE, 1);
+        let place = [[half(from), half(to)], side].map(wider);
+        AxisSystem::new(&self.symbols, functions, octave).only_end(&place, [lower, upper])
     }
 
     /// Whether it is seen that the loop is defined at all points of a closed box; of a requirement, which is asked of stable points, nothing has to

@@ -1,7 +1,7 @@
 //! Whether requirements on margins are met for all values of a parameter in an interval at once.
 
 use super::affine::Affine;
-use super::along_circle::Coefficient;
+use super::along_circle::{Coefficient, NearlyLinear};
 use super::family::Quotient;
 use super::loop_functions::LoopFunctions;
 use super::requirement::Rule;
@@ -146,7 +146,9 @@ impl Coefficient for Share {
     fn is_zero(&self) -> bool {
         self.0.iter().all(|c| c.sign().is_some_and(Sign::is_eq))
     }
+}
 
+impl NearlyLinear for Share {
     /// With the share as `(1 + x)/2`.
     fn affine(&self) -> Affine {
         let bits = self.0[0].bits();

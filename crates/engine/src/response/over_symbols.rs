@@ -1,6 +1,6 @@
 //! Requirements on margins in one parameter where the loop contains functions that are not rational, such as a plant behind a hold.
 
-use super::cells::{around, edge, outward, parts_beside, required_parts};
+use super::cells::{around, beyond, edge, outward, parts_beside, required_parts};
 use super::family::{Elimination, Quotient, nothing_comes_back, plus_multiple, plus_multiple_of};
 use super::loop_functions::number_asked;
 use super::met::AtPoint;
@@ -14,7 +14,7 @@ use crate::model::{Cut, Opened};
 use crate::problem::{Problem, moving_symbols};
 use crate::stability::{Bracket, Range, StableInterval, StableSet, UndecidedBracket, told_apart, zeros_of_functions};
 use jurist_algebra::limits::{Budget, Exhausted};
-use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RealAlgebraic};
 use jurist_algebra::real::Real;
 use jurist_algebra::symbols::{Definition, Function, MovingSymbols};
@@ -233,8 +233,7 @@ impl<'a> SymbolicFamily<'a> {
     /// A large value in an interval without an upper end, up to which pieces are asked.
     fn beyond(&self, interval: &StableInterval) -> Option<Rational> {
         let lower = outward(&interval.lower, true).filter(|_| interval.upper.is_none())?;
-        let nominal = self.problem.parameter().nominal.clone().unwrap_or(Rational::ONE).abs();
-        Some(&lower.abs().max(nominal).max(Rational::dyadic(&Integer::ONE, 64)) * &Rational::from(FARTHEST))
+        beyond(Some(&lower), self.problem.parameter().nominal.as_ref())
     }
 
     /// All values strictly inside of a stable interval at which a requirement may begin or cease to be met, and what may have
@@ -352,7 +351,7 @@ impl<'a> SymbolicFamily<'a> {
 }
 
 /// A part of an interval as a bracket that stays undecided.
-fn left_open(interval: &StableInterval, requirements: &[Requirement]) -> UndecidedBracket {
+pub(super) fn left_open(interval: &StableInterval, requirements: &[Requirement]) -> UndecidedBracket {
     let names: Vec<&str> = requirements.iter().map(Requirement::name).collect();
     let why = format!("where {} begins or ceases to be met", names.join(" or "));
     UndecidedBracket::new(outward(&interval.lower, true), outward(&interval.upper, false), why)
@@ -364,9 +363,6 @@ const WORK: u64 = 200_000_000;
 
 /// So many intervals of the parameter are asked of all requirements at once.
 const MOST_PIECES: usize = 240;
-
-/// So many times the nominal value is far for an interval without an end.
-const FARTHEST: i64 = 1 << 10;
 
 /// Digits of the interval around a zero in which nothing may change.
 const DIGITS: usize = 24;

@@ -223,6 +223,10 @@ impl Problem {
         budget: &Budget,
     ) -> Result<RequiredSet, Error> {
         let whole = self.without_region();
+        if !self.algebra_over_symbols(budget)?.symbols().delays().is_empty() {
+            budget.step("boundaries of the requirements");
+            return whole.required_with_dead_time(requirements, stable, at, budget);
+        }
         let over_symbols = SymbolicFamily::of(&whole, at, budget)?;
         budget.step("boundaries of the requirements");
         if let Some(family) = over_symbols {

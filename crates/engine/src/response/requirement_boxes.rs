@@ -10,6 +10,7 @@ use crate::stability::{AtPoint, RootCount, Shape, count_roots};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Poly, UniPoly};
+use jurist_algebra::real::Real;
 use std::sync::Arc;
 
 /// A requirement, or stability itself, over boxes of any number of free parameters.
@@ -166,6 +167,12 @@ impl RequirementBoxes {
             (OverPoints::Open { middle }, Asked::Stability(_)) => Ok(middle),
             (OverPoints::Open { .. }, Asked::Requirement { one, at }) => self.is_met(point, one, at.as_deref(), budget),
         }
+    }
+
+    /// Of a requirement on a loop with dead time and one parameter, the only value in a short interval at which it begins or ceases to be met, or that
+    /// there is none; `None` where neither is seen.
+    pub(crate) fn only_end(&self, side: &[Rational; 2]) -> Option<Option<Real>> {
+        self.over.only_end(side)
     }
 
     /// Whether each point of a box, the middle of which is not stable, has a root outside of a region that is wider than that of stability.

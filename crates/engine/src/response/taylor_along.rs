@@ -1,7 +1,7 @@
 //! Polynomials whose coefficients are Taylor models, brought to where a requirement looks at them: to a ray, to the circle, to a region that is wider.
 
 use super::affine::Affine;
-use super::along_circle::Coefficient;
+use super::along_circle::{Coefficient, NearlyLinear};
 use jurist_algebra::ball::{Elementary, Enclosed, MultiTaylorModel};
 use jurist_algebra::number::{Integer, Rational};
 
@@ -37,7 +37,7 @@ pub(super) fn on_ray(p: &[MultiTaylorModel], cosine: &Rational, octave: i64) -> 
 }
 
 /// The coefficients of `p(c s)` with the frequency `c`, a power of two; where it is small, times `c^-degree`.
-pub(super) fn of_octave(p: &[MultiTaylorModel], octave: i64, degree: usize) -> Vec<MultiTaylorModel> {
+pub(super) fn of_octave<C: Coefficient>(p: &[C], octave: i64, degree: usize) -> Vec<C> {
     let power = |k: usize| match octave >= 0 {
         true => octave as u64 * k as u64,
         false => octave.unsigned_abs() * (degree - k) as u64,
@@ -108,7 +108,9 @@ impl Coefficient for MultiTaylorModel {
     fn is_zero(&self) -> bool {
         self.is_nothing()
     }
+}
 
+impl NearlyLinear for MultiTaylorModel {
     fn affine(&self) -> Affine {
         let mut terms = self.terms();
         let middle = terms.next().map(|(_, c)| c.clone()).unwrap_or(Integer::ZERO);

@@ -1,0 +1,237 @@
+//! Where along a parameter a requirement on margins of a loop with dead time begins or ceases to be met.
+//!
+//! There a crossing reaches the edge of what is allowed, or the distance to a circle its least value: a common zero of two functions of the
+//! frequency and the parameter. An interval Newton step that maps a box into itself proves that the box has one zero
+//! ([Moore1966](jurist_algebra::bibliography#moore1966)), and encloses it as narrowly as is asked.
+
+use super::along_circle::{Coefficient, Function, Functions};
+use super::enclosed::enclosed;
+use super::loop_functions::LoopFunctions;
+use super::on_axis::OnAxis;
+use super::taylor_along::of_octave;
+use jurist_algebra::ball::{Ball, Series, cos_sin};
+use jurist_algebra::number::{Enclosure, Integer, Rational};
+use jurist_algebra::real::Real;
+use jurist_algebra::symbols::ParametricSymbols;
+
+/// A number with its derivative by the parameter, as the first two terms of a series.
+impl Coefficient for Series {
+    fn plus(&self, other: &Series) -> Series {
+        self.add(other)
+    }
+
+    fn times(&self, other: &Series) -> Series {
+        self.mul(other)
+    }
+
+    fn scaled(&self, n: &Integer) -> Series {
+        Series::scaled(self, n)
+    }
+
+    fn is_zero(&self) -> bool {
+        self.coefficients().iter().all(Ball::is_zero)
+    }
+}
+
+fn value(x: &Series) -> &Ball {
+    &x.coefficients()[0]
+}
+
+fn slope(x: &Series) -> &Ball {
+    &x.coefficients()[1]
+}
+
+/// A function of the frequency: its value, its derivative and half of its second derivative.
+type Jet = [Ball; 3];
+
+/// A function of the frequency and the parameter, and its derivative by the parameter.
+struct Local {
+    own: Jet,
+    by_parameter: Jet,
+}
+
+/// Two functions of the frequency and the parameter, which is the only free name.
+pub(super) struct AxisSystem {
+    symbols: ParametricSymbols,
+    functions: LoopFunctions,
+    /// The unit of the frequency as a power of two.
+    octave: i64,
+    /// Which of the signs reaches zero.
+    sign: usize,
+}
+
+/// Ends of the frequency and of the parameter.
+pub(super) type Place = [[Rational; 2]; 2];
+
+/// Bits beside those of the box in which a zero is looked for.
+const BITS: u64 = 128;
+
+/// Bits that the last step loses.
+const SPARE_BITS: u64 = 48;
+
+/// A box is narrowed so often at most.
+const STEPS: usize = 64;
+
+impl AxisSystem {
+    /// Of the functions of a loop with dead time, in units of a frequency.
+    pub fn new(symbols: &ParametricSymbols, functions: &LoopFunctions, octave: i64) -> AxisSystem {
+        AxisSystem { symbols: symbols.clone(), functions: functions.clone(), octave, sign: 0 }
+    }
+
+    /// The only value of the parameter in a box at which what is required changes, if it is the only one: on the box, crossings move along the
+    /// frequency without turning back, and the edge of what is allowed comes nearer all the time, or goes away. The inner one is `None` where that value
+    /// does not lie between two that are given.
+    pub fn only_end(mut self, place: &Place, between: [&Rational; 2]) -> Option<Option<Real>> {
+        let bits = BITS + place.iter().map(|[lower, upper]| (upper - lower).denominator().bit_length()).max()?;
+        let balls = place.each_ref().map(|[lower, upper]| Ball::between(lower, upper, bits));
+        let all = self.at(&balls)?;
+        let crosses = |f: &Local| f.own[0].contains_zero();
+        let mut signs = (0..all.1.len()).filter(|&k| crosses(&all.1[k]));
+        self.sign = signs.next().filter(|_| signs.next().is_none())?;
+        let is_steady = match &all.0 {
+            Some(crossing) => !crossing.own[1].contains_zero(),
+            None => !all.1[self.sign].by_parameter[0].contains_zero(),
+        };
+        let (first, is_inside) = self.step(place, bits)?;
+        if !is_steady || !is_inside {
+            return None;
+        }
+        let near = self.narrowed(first.clone(), bits)?;
+        if near.upper() < between[0] || near.lower() > between[1] {
+            return Some(None);
+        }
+        if near.lower() < between[0] || near.upper() > between[1] {
+            return None;
+        }
+        let attempt = move |bits: u64| self.narrowed(first.clone(), bits);
+        Some(Some(enclosed("a value at which a margin is what is required", attempt)))
+    }
+
+    /// An enclosure of the parameter of a zero, with about so many bits; `None` where they are too few.
+    fn narrowed(&self, mut place: Place, bits: u64) -> Option<Enclosure> {
+        let goal = Rational::dyadic(&Integer::ONE, bits.saturating_sub(SPARE_BITS));
+        for _ in 0..STEPS {
+            let [lower, upper] = &place[1];
+            if upper - lower <= goal {
+                return Some(Enclosure::new(lower.clone(), upper.clone()));
+            }
+            place = self.step(&place, bits + BITS)?.0;
+        }
+        None
+    }
+
+    /// A Newton step of a box with at most one zero, and whether all of it is inside of the box: then there is one.
+    fn step(&self, place: &Place, bits: u64) -> Option<(Place, bool)> {
+        let over = place.each_ref().map(|[lower, upper]| Ball::between(lower, upper, bits));
+        let middles = place.each_ref().map(|[lower, upper]| lower.midpoint(upper));
+        let at = middles.each_ref().map(|x| Ball::from_rational(x, bits));
+        let [[_, a, b], [_, c, d]] = self.system(&over)?;
+        let [[f, ..], [g, ..]] = self.system(&at)?;
+        let determinant = a.mul(&d).sub(&b.mul(&c));
+        let moves = [d.mul(&f).sub(&b.mul(&g)).div(&determinant)?, a.mul(&g).sub(&c.mul(&f)).div(&determinant)?];
+        let mut is_inside = true;
+        let mut next = place.clone();
+        for ((side, by), middle) in next.iter_mut().zip(&moves).zip(&middles) {
+            let (lower, upper) = (middle - &by.upper(), middle - &by.lower());
+            is_inside &= lower > side[0] && upper < side[1];
+            *side = [lower.max(side[0].clone()), upper.min(side[1].clone())];
+            if side[0] > side[1] {
+                return None;
+            }
+        }
+        Some((next, is_inside))
+    }
+
+    /// Both functions with their derivatives by the frequency and by the parameter.
+    fn system(&self, place: &[Ball; 2]) -> Option<[[Ball; 3]; 2]> {
+        let (crossing, mut signs) = self.at(place)?;
+        let sign = signs.swap_remove(self.sign);
+        let row = |f: Local| {
+            let [value, slope, _] = f.own;
+            let [by_parameter, ..] = f.by_parameter;
+            [value, slope, by_parameter]
+        };
+        Some(match crossing {
+            Some(crossing) => [row(crossing), row(sign)],
+            None => {
+                let slope = [sign.own[1].clone(), sign.own[2].scaled(&Integer::from(2)), sign.by_parameter[1].clone()];
+                [row(sign), slope]
+            }
+        })
+    }
+
+    /// The function of crossings and those that tell whether they are allowed.
+    fn at(&self, [omega, parameter]: &[Ball; 2]) -> Option<(Option<Local>, Vec<Local>)> {
+        let one = Ball::from_integer(&Integer::ONE, parameter.bits());
+        let values = self.symbols.values(&[Series::linear(parameter, &one, 2)])?;
+        let all: Vec<Series> = self.functions.all.iter().map(|p| self.symbols.value(p, &values)).collect();
+        let parts = self.functions.split(&all)?;
+        let [above, below] = parts.dead_time?;
+        let time = above.div(below)?;
+        let tau = [value(&time), slope(&time)].map(|t| t.shifted(self.octave));
+        let degree = parts.denominator.len().max(parts.numerator.len()) - 1;
+        let [d, n] = [parts.denominator, parts.numerator].map(|p| of_octave(p, self.octave, degree));
+        let functions = Functions::of(self.functions.rule(), &OnAxis::new(&d, &n, parts.content), parts.alpha);
+        let waves = Waves::at(&tau, omega)?;
+        let local = |f: &Function<Series, 3>| waves.local(f, omega);
+        Some((functions.crossing.as_ref().map(local), functions.signs.iter().map(local).collect()))
+    }
+}
+
+/// `cos(tau omega)`, `sin(tau omega)/omega` and their derivatives by the parameter.
+struct Waves([Local; 2]);
+
+impl Waves {
+    fn at([tau, by_parameter]: &[Ball; 2], omega: &Ball) -> Option<Waves> {
+        let (c, s) = cos_sin(&tau.mul(omega));
+        let (first, second) = (tau, tau.square().divided_by(2));
+        let cosine = [c.clone(), s.mul(first).neg(), c.mul(&second).neg()];
+        let sine = [s.clone(), c.mul(first), s.mul(&second).neg()];
+        let q = sine[0].div(omega)?;
+        let r = sine[1].sub(&q).div(omega)?;
+        let quotient = [q, r.clone(), sine[2].sub(&r).div(omega)?];
+        // The derivative of the cosine by tau is -omega sin, that of sin(tau omega)/omega is the cosine.
+        let turned = [omega.mul(&s), s.add(&omega.mul(&sine[1])), sine[1].add(&omega.mul(&sine[2]))];
+        let by = |jet: &Jet, factor: &Ball| jet.each_ref().map(|x| x.mul(factor));
+        let cosine_by = by(&turned, &by_parameter.neg());
+        let quotient_by = by(&cosine, by_parameter);
+        Some(Waves([
+            Local { own: cosine, by_parameter: cosine_by },
+            Local { own: quotient, by_parameter: quotient_by },
+        ]))
+    }
+
+    /// The function `p + c cos(tau omega) + s sin(tau omega)/omega` at a frequency.
+    fn local(&self, [p, c, s]: &Function<Series, 3>, omega: &Ball) -> Local {
+        let mut out = polynomial(p, omega);
+        for (list, wave) in [c, s].into_iter().zip(&self.0) {
+            let factor = polynomial(list, omega);
+            let both = [(&factor.own, &wave.by_parameter), (&factor.by_parameter, &wave.own)];
+            out.own = sum(&out.own, &product(&factor.own, &wave.own));
+            for (a, b) in both {
+                out.by_parameter = sum(&out.by_parameter, &product(a, b));
+            }
+        }
+        out
+    }
+}
+
+/// A polynomial in the frequency.
+fn polynomial(p: &[Series], omega: &Ball) -> Local {
+    let horner = |of: fn(&Series) -> &Ball| {
+        let zero = Ball::zero(omega.bits());
+        p.iter().rev().fold([zero.clone(), zero.clone(), zero], |[a, b, c]: Jet, x| {
+            [a.mul(omega).add(of(x)), b.mul(omega).add(&a), c.mul(omega).add(&b)]
+        })
+    };
+    Local { own: horner(value), by_parameter: horner(slope) }
+}
+
+fn sum(a: &Jet, b: &Jet) -> Jet {
+    std::array::from_fn(|k| a[k].add(&b[k]))
+}
+
+fn product(a: &Jet, b: &Jet) -> Jet {
+    let second = a[0].mul(&b[2]).add(&a[1].mul(&b[1])).add(&a[2].mul(&b[0]));
+    [a[0].mul(&b[0]), a[0].mul(&b[1]).add(&a[1].mul(&b[0])), second]
+}
