@@ -42,6 +42,7 @@ mod loops {
     mod corridor;
     mod dead_time;
     mod dead_time_margins;
+    mod delayed_requirements;
     mod drive;
     mod examples;
     mod held_margins;
@@ -77,6 +78,7 @@ mod maps {
     mod body_program;
     mod boxes;
     mod cases;
+    mod delayed_required;
     mod extents;
     mod held;
     mod laws;
@@ -84,7 +86,6 @@ mod maps {
     mod oracle;
     mod program;
     mod required;
-    mod delayed_required;
     mod required_boxes;
 }
 

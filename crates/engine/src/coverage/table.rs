@@ -103,7 +103,7 @@ static ROWS: &[Row] = &[
     at_a_point(Asked::VerdictWithMargins, "verdict --modulus-margin 1/100", [A(&FREQUENCIES), A(&FREQUENCIES), OPEN_LOOP, BESIDE]),
     Row::new(Asked::IntervalsWithMargins, "intervals --param NAME --modulus-margin 1/100", [A(&RESULTANTS), A(&ENCLOSED_RESULTANTS), A(&ENCLOSED_RESULTANTS), BOXES_WITH_DEAD_TIME, BESIDE, NO_ORDER]),
     Row::new(Asked::MapWithMargins, "map -x NAME -y NAME --modulus-margin 1/100", [A(&RESULTANTS), A(&RESULTANTS), B(&REQUIRED_BOXES), BOXES_WITH_DEAD_TIME, BESIDE, NO_ORDER]),
-    Row::new(Asked::ToleranceWithMargins, "tolerance --tol NAME=10% --modulus-margin 1/100", [A(&TENSOR), A(&TENSOR), A(&REQUIRED_BOXES), BOX_ALONE, BOX_ALONE, NO_ORDER]),
+    Row::new(Asked::ToleranceWithMargins, "tolerance --tol NAME=10% --modulus-margin 1/100", [A(&TENSOR), A(&TENSOR), A(&REQUIRED_BOXES), BOXES_WITH_DEAD_TIME, BESIDE, NO_ORDER]),
     at_a_point(Asked::VerdictWithDamping, "verdict --damping 1/10", [A(&ROOTS), A(&ROOTS), NO_DELAY, BESIDE]),
     Row::new(Asked::IntervalsWithDamping, "intervals --param NAME --damping 1/10", [A(&ROOTS), A(&ROOTS), A(&ROOTS), NO_DELAY, BESIDE, NO_ORDER]),
     Row::new(Asked::MapWithDamping, "map -x NAME -y NAME --damping 1/10", [A(&RESULTANTS), A(&RESULTANTS), B(&REQUIRED_BOXES), NO_DELAY, NO_DELAY, NO_ORDER]).in_time(Time::Continuous),

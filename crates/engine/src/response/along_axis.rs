@@ -184,9 +184,7 @@ impl AlongAxis {
         let two = Rational::from(2);
         match is_near(upper) {
             true => AlongCircle::all_on(self.near.each_ref(), [&(lower * &two), &(upper * &two)]),
-            false => {
-                AlongCircle::all_on(self.far.each_ref(), [&(&(lower - &two) * &two), &(&(upper - &two) * &two)])
-            }
+            false => AlongCircle::all_on(self.far.each_ref(), [&(&(lower - &two) * &two), &(&(upper - &two) * &two)]),
         }
     }
 }
@@ -217,22 +215,29 @@ pub(super) struct AxisPiece {
     ends: [Rational; 2],
     parts: [Patch; 3],
     turn: Arc<Turn>,
-    /// The cosine and the sine in the middle, for the middle of the box, where they are known.
+    /// The cosine and the sine in the middle, for the middle of the box, where they are known before the whole is.
     turned: Option<[Ball; 2]>,
-    whole: Patch,
+    /// The function, and the cosine and the sine if they were needed for it.
+    whole: OnceLock<(Patch, Option<[Ball; 2]>)>,
 }
 
 impl AxisPiece {
-    fn new(ends: [Rational; 2], parts: [Patch; 3], turn: &Arc<Turn>, mut turned: Option<[Ball; 2]>) -> AxisPiece {
-        let half = Rational::dyadic(&Integer::ONE, 1);
-        let whole = if parts[1..].iter().all(Patch::is_nothing) {
-            sum(&parts, &[Wave::any(turn.slopes.len()), Wave::any(turn.slopes.len())])
-        } else if is_near(&ends[1]) {
-            sum(&parts, &turn.waves([&(&ends[0] * &half), &(&ends[1] * &half)], &mut turned))
-        } else {
-            sum(&parts, &[Wave::any(turn.slopes.len()), Wave::any(turn.slopes.len())])
-        };
-        AxisPiece { ends, parts, turn: Arc::clone(turn), turned, whole }
+    fn new(ends: [Rational; 2], parts: [Patch; 3], turn: &Arc<Turn>, turned: Option<[Ball; 2]>) -> AxisPiece {
+        AxisPiece { ends, parts, turn: Arc::clone(turn), turned, whole: OnceLock::new() }
+    }
+
+    /// Many pieces are halved without a look at this function.
+    fn whole(&self) -> &(Patch, Option<[Ball; 2]>) {
+        self.whole.get_or_init(|| {
+            let any = || Wave::any(self.turn.slopes.len());
+            if !is_near(&self.ends[1]) || self.parts[1..].iter().all(Patch::is_nothing) {
+                return (sum(&self.parts, &[any(), any()]), self.turned.clone());
+            }
+            let half = Rational::dyadic(&Integer::ONE, 1);
+            let mut turned = self.turned.clone();
+            let waves = self.turn.waves([&(&self.ends[0] * &half), &(&self.ends[1] * &half)], &mut turned);
+            (sum(&self.parts, &waves), turned)
+        })
     }
 }
 
@@ -251,11 +256,11 @@ impl Along for AlongAxis {
 
 impl OnPiece for AxisPiece {
     fn patch(&self) -> &Patch {
-        &self.whole
+        &self.whole().0
     }
 
     fn first(&self) -> AxisPiece {
-        AxisPiece { whole: self.whole.first(), ..self.clone() }
+        AxisPiece { whole: OnceLock::from((self.patch().first(), None)), ..self.clone() }
     }
 
     fn is_blurred(&self) -> bool {
@@ -265,13 +270,14 @@ impl OnPiece for AxisPiece {
 
 impl Halves for AxisPiece {
     fn halves(self, axis: usize) -> [AxisPiece; 2] {
+        let turned = self.whole.into_inner().map_or(self.turned, |(_, turned)| turned);
         let [lower, upper] = self.ends;
         let middle = lower.midpoint(&upper);
         let [p, c, s] = self.parts.map(|patch| patch.halves(axis));
         let ([p, after_p], [c, after_c], [s, after_s]) = (p, c, s);
         let halvings = halvings_of(&(&upper - &lower));
         let [below, above] = [false, true]
-            .map(|is_above| self.turned.as_ref().and_then(|known| self.turn.beside(known, halvings?, is_above)));
+            .map(|is_above| turned.as_ref().and_then(|known| self.turn.beside(known, halvings?, is_above)));
         let low = AxisPiece::new([lower, middle.clone()], [p, c, s], &self.turn, below);
         [low, AxisPiece::new([middle, upper], [after_p, after_c, after_s], &self.turn, above)]
     }

@@ -139,8 +139,7 @@ impl<C: Coefficient, const N: usize> Functions<C, N> {
             std::array::from_fn(|i| sum_of(&p[i], &q[i]))
         };
         let times = |p: &Function<C, N>, c: &C| p.each_ref().map(|p| p.iter().map(|x| x.times(c)).collect());
-        let scaled =
-            |p: &Function<C, N>, c: &Integer| p.each_ref().map(|p| p.iter().map(|x| x.scaled(c)).collect());
+        let scaled = |p: &Function<C, N>, c: &Integer| p.each_ref().map(|p| p.iter().map(|x| x.scaled(c)).collect());
         match rule {
             Rule::Factors(_) => {
                 // 2 |D|^2 + k 2 Re(N conj D) at both ends of the factors.
@@ -191,10 +190,11 @@ impl<C: Coefficient, const N: usize> Functions<C, N> {
 
     /// With what tells where the open loop is near to a right angle.
     fn beside(mut self, rule: &Rule, products: &impl Products<C, N>) -> Functions<C, N> {
-        if let (Some(real), Some(most)) = (products.real(), upright(rule)) {
+        if let (true, Some(real), Some(most)) = (products.has_integrator(), products.real(), upright(rule)) {
             let imaginary = products.imaginary();
-            let scaled =
-                |p: &Function<C, N>, c: &Integer| p.each_ref().map(|p| p.iter().map(|x| x.scaled(c)).collect::<Vec<C>>());
+            let scaled = |p: &Function<C, N>, c: &Integer| {
+                p.each_ref().map(|p| p.iter().map(|x| x.scaled(c)).collect::<Vec<C>>())
+            };
             let sum = |p: &Function<C, N>, q: &Function<C, N>| std::array::from_fn(|i| sum_of(&p[i], &q[i]));
             let (wide, below) = (scaled(&imaginary, &most.numerator()), most.denominator());
             let both = [below.clone(), -below].map(|c| sum(&wide, &scaled(&real, &c)));
@@ -247,12 +247,6 @@ fn upright(rule: &Rule) -> Option<Rational> {
 /// Bits of the number that is asked for.
 const UPRIGHT_BITS: u64 = 32;
 
-/// Whether both functions have the same sign.
-fn is_upright<P: OnPiece>(both: &[P]) -> bool {
-    let signs: Vec<Option<Sign>> = both.iter().map(|f| f.patch().sign()).collect();
-    matches!(signs[..], [Some(a), Some(b)] if a == b)
-}
-
 /// The sum of two polynomials.
 pub(super) fn sum_of<C: Coefficient>(p: &[C], q: &[C]) -> Vec<C> {
     let (long, short) = if p.len() >= q.len() { (p, q) } else { (q, p) };
@@ -266,7 +260,6 @@ struct Cell<P> {
     halvings: u32,
     crossing: Option<P>,
     signs: Vec<P>,
-    upright: Vec<P>,
 }
 
 impl<P: OnPiece> Cell<P> {
@@ -278,12 +271,11 @@ impl<P: OnPiece> Cell<P> {
             halvings: self.halvings,
             crossing: self.crossing.as_ref().map(P::first),
             signs: self.signs.iter().map(P::first).collect(),
-            upright: self.upright.iter().map(P::first).collect(),
         }
     }
 
     fn is_blurred(&self) -> bool {
-        self.crossing.iter().chain(&self.signs).chain(&self.upright).any(P::is_blurred)
+        self.crossing.iter().chain(&self.signs).any(P::is_blurred)
     }
 }
 
@@ -292,8 +284,7 @@ impl<P: OnPiece> Halves for Cell<P> {
         let [lower, upper] = self.ends;
         let middle = lower.midpoint(&upper);
         let crossing = self.crossing.map(|f| f.halves(axis));
-        let [signs, upright] = [self.signs, self.upright]
-            .map(|list| -> Vec<[P; 2]> { list.into_iter().map(|g| g.halves(axis)).collect() });
+        let signs: Vec<[P; 2]> = self.signs.into_iter().map(|g| g.halves(axis)).collect();
         [[lower, middle.clone()], [middle, upper]]
             .into_iter()
             .enumerate()
@@ -302,7 +293,6 @@ impl<P: OnPiece> Halves for Cell<P> {
                 halvings: self.halvings + 1,
                 crossing: crossing.as_ref().map(|both| both[k].clone()),
                 signs: signs.iter().map(|both| both[k].clone()).collect(),
-                upright: upright.iter().map(|both| both[k].clone()).collect(),
             })
             .collect::<Vec<_>>()
             .try_into()
@@ -413,9 +403,8 @@ impl<A: Along> Asked<A> {
 
     fn cell(&self, ends: &[Rational; 2], halvings: u32) -> Cell<A::Piece> {
         let on = |p: &A| p.on(ends.each_ref());
-        let all = |list: &[A]| list.iter().map(on).collect();
-        let crossing = self.crossing.as_ref().map(on);
-        Cell { ends: ends.clone(), halvings, crossing, signs: all(&self.signs), upright: all(&self.upright) }
+        let (crossing, signs) = (self.crossing.as_ref().map(on), self.signs.iter().map(on).collect());
+        Cell { ends: ends.clone(), halvings, crossing, signs }
     }
 
     /// What is known of crossings on a piece.
@@ -423,10 +412,16 @@ impl<A: Along> Asked<A> {
         match cell.crossing.as_ref().and_then(|f| f.patch().sign()) {
             Some(sign) => Crossing::None(sign),
             None => match self.allowed(cell) {
-                Crossing::Unknown if is_upright(&cell.upright) => Crossing::Allowed,
+                Crossing::Unknown if self.is_upright(&cell.ends) => Crossing::Allowed,
                 told => told,
             },
         }
+    }
+
+    /// Whether on a piece of the lowest frequencies, where the open loop may be large, it is near to a right angle.
+    fn is_upright(&self, [lower, upper]: &[Rational; 2]) -> bool {
+        let sign = |f: &A| f.on([lower, upper]).patch().sign();
+        lower.is_zero() && matches!(self.upright[..], [ref a, ref b] if sign(a).is_some_and(|s| sign(b) == Some(s)))
     }
 
     /// Whether a sign of the polynomial of crossings changes over neighbouring pieces that all forbid one.

@@ -55,7 +55,9 @@ impl Problem {
         let parameter = &self.free()[0];
         let first = stable.intervals().first().map(|interval| interval.bare().sample(budget)).transpose()?;
         let near = parameter.nominal.clone().or(first).unwrap_or(Rational::ONE);
-        let of = |r: &Requirement| Ok(RequirementBoxes::of(self, r, at, std::slice::from_ref(&near), budget)?.expect("asked of boxes"));
+        let of = |r: &Requirement| {
+            Ok(RequirementBoxes::of(self, r, at, std::slice::from_ref(&near), budget)?.expect("asked of boxes"))
+        };
         let boxes = requirements.iter().map(of).collect::<Result<Vec<_>, Error>>()?;
         let set = DelayedSet { problem: self, requirements, at, boxes, budget };
         let mut found = RequiredSet { intervals: Vec::new(), undecided: stable.undecided().to_vec() };
@@ -71,7 +73,10 @@ impl DelayedSet<'_> {
     fn within(&self, interval: &StableInterval, found: &mut RequiredSet) -> Result<(), Error> {
         let nominal = self.problem.free()[0].nominal.as_ref();
         let (lower, upper) = (outward(&interval.lower, true), outward(&interval.upper, false));
-        let ends = [lower.clone().or_else(|| beyond(upper.as_ref(), nominal).map(|x| -x)), upper.clone().or_else(|| beyond(lower.as_ref(), nominal))];
+        let ends = [
+            lower.clone().or_else(|| beyond(upper.as_ref(), nominal).map(|x| -x)),
+            upper.clone().or_else(|| beyond(lower.as_ref(), nominal)),
+        ];
         let [Some(from), Some(to)] = ends else {
             found.undecided.push(left_open(interval, self.requirements));
             return Ok(());

@@ -84,9 +84,7 @@ impl<C: Coefficient> Products<C, 3> for OnAxis<C> {
         let [below, above] = self.moduli();
         let both = [scaled(below, &(u * u)), scaled(above, &(v * v)), scaled(self.twice_real(), &(&(u * v) << 1))];
         let [first, second, third] = both;
-        std::array::from_fn(|i| {
-            sum_of(&sum_of(&first[i], &second[i]), &third[i])
-        })
+        std::array::from_fn(|i| sum_of(&sum_of(&first[i], &second[i]), &third[i]))
     }
 
     fn has_integrator(&self) -> bool {

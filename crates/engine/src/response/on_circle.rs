@@ -127,4 +127,3 @@ fn paired<C: Coefficient>(p: &[C], q: &[C], zeroth: [Integer; 2], first: [Intege
     }
     out
 }
-

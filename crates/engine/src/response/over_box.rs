@@ -217,8 +217,7 @@ impl OverBox {
         let Asks::OpenLoop(functions) = &self.asks else { return None };
         let side = [lower.clone(), upper.clone()];
         let values = self.values(std::slice::from_ref(&side), bits_of(std::slice::from_ref(&side)))?;
-        let values: Vec<MultiTaylorModel> =
-            functions.all.iter().map(|p| self.symbols.value(p, &values)).collect();
+        let values: Vec<MultiTaylorModel> = functions.all.iter().map(|p| self.symbols.value(p, &values)).collect();
         let (asked, octave) = functions.asked_on_axis(&values, self.octave)?;
         let [[from, to]] = &asked.open_pieces()?[..] else { return None };
         let two = Rational::from(2);
