@@ -112,4 +112,11 @@ fn the_requirement_that_binds_is_named() {
     let upper = found.intervals[0].upper.as_ref().unwrap();
     let RequiredEnd::Requirement { names, closed, .. } = upper else { panic!("stability") };
     assert_eq!((names.as_slice(), *closed), (&["gain_margin"][..], false));
+    // Beyond the last value at which one is met neither is.
+    let modulus = Requirement::modulus_margin(number("1/2")).unwrap();
+    let found = set(&model, &[Requirement::phase_margin(&number("30")).unwrap(), modulus]);
+    let RequiredEnd::Requirement { names, .. } = found.intervals[0].upper.as_ref().unwrap() else {
+        panic!("stability")
+    };
+    assert_eq!(names.as_slice(), ["modulus_margin"]);
 }

@@ -165,10 +165,16 @@ fn an_expected_range_fails_where_a_part_of_it_is_surely_unstable() {
 }
 
 #[test]
-fn a_map_of_margins_with_dead_time_is_refused_for_the_margins() {
+fn a_map_of_margins_with_dead_time_has_the_boxes_in_which_they_are_met() {
     let model = "time = 'continuous'\n[parameters]\nK = { nominal = 1 }\nd = { nominal = 0.2 }\n\
         [loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\ninput = 'r - y'\noutput = 'y'\ntransfer = 'K*exp(-d*s)/(s + 1)'\n";
-    let arguments = ["map", "-", "-x", "K=0..2", "-y", "d=0..1", "--phase-margin", "45 deg"];
-    let run = jurist_with_input(&arguments, model.as_bytes());
-    assert!(run.status == 2 && run.stderr.contains("requirements on margins are decided at points"), "{}", run.stderr);
+    let map = ["map", "-", "-x", "K=0..2", "-y", "d=0..1", "--undecided", "0.2"];
+    let run = jurist_with_input(&[&map[..], &["--phase-margin", "45 deg"]].concat(), model.as_bytes());
+    assert!(
+        run.status == 0 && run.stdout.contains("inside the stable boxes: phase_margin >= 45 deg"),
+        "{}",
+        run.stdout
+    );
+    let run = jurist_with_input(&[&map[..], &["--delay-margin", "0.1"]].concat(), model.as_bytes());
+    assert!(run.status == 2 && run.stderr.contains("delay_margin"), "{}", run.stderr);
 }

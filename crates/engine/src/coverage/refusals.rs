@@ -120,11 +120,6 @@ pub(crate) static ONLY_THE_BOX: Refusal = Refusal::new(
     "{what} not asked of tolerances inside of functions or with dead time",
     "what can be asked of it: whether the box is stable, the largest factor with its worst point and shares, and --limit",
 );
-pub(crate) static MARGINS_AT_POINTS: Refusal = Refusal::new(
-    Code::Require,
-    "requirements on margins are decided at points for loops with dead time in continuous time",
-    "ask 'verdict' or 'margins' with a value for every parameter",
-);
 pub(crate) static MARGINS_IN_ONE: Refusal = Refusal::new(
     Code::Require,
     "of this loop requirements on margins are decided in one parameter only",

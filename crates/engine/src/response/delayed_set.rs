@@ -3,7 +3,7 @@
 use super::cells::{beyond, inside_of, outward, parts_beside, required_parts};
 use super::requirement::{Requirement, Rule};
 use super::requirement_boxes::{OverPoints, RequirementBoxes};
-use super::{RequiredSet, over_symbols::left_open};
+use super::{RequiredEnd, RequiredSet, over_symbols::left_open};
 use crate::coverage::refusals::DELAY_AT_POINTS;
 use crate::error::Error;
 use crate::problem::Problem;
@@ -27,8 +27,11 @@ const FIRST_END: u32 = 8;
 struct OpenPart {
     lower: Rational,
     upper: Rational,
-    end: Option<Real>,
+    end: Option<NamedEnd>,
 }
+
+/// A value at which a requirement begins or ceases to be met, and its name.
+type NamedEnd = (Real, &'static str);
 
 /// The requirements over intervals of the parameter.
 struct DelayedSet<'a> {
@@ -82,10 +85,13 @@ impl DelayedSet<'_> {
             return Ok(());
         };
         let mut brackets: Vec<UndecidedBracket> = Vec::new();
-        let mut ends: Vec<Real> = Vec::new();
+        let (mut ends, mut names): (Vec<Real>, Vec<&'static str>) = (Vec::new(), Vec::new());
         for part in self.open_parts(&from, &to)? {
             match part.end {
-                Some(end) => ends.push(end),
+                Some((end, name)) => {
+                    ends.push(end);
+                    names.push(name);
+                }
                 None => brackets.push(self.bracket(Some(part.lower), Some(part.upper))),
             }
         }
@@ -99,7 +105,17 @@ impl DelayedSet<'_> {
         parts_beside(interval, brackets, found, |part| {
             let inside = inside_of(part, &ends, self.budget)?;
             let is_closed = |_: usize, names: &[&'static str]| Ok(self.is_closed(names));
-            required_parts(part, &inside, |value| self.unmet(value), is_closed, self.budget)
+            let mut parts = required_parts(part, &inside, |value| self.unmet(value), is_closed, self.budget)?;
+            // Farther away more may not be met.
+            for end in parts.iter_mut().flat_map(|part| [&mut part.lower, &mut part.upper]).flatten() {
+                if let RequiredEnd::Requirement { value, names: unmet, closed } = end
+                    && let Some(k) = ends.iter().position(|known| known.is_same(value))
+                {
+                    *unmet = vec![names[k]];
+                    *closed = self.is_closed(unmet);
+                }
+            }
+            Ok(parts)
         })
     }
 
@@ -173,18 +189,17 @@ impl DelayedSet<'_> {
 
     /// The only value in a short interval at which one of the requirements begins or ceases to be met, where it is the only one that is not told, or that
     /// there is none; `None` where neither is seen.
-    fn only_end(&self, lower: &Rational, upper: &Rational) -> Result<Option<Option<Real>>, Exhausted> {
+    fn only_end(&self, lower: &Rational, upper: &Rational) -> Result<Option<Option<NamedEnd>>, Exhausted> {
         let side = [lower.clone(), upper.clone()];
         let mut open = Vec::new();
-        for boxes in &self.boxes {
+        for (boxes, requirement) in self.boxes.iter().zip(self.requirements) {
             if let OverPoints::Open { .. } = boxes.look(std::slice::from_ref(&side), self.budget)? {
-                open.push(boxes);
+                open.push((boxes, requirement.name()));
             }
         }
-        match open[..] {
-            [one] => self.budget.enter(|| one.only_end(&side)),
-            _ => Ok(None),
-        }
+        let [(one, name)] = open[..] else { return Ok(None) };
+        let found = self.budget.enter(|| one.only_end(&side))?;
+        Ok(found.map(|end| end.map(|end| (end, name))))
     }
 
     /// The names of what is not met at a stable value.

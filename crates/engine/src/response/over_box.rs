@@ -11,7 +11,7 @@ use super::loop_functions::{LoopFunctions, number_asked};
 use super::on_circle::twice_real;
 use super::requirement::{Requirement, Rule};
 use super::taylor_along::{beyond_axis, binomial, combined, combined_to, of_octave, on_ray, on_wider_disc};
-use crate::coverage::refusals::{BESIDE_DEAD_TIME, MARGINS_AT_POINTS, ONE_FACTOR};
+use crate::coverage::refusals::{BESIDE_DEAD_TIME, ONE_FACTOR};
 use crate::error::{Code, Diagnostic, Error};
 use crate::model::{Cut, Opened, Symbols};
 use crate::problem::{Problem, parametric_symbols};
@@ -88,10 +88,9 @@ impl OverBox {
             Rule::Sector(_) if shape == Shape::UnitDisc => return Ok(None),
             Rule::Sector(_) | Rule::Modulus { .. } => {
                 let algebra = whole.algebra_over_symbols(budget)?;
-                if !algebra.symbols().delays().is_empty() {
-                    return Err(MARGINS_AT_POINTS.diagnostic(&[]).into());
-                }
-                let Some(d) = algebra.polynomial() else { return Ok(None) };
+                let Some(d) = algebra.polynomial().filter(|_| algebra.symbols().delays().is_empty()) else {
+                    return Ok(None);
+                };
                 let (p, _) = budget.enter(|| d.cleared())?;
                 let coefficients = (0..=d.formal_degree).map(|k| p.coeff(k)).collect();
                 let asks = match requirement.rule() {

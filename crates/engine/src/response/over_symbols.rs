@@ -8,7 +8,7 @@ use super::open_loop::OpenLoop;
 use super::over_boxes::{OverBoxes, certain, segments};
 use super::requirement::{Requirement, Rule};
 use super::{RequiredEnd, RequiredInterval, RequiredSet};
-use crate::coverage::refusals::{DELAY_AT_POINTS, MARGINS_AT_POINTS};
+use crate::coverage::refusals::DELAY_AT_POINTS;
 use crate::error::{Code, Diagnostic, Error};
 use crate::model::{Cut, Opened};
 use crate::problem::{Problem, moving_symbols};
@@ -89,7 +89,7 @@ struct Candidate {
 }
 
 impl<'a> SymbolicFamily<'a> {
-    /// `None` of a loop in which everything is rational.
+    /// Of a loop without dead time; `None` of one in which everything is rational.
     pub fn of(problem: &'a Problem, at: Option<&'a str>, budget: &Budget) -> Result<Option<Self>, Error> {
         let cut = problem.model().cut(at)?;
         if matches!(cut, Cut::Gain(_)) {
@@ -99,9 +99,6 @@ impl<'a> SymbolicFamily<'a> {
         let Opened { system, symbols, .. } = problem.model().opened(&cut, &kept, problem.set(), budget)?;
         if symbols.is_empty() {
             return Ok(None);
-        }
-        if !symbols.delays().is_empty() {
-            return Err(MARGINS_AT_POINTS.diagnostic(&[]).into());
         }
         let (quotient, undefined) = Quotient::of(&system, problem.shape(), MultiPoly::clone, budget)?;
         if quotient.numerator.is_zero() {

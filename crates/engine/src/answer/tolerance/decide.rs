@@ -7,6 +7,7 @@ use crate::answer::Answer;
 use crate::coverage::refusals::ONLY_THE_BOX;
 use crate::error::{Code, Diagnostic, Error};
 use crate::problem::Problem;
+use crate::response::{Requirement, Rule};
 use crate::stability::boxes::{
     BoxDecision, BoxPolynomial, BoxVolume, ExactProof, Family, LargestFactor, MOST_PARAMETERS, OpenReason, Side,
     ToleranceProblem, ray,
@@ -360,10 +361,11 @@ fn refuse_volume(parameters: usize, request: &ToleranceRequest) -> Result<(), Er
 
 /// What is not asked of loops with dead time.
 fn refuse_beside_dead_time(request: &ToleranceRequest) -> Result<(), Error> {
-    if request.requirements.is_empty() {
+    let is_asked = |r: &Requirement| r.needs_cut() && !matches!(r.rule(), Rule::DeadTime(_));
+    if request.requirements.iter().all(is_asked) {
         return refuse_exact(request);
     }
-    Err(ONLY_THE_BOX.diagnostic(&[("what", "requirements on margins, damping or settling are")]).into())
+    Err(ONLY_THE_BOX.diagnostic(&[("what", "requirements on damping, settling or a delay margin are")]).into())
 }
 
 /// What is not asked of loops with functions of parameters.
