@@ -176,5 +176,5 @@ fn a_map_of_margins_with_dead_time_has_the_boxes_in_which_they_are_met() {
         run.stdout
     );
     let run = jurist_with_input(&[&map[..], &["--delay-margin", "0.1"]].concat(), model.as_bytes());
-    assert!(run.status == 2 && run.stderr.contains("delay_margin"), "{}", run.stderr);
+    assert!(run.status == 2 && run.stderr.contains("E-dead-time"), "{}", run.stderr);
 }
