@@ -419,6 +419,33 @@ mod tests {
     }
 
     proptest! {
+        /// Cosines and sines over the frequency are in their bounds, for all dead times of a box.
+        #[test]
+        fn waves_hold_the_cosine_and_the_sine(tau in 0i64..9000, slope in 0i64..400, from in 0i64..1024, length in 1i64..256) {
+            let turn = Turn::new(&Line([tau, slope.min(tau)]).affine());
+            let ends = [from, (from + length).min(1024)].map(|u| Rational::new(u.into(), 1024.into()));
+            let waves = turn.waves(ends.each_ref(), &mut None);
+            let unit = f64::from(2).powi(WAVE_BITS as i32);
+            for i in 0..=16 {
+                let t = f64::from(i) / 16.0;
+                let u = (from as f64 + ((from + length).min(1024) - from) as f64 * t) / 1024.0;
+                for x in [-1.0, -0.5, 0.0, 1.0] {
+                    let angle = (tau as f64 + slope.min(tau) as f64 * x) / 1000.0 * u;
+                    let time = (tau as f64 + slope.min(tau) as f64 * x) / 1000.0;
+                    let quotient = if u == 0.0 { time } else { angle.sin() / u };
+                    let quotient = quotient / f64::from(2).powi(turn.exponent as i32);
+                    for (wave, known) in waves.iter().zip([angle.cos(), quotient]) {
+                        let weights = [(1.0 - t).powi(3), (1.0 - t).powi(2) * t, (1.0 - t) * t * t, t.powi(3)];
+                        let middle: f64 = wave.middle.iter().zip(weights).map(|(c, w)| *c as f64 * w).sum();
+                        let value = middle + wave.slopes[0] as f64 * x;
+                        prop_assert!((known * unit - value).abs() <= wave.rest as f64 + 64.0, "{known} {}", value / unit);
+                    }
+                }
+            }
+        }
+    }
+
+    proptest! {
         #![proptest_config(ProptestConfig::with_cases(200))]
         /// A sign that is claimed on a piece and in a box is that at each point of both; on a short piece and in a small box one is claimed.
         #[test]
