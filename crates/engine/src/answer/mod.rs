@@ -13,6 +13,7 @@ mod plan;
 mod rightmost;
 mod roots;
 mod sensitivity;
+mod sides;
 mod stable;
 mod table;
 mod tolerance;

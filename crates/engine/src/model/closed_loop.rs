@@ -1,14 +1,17 @@
 //! From a loop and a question to polynomials and matrices.
 
+use super::complex::{ComplexPolynomial, names_of_parts, names_of_wholes, unlifted};
 use super::connect::state_space::{Connecting, NotConnected, assemble};
 use super::definition::{Model, Time};
 use super::evaluate::scalar::{Scope, Symbol, Variable};
 use super::evaluate::symbolic::{Values, Wiring, symbolic};
 use super::evaluate::walk::Failure as Wrong;
+use super::evaluate::zpoly::ZPoly;
 use super::steady::SteadyDuty;
 use super::symbols::{Definition, Symbols};
-use super::text::Expression;
 use super::text::names::{did_you_mean, known_names, shorten};
+use super::text::{Expression, UNIT};
+use crate::coverage::Refusal;
 use crate::error::{Code, Diagnostic, Diagnostics, Error};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::{CharacteristicPolynomial, RationalMatrix};
@@ -60,6 +63,9 @@ pub struct ClosedLoop {
     /// What the characteristic function has been divided by to be monic, where the entries contain `exp(-tau s)`: without
     /// dead time a factor without meaning.
     pub leading: RationalFunction,
+    /// Whether coefficients of the loop are complex. Then each signal and each state stands here as two, its real and its imaginary part,
+    /// called `y.re` and `y.im`; with each root of the loop the matrix has its conjugate.
+    pub is_complex: bool,
 }
 
 /// A transfer function of the closed loop as it stands: nothing is cancelled.
@@ -93,8 +99,10 @@ pub struct TransferFunction {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Evaluated {
-    /// The characteristic polynomial, symbolic in the kept names.
+    /// The characteristic polynomial, symbolic in the kept names. Of a complex loop it is `D conj(D)`, of twice the order.
     pub polynomial: CharacteristicPolynomial,
+    /// The characteristic polynomial `D` itself where it is complex.
+    pub complex: Option<ComplexPolynomial>,
     /// The closed loop in state space; `None` for the form `characteristic`.
     pub closed_loop: Option<ClosedLoop>,
     /// The sample time as a function of the kept names; `None` when the model has none or it divides by zero.
@@ -111,10 +119,13 @@ impl Evaluated {
         symbols: Symbols,
         budget: &Budget,
     ) -> Result<Evaluated, Error> {
-        let mut polynomial = closed_loop.characteristic_polynomial(budget)?;
+        let (mut polynomial, complex) = match closed_loop.is_complex {
+            false => (closed_loop.characteristic_polynomial(budget)?, None),
+            true => closed_loop.complex_polynomial(&symbols, budget)?,
+        };
         polynomial.poles = polynomial.poles.iter().filter_map(|pole| pole_beside(pole, &symbols)).collect();
         let closed_loop = Some(closed_loop);
-        Ok(Evaluated { polynomial, closed_loop, sample_time, symbols }.without_unused_symbols())
+        Ok(Evaluated { polynomial, complex, closed_loop, sample_time, symbols }.without_unused_symbols())
     }
 
     /// The same without symbols where none occurs: then everything is rational.
@@ -124,7 +135,9 @@ impl Evaluated {
         let p = &self.polynomial;
         let closed_loop = self.closed_loop.iter();
         let mut entries = closed_loop.flat_map(|l| [&l.a, &l.e, &l.c, &l.d]).flat_map(|m| m.entries());
+        let complex = self.complex.iter().flat_map(|d| d.re.iter().chain(&d.im));
         let is_rational = p.coefficients.iter().all(is_free)
+            && complex.into_iter().all(is_free)
             && p.poles.iter().all(|pole| pole.variables().last().is_none_or(|last| *last < first))
             && entries.all(is_free)
             && self.sample_time.iter().all(is_free);
@@ -157,6 +170,32 @@ pub(super) struct Answer<'m> {
 impl Answer<'_> {
     pub fn substituted(&self, f: &RationalFunction) -> Option<RationalFunction> {
         substituted(f, &self.images)
+    }
+
+    /// The characteristic polynomial that the model gives.
+    fn as_written(self) -> Result<Evaluated, Error> {
+        let Values::Characteristic(parts) = &self.values else { unreachable!("no other form has one") };
+        let undefined = || Error::Undefined("a coefficient divides by zero".into());
+        let formal_degree = parts.iter().map(ZPoly::degree).max().unwrap_or(0);
+        let list = |p: &ZPoly| (0..=formal_degree).map(|k| self.substituted(&p.coefficient(k))).collect::<Option<_>>();
+        let whole = ComplexPolynomial {
+            re: list(&parts[0]).ok_or_else(undefined)?,
+            im: list(&parts[1]).ok_or_else(undefined)?,
+        };
+        let sample_time = self.sample_time.as_ref().and_then(|t| self.substituted(t));
+        let (symbols, images) = merged(&self.symbols.borrow())?;
+        let whole = whole.try_map(|f| substituted(f, &images)).ok_or_else(undefined)?;
+        let (coefficients, complex) = whole.real_or_complex();
+        let polynomial = CharacteristicPolynomial {
+            variables: symbols.variables(),
+            coefficients,
+            formal_degree: if complex.is_some() { 2 * formal_degree } else { formal_degree },
+            poles: poles_in(&self.poles, &symbols, &images)?,
+            monic: false,
+        };
+        let sample_time = sample_time.and_then(|t| substituted(&t, &images));
+        let closed_loop = None;
+        Ok(Evaluated { polynomial, complex, closed_loop, sample_time, symbols }.without_unused_symbols())
     }
 
     /// A polynomial that is zero where the image of `p` is.
@@ -223,28 +262,8 @@ impl Model {
     ) -> Result<Evaluated, Error> {
         let mut answer = self.answer(kept, values, budget)?;
         answer.symbols = RefCell::new(answer.symbols.into_inner().near(near));
-        if let Values::Characteristic(p) = &answer.values {
-            let undefined = || Error::Undefined("a coefficient divides by zero".into());
-            let mut coefficients = Vec::with_capacity(p.coefficients().len());
-            for c in p.coefficients() {
-                coefficients.push(answer.substituted(c).ok_or_else(undefined)?);
-            }
-            let formal_degree = p.degree();
-            if coefficients.is_empty() {
-                coefficients.push(RationalFunction::zero());
-            }
-            let sample_time = answer.sample_time.as_ref().and_then(|t| answer.substituted(t));
-            let (symbols, images) = merged(&answer.symbols.into_inner())?;
-            let kept = |f: &RationalFunction| substituted(f, &images).ok_or_else(undefined);
-            let polynomial = CharacteristicPolynomial {
-                variables: symbols.variables(),
-                coefficients: coefficients.iter().map(kept).collect::<Result<_, _>>()?,
-                formal_degree,
-                poles: poles_in(&answer.poles, &symbols, &images)?,
-                monic: false,
-            };
-            let sample_time = sample_time.and_then(|t| substituted(&t, &images));
-            return Ok(Evaluated { polynomial, closed_loop: None, sample_time, symbols }.without_unused_symbols());
+        if let Values::Characteristic(_) = &answer.values {
+            return answer.as_written();
         }
         let (closed_loop, sample_time, symbols) = self.connected(answer, budget)?;
         Evaluated::of(closed_loop, sample_time, symbols, budget)
@@ -318,8 +337,8 @@ impl Model {
         let mut failures = Vec::new();
         let mut report = |failure| failures.push(failure);
         let mut scope = self.scope(kept, given, budget, &mut report);
-        let wiring = Wiring::of(self);
-        let values = symbolic(self, &wiring, &mut scope, &mut report);
+        let mut wiring = Wiring::of(self);
+        let values = symbolic(self, &mut wiring, &mut scope, &mut report);
         let sample_time = match self.sample_time_expression() {
             Some(e) => scope.scalar(e).map_err(&mut report).ok(),
             None => None,
@@ -379,6 +398,8 @@ impl Model {
                     }
                 },
                 Variable::Pi => symbols.pi(),
+                // No value has it any more.
+                Variable::Unit => RationalFunction::zero(),
                 Variable::Call(function, argument) => {
                     let undefined = || Error::Undefined(format!("'{}' has no value there", function.name()));
                     let argument = substituted(argument, &images).ok_or_else(undefined)?;
@@ -430,6 +451,14 @@ impl Model {
         Error::Refused(Diagnostics::new(Some(self.source().clone()), diagnostics))
     }
 
+    /// Refuses a complex loop.
+    pub(super) fn refuse_complex(&self, answer: &Answer<'_>, how: &Refusal) -> Result<(), Error> {
+        match answer.wiring.is_complex {
+            true => Err(Diagnostics::new(Some(self.source().clone()), vec![how.diagnostic(&[])]).into()),
+            false => Ok(()),
+        }
+    }
+
     /// Why there is no closed loop, with the model's text.
     pub(super) fn not_connected(&self, why: NotConnected) -> Error {
         match why {
@@ -460,10 +489,21 @@ impl Model {
         let substitution = |f: &RationalFunction| answer.substituted(f);
         let symbols = Some(&answer.symbols);
         let how = Connecting { set: &substitution, symbols, start: answer.start, budget };
-        let assembled = match assemble(self, &answer.wiring, &answer.values, &how) {
-            Ok(assembled) => assembled,
-            Err(why) => return Err(self.not_connected(why)),
-        };
+        let mut assembled =
+            assemble(self, &answer.wiring, &answer.values, &how).map_err(|why| self.not_connected(why))?;
+        let (mut inputs, mut outputs, mut is_complex) = (answer.wiring.inputs.clone(), outputs, false);
+        if answer.wiring.is_complex {
+            outputs = names_of_parts(outputs);
+            match unlifted(&assembled.system) {
+                Some(system) => {
+                    assembled.system = system;
+                    for names in [&mut assembled.states, &mut inputs, &mut outputs] {
+                        *names = names_of_wholes(names);
+                    }
+                }
+                None => is_complex = true,
+            }
+        }
         let mut poles = answer.poles.clone();
         for pole in &assembled.poles {
             add_pole(&mut poles, pole);
@@ -487,10 +527,11 @@ impl Model {
             c: matrix(&system.c)?,
             d: matrix(&system.d)?,
             states: assembled.states,
-            inputs: answer.wiring.inputs.iter().map(|s| (*s).to_owned()).collect(),
+            inputs,
             outputs,
             poles: poles_in(&poles, &symbols, &images)?,
             leading: substituted(&assembled.leading, &images).unwrap_or_else(RationalFunction::one),
+            is_complex,
         };
         Ok((closed_loop, sample_time.and_then(|t| substituted(&t, &images)), symbols))
     }
@@ -553,6 +594,34 @@ impl ClosedLoop {
         p.poles.iter().for_each(|pole| add_pole(&mut poles, pole));
         p.poles = poles;
         Ok(p)
+    }
+
+    /// The characteristic polynomial of a complex loop with conjugate roots, and the polynomial itself where it is complex.
+    fn complex_polynomial(
+        &self,
+        symbols: &Symbols,
+        budget: &Budget,
+    ) -> Result<(CharacteristicPolynomial, Option<ComplexPolynomial>), Error> {
+        let unit = self.variables.len();
+        let j = RationalFunction::variable(unit);
+        let entry = |i: usize, k: usize| &self.a[(2 * i, 2 * k)] + &(&j * &self.a[(2 * i + 1, 2 * k)]);
+        let n = self.a.rows() / 2;
+        let matrix = RationalMatrix::from_fn(n, n, entry);
+        let variables = self.variables.iter().cloned().chain([UNIT.to_owned()]).collect();
+        let own = matrix.characteristic_polynomial(variables, budget)?;
+        let whole = ComplexPolynomial::of(&own.coefficients, unit);
+        let whole = whole.ok_or_else(|| Error::Undefined("division by zero".into()))?;
+        let on_circle = |f: &RationalFunction| budget.enter(|| symbols.on_circle(f)).ok().flatten();
+        let whole = whole.try_map(on_circle).unwrap_or(whole);
+        let mut poles = self.poles.clone();
+        own.poles.iter().for_each(|pole| add_pole(&mut poles, pole));
+        let (coefficients, complex) = budget.enter(|| whole.real_or_complex())?;
+        let short = coefficients.iter().map(on_circle).collect::<Option<Vec<_>>>();
+        let coefficients = short.unwrap_or(coefficients);
+        budget.check()?;
+        let formal_degree = coefficients.len() - 1;
+        let variables = self.variables.clone();
+        Ok((CharacteristicPolynomial { variables, coefficients, formal_degree, poles, monic: true }, complex))
     }
 
     /// The transfer function from an input to an output of the closed loop, nothing cancelled.

@@ -330,6 +330,10 @@ pub struct Discretization {
     pub prewarp: Option<Expression>,
     /// The dead time of the inputs of a held block, in units of time.
     pub delay: Option<Expression>,
+    /// The speed of the frame from which a held block is seen, against the frame in which its inputs are held.
+    pub frame: Option<Expression>,
+    /// The angle by which commands are turned ahead on their way into that frame.
+    pub advance: Option<Expression>,
     /// The pulses of a block behind a modulator.
     pub pulses: Option<Pulses>,
     /// Where it stands.
