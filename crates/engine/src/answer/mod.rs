@@ -12,6 +12,7 @@ mod map_limits;
 mod plan;
 mod rightmost;
 mod roots;
+mod roots_of_complex;
 mod sensitivity;
 mod sides;
 mod stable;

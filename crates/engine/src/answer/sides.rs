@@ -12,6 +12,9 @@ use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::MultiPoly;
 use jurist_algebra::symbols::MovingSymbols;
 
+/// Work that the polynomial may be where the set has been found without it.
+const WORK: u64 = 100_000_000;
+
 impl Problem {
     /// Names the ends of a complex loop's set by its own roots: `complex root` with the side that it is on, and `complex pair` where there is
     /// one on either side. Where that is not told no frequency is left.
@@ -21,22 +24,40 @@ impl Problem {
     /// # Errors
     /// [`Error::Stopped`] when the budget runs out.
     pub(super) fn with_sides(&self, mut set: StableSet, budget: &Budget) -> Result<StableSet, Error> {
-        let algebra = match self.algebra_over_symbols(budget) {
-            Ok(algebra) => algebra,
-            Err(stopped @ Error::Stopped(_)) => return Err(stopped),
-            // A loop whose order varies is asked piece by piece.
-            Err(_) => return Ok(set),
-        };
-        let Some(whole) = algebra.complex() else { return Ok(set) };
+        if !self.is_written_complex() {
+            return Ok(set);
+        }
         budget.step("the sides of the roots");
-        for end in set.ends_mut().filter(|end| end.causes.contains(Cause::ComplexPair)) {
-            let side = budget.enter(|| self.side(end, whole, algebra))?;
-            if side != Some(Side::Both) {
+        if self.algebra_over_symbols(&budget.clone().within_work(WORK)).is_err() {
+            budget.check()?;
+            // Its set was found without the polynomial: by enclosures, or one order after another.
+            for end in set.ends_mut().filter(|end| end.causes.contains(Cause::ComplexPair)) {
                 end.causes.of_complex_loop();
+                end.pair = None;
             }
-            end.pair = end.pair.take().zip(side).map(|(pair, side)| pair.on_side(side));
+            return Ok(set);
+        }
+        for end in set.ends_mut() {
+            *end = self.with_side(end.clone(), budget)?;
         }
         Ok(set)
+    }
+
+    /// The same of one end.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] when the budget runs out.
+    pub(super) fn with_side(&self, mut end: End, budget: &Budget) -> Result<End, Error> {
+        let algebra = self.evaluated().filter(|_| end.causes.contains(Cause::ComplexPair));
+        let Some((algebra, whole)) = algebra.and_then(|algebra| Some((algebra, algebra.complex()?))) else {
+            return Ok(end);
+        };
+        let side = budget.enter(|| self.side(&end, whole, algebra))?;
+        if side != Some(Side::Both) {
+            end.causes.of_complex_loop();
+        }
+        end.pair = end.pair.take().zip(side).map(|(pair, side)| pair.on_side(side));
+        Ok(end)
     }
 
     /// The side that the root at an end is on: where `D` may vanish on either side, both if it is a factor with real coefficients that does.

@@ -12,6 +12,7 @@ use super::symbols::{Definition, Symbols};
 use super::text::names::{did_you_mean, known_names, shorten};
 use super::text::{Expression, UNIT};
 use crate::coverage::Refusal;
+use crate::coverage::refusals::COMPLEX;
 use crate::error::{Code, Diagnostic, Diagnostics, Error};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::{CharacteristicPolynomial, RationalMatrix};
@@ -449,6 +450,16 @@ impl Model {
         }
         diagnostics.dedup();
         Error::Refused(Diagnostics::new(Some(self.source().clone()), diagnostics))
+    }
+
+    /// Refuses a loop that is complex with these values.
+    pub(crate) fn refuse_complex_loop(
+        &self,
+        kept: &[String],
+        given: &[(String, Rational)],
+        budget: &Budget,
+    ) -> Result<(), Error> {
+        self.refuse_complex(&self.answer(kept, given, budget)?, &COMPLEX)
     }
 
     /// Refuses a complex loop.

@@ -365,15 +365,23 @@ impl ComplexPolynomial {
     ///
     /// Cost: Euclid's algorithm over the field of rational functions.
     pub(crate) fn without_real_factor(&self) -> Option<ComplexPolynomial> {
+        let (factor, others) = self.real_factor();
+        (factor.len() > 1).then_some(others)
+    }
+
+    /// The greatest factor with real coefficients, and the other one.
+    ///
+    /// Cost: Euclid's algorithm over the field of rational functions.
+    pub(crate) fn real_factor(&self) -> (Vec<RationalFunction>, ComplexPolynomial) {
         let any = |f: RationalFunction| Some(f);
         let [re, im] = [&self.re, &self.im].map(|list| ZPoly::new(list.clone()));
-        let factor = re.gcd(&im, &any)?;
-        if factor.degree() == 0 {
-            return None;
-        }
-        let [re, im] = [re.divide(&factor, &any)?.0, im.divide(&factor, &any)?.0];
-        let list = |p: &ZPoly| (0..=re.degree().max(im.degree())).map(|k| p.coefficient(k)).collect();
-        Some(ComplexPolynomial { re: list(&re), im: list(&im) })
+        let split = || {
+            let factor = re.gcd(&im, &any)?;
+            let [re, im] = [re.divide(&factor, &any)?.0, im.divide(&factor, &any)?.0];
+            let list = |p: &ZPoly| (0..=re.degree().max(im.degree())).map(|k| p.coefficient(k)).collect();
+            Some((factor.coefficients().to_vec(), ComplexPolynomial { re: list(&re), im: list(&im) }))
+        };
+        split().unwrap_or_else(|| (vec![RationalFunction::one()], self.clone()))
     }
 
     /// The coefficients with images in the place of their parts; `None` where one has none.

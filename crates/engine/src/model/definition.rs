@@ -467,6 +467,8 @@ pub struct Model {
     pub(super) tuning: Option<Tuning>,
     /// Positions of constants and parameters by name.
     pub(super) index: HashMap<String, Position>,
+    /// Whether the imaginary unit is in an expression.
+    pub(super) has_unit: bool,
 }
 
 /// Where a name is defined.
@@ -526,6 +528,14 @@ impl Model {
     /// What the loop is made of.
     pub fn form(&self) -> &Form {
         &self.form
+    }
+
+    /// True if the imaginary unit is written somewhere, or a plant is held in another frame. The characteristic polynomial may be real all the
+    /// same.
+    pub(crate) fn is_written_complex(&self) -> bool {
+        let Form::Blocks(diagram) = &self.form else { return self.has_unit };
+        let frames = diagram.blocks.iter().filter_map(|b| b.discretization.as_ref()).any(|d| d.frame.is_some());
+        self.has_unit || frames
     }
 
     /// True if a block of the diagram is behind a hold.

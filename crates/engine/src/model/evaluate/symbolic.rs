@@ -329,7 +329,8 @@ impl Evaluator<'_, '_> {
             let [cosine, sine] = of.map(|value| self.keep(value));
             Some([cosine?, sine?])
         };
-        let (turn, enters) = (rotation(-angle)?, rotation(advance - angle)?);
+        let [cosine, sine] = rotation(angle.clone())?;
+        let (turn, enters) = ([cosine, -sine], rotation(advance - angle)?);
         Some(Frame { turn, enters, direct: rotation(advance.clone())? })
     }
 

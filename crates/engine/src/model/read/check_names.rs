@@ -185,8 +185,10 @@ impl<'m> Names<'m, '_> {
         e.each_name(&mut |name, span| {
             if further.contains(name) || self.model.index.contains_key(name) {
                 self.used.insert(name);
-            } else if name == PI || name == UNIT {
-                // The circle number, the imaginary unit.
+            } else if name == PI {
+                // The circle number.
+            } else if name == UNIT {
+                self.reader.has_unit = true;
             } else if let Some(matrix) = self.reader.matrices.iter().find(|m| m.name.name == name) {
                 let message = format!("'{}' is a matrix", shorten(name));
                 let error = Diagnostic::error(Code::Type, message).at(span, "a number belongs here");
