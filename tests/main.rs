@@ -64,6 +64,14 @@ mod loops {
     mod steady_duty;
 }
 
+/// Loops with complex coefficients, and plants that are held in another frame.
+mod complex {
+    mod laws;
+    mod oracle;
+    mod random;
+    mod table;
+}
+
 /// Models with their expected answers in words, asked of every engine.
 mod corpus {
     mod checkers;

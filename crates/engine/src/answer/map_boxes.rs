@@ -230,7 +230,9 @@ impl Problem {
             if self.is_complex() {
                 // Each root was counted with its conjugate.
                 for found in &mut boxes.boxes {
-                    if let crate::stability::plane::boxes::BoxVerdict::Unstable { outside: Some(outside) } = &mut found.verdict {
+                    if let crate::stability::plane::boxes::BoxVerdict::Unstable { outside: Some(outside) } =
+                        &mut found.verdict
+                    {
                         *outside /= 2;
                     }
                 }

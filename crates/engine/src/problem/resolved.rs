@@ -271,8 +271,7 @@ impl Problem {
         match self.is_written_complex() {
             true => {
                 let is_bound = |f: &&Free| self.region.is_free() && f.name == self.region.bound_name();
-                let kept: Vec<String> =
-                    self.free.iter().filter(|f| !is_bound(f)).map(|f| f.name.clone()).collect();
+                let kept: Vec<String> = self.free.iter().filter(|f| !is_bound(f)).map(|f| f.name.clone()).collect();
                 self.model.refuse_complex_loop(&kept, &self.set, budget)
             }
             false => Ok(()),

@@ -6,8 +6,8 @@
 use crate::answer::{DelayedRoots, Verdict};
 use crate::error::Error;
 use crate::problem::Problem;
-use crate::stability::{AtPoint, RootCount};
 use crate::stability::boxes::{BoxDecision, Family, LargestFactor, OpenReason, Side, Witness, corners};
+use crate::stability::{AtPoint, RootCount};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use std::sync::Arc;
