@@ -54,7 +54,7 @@ impl Enclosing for MovingRoot {
                         let beside =
                             [3, 5].map(|n| dyadic(&(&lo + &(&(&hi - &lo) * &Rational::dyadic(&Integer::from(n), 3)))));
                         let signs = beside.clone().map(|x| self.symbols.sign_at(&self.scheme, &x, working));
-                        for (x, sign) in beside.into_iter().zip(signs.clone()) {
+                        for (x, sign) in beside.into_iter().zip(signs) {
                             match sign {
                                 Some(sign) if sign.is_gt() == rising => hi = x.min(hi),
                                 Some(_) => lo = x.max(lo),
