@@ -220,14 +220,29 @@ impl Asked {
     /// ```
     pub fn of_complex_loop(self) -> Option<&'static Refusal> {
         use Asked::*;
-        let is_known = match self {
-            Verdict | VerdictInRegion | Intervals | IntervalsInRegion | RegionBound => true,
-            Map | ExactMap | BoxMap | Slices | MapInRegion => true,
-            Tolerance | ToleranceLimit | ToleranceExact | ToleranceVolume | ToleranceInRegion => true,
-            Roots | Simulate | Charpoly | Analyze | Report => true,
-            _ => false,
-        };
-        (!is_known).then_some(&COMPLEX)
+        const KNOWN: [Asked; 20] = [
+            Verdict,
+            VerdictInRegion,
+            Intervals,
+            IntervalsInRegion,
+            RegionBound,
+            Map,
+            ExactMap,
+            BoxMap,
+            Slices,
+            MapInRegion,
+            Tolerance,
+            ToleranceLimit,
+            ToleranceExact,
+            ToleranceVolume,
+            ToleranceInRegion,
+            Roots,
+            Simulate,
+            Charpoly,
+            Analyze,
+            Report,
+        ];
+        (!KNOWN.contains(&self)).then_some(&COMPLEX)
     }
 
     /// The questions that are answered over a ring, as a list in words: those that are a command of their own.

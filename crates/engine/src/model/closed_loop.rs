@@ -6,13 +6,10 @@ use super::definition::{Model, Time};
 use super::evaluate::scalar::{Scope, Symbol, Variable};
 use super::evaluate::symbolic::{Values, Wiring, symbolic};
 use super::evaluate::walk::Failure as Wrong;
-use super::evaluate::zpoly::ZPoly;
 use super::steady::SteadyDuty;
 use super::symbols::{Definition, Symbols};
+use super::text::Expression;
 use super::text::names::{did_you_mean, known_names, shorten};
-use super::text::{Expression, UNIT};
-use crate::coverage::Refusal;
-use crate::coverage::refusals::COMPLEX;
 use crate::error::{Code, Diagnostic, Diagnostics, Error};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::{CharacteristicPolynomial, RationalMatrix};
@@ -130,7 +127,7 @@ impl Evaluated {
     }
 
     /// The same without symbols where none occurs: then everything is rational.
-    fn without_unused_symbols(mut self) -> Evaluated {
+    pub(super) fn without_unused_symbols(mut self) -> Evaluated {
         let first = self.symbols.first();
         let is_free = |f: &RationalFunction| f.variables().last().is_none_or(|last| *last < first);
         let p = &self.polynomial;
@@ -161,7 +158,7 @@ pub(super) struct Answer<'m> {
     /// For each variable of `values`, what it is in kept names and symbols: a number, a variable, or a function of both.
     pub images: Vec<RationalFunction>,
     pub symbols: RefCell<Symbols>,
-    poles: Vec<MultiPoly>,
+    pub poles: Vec<MultiPoly>,
     /// The time from one state to the next: of a loop with several rates its hyperperiod.
     pub sample_time: Option<RationalFunction>,
     /// At which sample a hyperperiod begins, where that matters.
@@ -171,32 +168,6 @@ pub(super) struct Answer<'m> {
 impl Answer<'_> {
     pub fn substituted(&self, f: &RationalFunction) -> Option<RationalFunction> {
         substituted(f, &self.images)
-    }
-
-    /// The characteristic polynomial that the model gives.
-    fn as_written(self) -> Result<Evaluated, Error> {
-        let Values::Characteristic(parts) = &self.values else { unreachable!("no other form has one") };
-        let undefined = || Error::Undefined("a coefficient divides by zero".into());
-        let formal_degree = parts.iter().map(ZPoly::degree).max().unwrap_or(0);
-        let list = |p: &ZPoly| (0..=formal_degree).map(|k| self.substituted(&p.coefficient(k))).collect::<Option<_>>();
-        let whole = ComplexPolynomial {
-            re: list(&parts[0]).ok_or_else(undefined)?,
-            im: list(&parts[1]).ok_or_else(undefined)?,
-        };
-        let sample_time = self.sample_time.as_ref().and_then(|t| self.substituted(t));
-        let (symbols, images) = merged(&self.symbols.borrow())?;
-        let whole = whole.try_map(|f| substituted(f, &images)).ok_or_else(undefined)?;
-        let (coefficients, complex) = whole.real_or_complex();
-        let polynomial = CharacteristicPolynomial {
-            variables: symbols.variables(),
-            coefficients,
-            formal_degree: if complex.is_some() { 2 * formal_degree } else { formal_degree },
-            poles: poles_in(&self.poles, &symbols, &images)?,
-            monic: false,
-        };
-        let sample_time = sample_time.and_then(|t| substituted(&t, &images));
-        let closed_loop = None;
-        Ok(Evaluated { polynomial, complex, closed_loop, sample_time, symbols }.without_unused_symbols())
     }
 
     /// A polynomial that is zero where the image of `p` is.
@@ -264,7 +235,7 @@ impl Model {
         let mut answer = self.answer(kept, values, budget)?;
         answer.symbols = RefCell::new(answer.symbols.into_inner().near(near));
         if let Values::Characteristic(_) = &answer.values {
-            return answer.as_written();
+            return answer.given_polynomial();
         }
         let (closed_loop, sample_time, symbols) = self.connected(answer, budget)?;
         Evaluated::of(closed_loop, sample_time, symbols, budget)
@@ -452,24 +423,6 @@ impl Model {
         Error::Refused(Diagnostics::new(Some(self.source().clone()), diagnostics))
     }
 
-    /// Refuses a loop that is complex with these values.
-    pub(crate) fn refuse_complex_loop(
-        &self,
-        kept: &[String],
-        given: &[(String, Rational)],
-        budget: &Budget,
-    ) -> Result<(), Error> {
-        self.refuse_complex(&self.answer(kept, given, budget)?, &COMPLEX)
-    }
-
-    /// Refuses a complex loop.
-    pub(super) fn refuse_complex(&self, answer: &Answer<'_>, how: &Refusal) -> Result<(), Error> {
-        match answer.wiring.is_complex {
-            true => Err(Diagnostics::new(Some(self.source().clone()), vec![how.diagnostic(&[])]).into()),
-            false => Ok(()),
-        }
-    }
-
     /// Why there is no closed loop, with the model's text.
     pub(super) fn not_connected(&self, why: NotConnected) -> Error {
         match why {
@@ -549,12 +502,16 @@ impl Model {
 }
 
 /// The symbols without relations between powers and multiple angles.
-fn merged(symbols: &Symbols) -> Result<(Symbols, Vec<RationalFunction>), Error> {
+pub(super) fn merged(symbols: &Symbols) -> Result<(Symbols, Vec<RationalFunction>), Error> {
     symbols.merged().ok_or_else(|| Error::Undefined("a function has no value there".into()))
 }
 
 /// The poles in merged symbols, without factors that have no zero.
-fn poles_in(poles: &[MultiPoly], symbols: &Symbols, images: &[RationalFunction]) -> Result<Vec<MultiPoly>, Error> {
+pub(super) fn poles_in(
+    poles: &[MultiPoly],
+    symbols: &Symbols,
+    images: &[RationalFunction],
+) -> Result<Vec<MultiPoly>, Error> {
     let mut out = Vec::new();
     for pole in poles {
         let image = substituted(&pole.clone().into(), images).filter(|f| !f.is_zero());
@@ -585,7 +542,7 @@ fn pole_beside(pole: &MultiPoly, symbols: &Symbols) -> Option<MultiPoly> {
     (!rest.is_constant()).then(|| rest.primitive_over_integers())
 }
 
-fn add_pole(poles: &mut Vec<MultiPoly>, pole: &MultiPoly) {
+pub(super) fn add_pole(poles: &mut Vec<MultiPoly>, pole: &MultiPoly) {
     let pole = pole.primitive_over_integers();
     if !pole.is_constant() && !poles.contains(&pole) {
         poles.push(pole);
@@ -605,34 +562,6 @@ impl ClosedLoop {
         p.poles.iter().for_each(|pole| add_pole(&mut poles, pole));
         p.poles = poles;
         Ok(p)
-    }
-
-    /// The characteristic polynomial of a complex loop with conjugate roots, and the polynomial itself where it is complex.
-    fn complex_polynomial(
-        &self,
-        symbols: &Symbols,
-        budget: &Budget,
-    ) -> Result<(CharacteristicPolynomial, Option<ComplexPolynomial>), Error> {
-        let unit = self.variables.len();
-        let j = RationalFunction::variable(unit);
-        let entry = |i: usize, k: usize| &self.a[(2 * i, 2 * k)] + &(&j * &self.a[(2 * i + 1, 2 * k)]);
-        let n = self.a.rows() / 2;
-        let matrix = RationalMatrix::from_fn(n, n, entry);
-        let variables = self.variables.iter().cloned().chain([UNIT.to_owned()]).collect();
-        let own = matrix.characteristic_polynomial(variables, budget)?;
-        let whole = ComplexPolynomial::of(&own.coefficients, unit);
-        let whole = whole.ok_or_else(|| Error::Undefined("division by zero".into()))?;
-        let on_circle = |f: &RationalFunction| budget.enter(|| symbols.on_circle(f)).ok().flatten();
-        let whole = whole.try_map(on_circle).unwrap_or(whole);
-        let mut poles = self.poles.clone();
-        own.poles.iter().for_each(|pole| add_pole(&mut poles, pole));
-        let (coefficients, complex) = budget.enter(|| whole.real_or_complex())?;
-        let short = coefficients.iter().map(on_circle).collect::<Option<Vec<_>>>();
-        let coefficients = short.unwrap_or(coefficients);
-        budget.check()?;
-        let formal_degree = coefficients.len() - 1;
-        let variables = self.variables.clone();
-        Ok((CharacteristicPolynomial { variables, coefficients, formal_degree, poles, monic: true }, complex))
     }
 
     /// The transfer function from an input to an output of the closed loop, nothing cancelled.

@@ -11,6 +11,7 @@
 mod builder;
 mod closed_loop;
 pub(crate) mod complex;
+mod complex_loop;
 mod connect;
 mod definition;
 mod discretization;

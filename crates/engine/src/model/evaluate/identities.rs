@@ -44,7 +44,8 @@ impl Scope<'_> {
     /// [`Exhausted`] when the budget runs out.
     pub fn is_hidden_zero(&self, f: &RationalFunction) -> Result<bool, Exhausted> {
         for part in self.parts(f) {
-            if !part.is_zero() && !(self.needed(&part).len() <= MOST && self.is_zero_by_identities(&part)?) {
+            let is_zero = part.is_zero() || self.needed(&part).len() <= MOST && self.is_zero_by_identities(&part)?;
+            if !is_zero {
                 return Ok(false);
             }
         }
@@ -54,7 +55,8 @@ impl Scope<'_> {
     /// True if a value other than zero has functions in it, and identities show that it is zero.
     fn is_zero_by_identities(&self, f: &RationalFunction) -> Result<bool, Exhausted> {
         for part in self.parts(f) {
-            if !part.is_zero() && !(self.has_functions(&part) && self.is_identity(&part)?) {
+            let is_zero = part.is_zero() || self.has_functions(&part) && self.is_identity(&part)?;
+            if !is_zero {
                 return Ok(false);
             }
         }

@@ -3,7 +3,7 @@
 use super::walk::{Failure, Meaning, division_by_zero, evaluate, too_large};
 use super::work::count_work;
 use crate::error::{Code, Diagnostic, Span};
-use crate::model::complex::{Parts, has_unit, parts_of};
+use crate::model::complex::{Parts, has_unit};
 use crate::model::definition::{Constant, Parameter};
 use crate::model::text::{Expression, Function, PI, Sign, UNIT};
 use jurist_algebra::ball::Ball;
@@ -148,58 +148,6 @@ impl<'a> Scope<'a> {
         Ok(self.variable(Variable::Call(function, value)))
     }
 
-    /// A function of a complex value: its parts, its conjugate, and `exp(a + jb) = exp(a) (cos b + j sin b)`.
-    fn call_of_complex(
-        &mut self,
-        function: Function,
-        value: &RationalFunction,
-        span: Span,
-    ) -> Result<RationalFunction, Failure> {
-        let Parts { re, im } = parts_of(value, self.unit).ok_or_else(|| division_by_zero(span))?;
-        let unit = self.imaginary_unit();
-        match function {
-            Function::Re => Ok(re),
-            Function::Im => Ok(im),
-            Function::Conj => Ok(&re - &(&unit * &im)),
-            Function::Exp => {
-                let length = self.call(Function::Exp, re, span)?;
-                let (x, y) = (self.call(Function::Cos, im.clone(), span)?, self.call(Function::Sin, im, span)?);
-                checked_product(&length, &(&x + &(&unit * &y))).ok_or_else(|| too_large(span))
-            }
-            _ => {
-                let message = format!("'{}' of a complex value", function.name());
-                let error = Diagnostic::error(Code::Complex, message).at(span, "contains the imaginary unit");
-                let help = "functions of complex values are exp, conj, re and im; exp(j*phi) is cos(phi) + j*sin(phi)";
-                Err(error.help(help).into())
-            }
-        }
-    }
-
-    /// The imaginary unit.
-    pub fn imaginary_unit(&mut self) -> RationalFunction {
-        let unit = self.variable(Variable::Unit);
-        self.unit = self.variables.iter().position(|v| *v == Variable::Unit);
-        unit
-    }
-
-    /// The value with `j^2 = -1`, and a real denominator; `None` where it divides by zero.
-    pub fn reduced(&self, value: RationalFunction) -> Option<RationalFunction> {
-        match self.unit.filter(|_| has_unit(&value, self.unit)) {
-            Some(unit) => Some(parts_of(&value, Some(unit))?.joined(unit)),
-            None => Some(value),
-        }
-    }
-
-    /// The value of an expression that has to be real.
-    pub fn real(&mut self, e: &Expression) -> Result<RationalFunction, Failure> {
-        let value = self.scalar(e)?;
-        if has_unit(&value, self.unit) {
-            let error = Diagnostic::error(Code::Complex, "a real value belongs here").at(e.span, "a complex value");
-            return Err(error.help("re(..) is the real part of a value, im(..) its imaginary part").into());
-        }
-        Ok(value)
-    }
-
     /// An error where a function of this argument has no value, or one that is too large to compute with, whatever the parameters are.
     fn refuse_without_value(&self, function: Function, x: &RationalFunction, span: Span) -> Result<(), Failure> {
         let wrong = match function {
@@ -231,7 +179,7 @@ impl<'a> Scope<'a> {
     }
 
     /// The variable that stands for this, the same each time.
-    fn variable(&mut self, wanted: Variable) -> RationalFunction {
+    pub(super) fn variable(&mut self, wanted: Variable) -> RationalFunction {
         let at = self.variables.iter().position(|v| *v == wanted).unwrap_or_else(|| {
             self.variables.push(wanted);
             self.variables.len() - 1

@@ -6,7 +6,7 @@ use super::transfer::{Fraction, MAX_ORDER, fraction, held_fraction, polynomial};
 use super::walk::{Failure, Meaning, division_by_zero};
 use super::zpoly::ZPoly;
 use crate::error::{Code, Diagnostic, Span};
-use crate::model::complex::{Lift, lifted};
+use crate::model::complex::{Frame, Lift, lifted};
 use crate::model::definition::{
     Block, Discretization, Dynamics, Form, Matrix, Model, Output, Ports, Pulses, Rate, Time,
 };
@@ -114,28 +114,8 @@ pub(in crate::model) struct Hold {
     /// Dead time of the inputs, in units of time.
     pub delay: RationalFunction,
     /// How the block is seen, where its input is held in another frame.
-    pub frame: Option<Frame>,
+    pub frame: Option<Box<Frame>>,
     pub span: Span,
-}
-
-/// A frame that turns by an angle in each sample, from which a block is seen whose input is held in a frame that rests: rotations as cosine
-/// and sine.
-#[derive(Clone)]
-pub(in crate::model) struct Frame {
-    /// Back by that angle.
-    pub turn: [RationalFunction; 2],
-    /// Back by it, and ahead by the advance of the command: how inputs enter the next state.
-    pub enters: [RationalFunction; 2],
-    /// Ahead by the advance: how inputs pass on at once.
-    pub direct: [RationalFunction; 2],
-}
-
-impl Frame {
-    /// The frame with images in the place of cosines and sines.
-    pub fn try_map<E>(&self, image: &dyn Fn(&RationalFunction) -> Result<RationalFunction, E>) -> Result<Frame, E> {
-        let rotation = |[x, y]: &[RationalFunction; 2]| Ok([image(x)?, image(y)?]);
-        Ok(Frame { turn: rotation(&self.turn)?, enters: rotation(&self.enters)?, direct: rotation(&self.direct)? })
-    }
 }
 
 /// The pulse of an input.
@@ -287,7 +267,7 @@ impl Evaluator<'_, '_> {
                 let frame = match speed {
                     Some((speed, span)) => {
                         let advance = advance.map_or(Some(RationalFunction::zero()), |(advance, _)| advance)?;
-                        Some(self.frame(&(&speed? * &time), &advance, span)?)
+                        Some(Box::new(self.frame(&(&speed? * &time), &advance, span)?))
                     }
                     None => None,
                 };

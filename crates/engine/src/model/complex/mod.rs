@@ -2,14 +2,16 @@
 //! model, or a plant is held in another frame, each signal becomes two, its real and its imaginary part: a block with the matrix `X + jY`
 //! has `[[X, -Y], [Y, X]]`, entry by entry. So all that follows is real: the loop has twice as many states, and with each root its conjugate.
 
-use super::connect::state_space::System;
-use super::evaluate::symbolic::{
-    BlockValues, DiscretizationValues, DynamicValues, Frame, PortValues, Row, Values, Wiring,
-};
+mod polynomial;
+mod systems;
+
+use super::evaluate::symbolic::{BlockValues, DiscretizationValues, DynamicValues, PortValues, Row, Values, Wiring};
 use super::evaluate::transfer::Fraction;
 use super::evaluate::zpoly::ZPoly;
 use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
+pub use polynomial::ComplexPolynomial;
+pub(in crate::model) use systems::{Frame, lifted_system, realised_ratio, seen_from, unlifted};
 
 /// What is added to the name of a signal or state for its real part, and for its imaginary part.
 pub(crate) const PARTS: [&str; 2] = [".re", ".im"];
@@ -219,89 +221,8 @@ impl Lifting {
 }
 
 /// The real matrix of a complex one of this size: entry by entry.
-fn of_parts<'p>(rows: usize, columns: usize, parts: impl Fn(usize, usize) -> &'p Parts) -> RationalMatrix {
+pub(super) fn of_parts<'p>(rows: usize, columns: usize, parts: impl Fn(usize, usize) -> &'p Parts) -> RationalMatrix {
     RationalMatrix::from_fn(2 * rows, 2 * columns, |i, j| parts(i / 2, j / 2).entry(i % 2, j % 2))
-}
-
-/// The system that does with real and imaginary parts what a real one does with each signal, its plant held in another frame:
-/// `exp(ja) G(z exp(jwT))`.
-pub(in crate::model) fn lifted_system(system: &System) -> System {
-    let matrix = |m: &RationalMatrix| {
-        let parts: Vec<Parts> =
-            m.entries().iter().map(|f| Parts { re: f.clone(), im: RationalFunction::zero() }).collect();
-        of_parts(m.rows(), m.columns(), |i, j| &parts[i * m.columns() + j])
-    };
-    let System { a, b, c, d } = system;
-    System { a: matrix(a), b: matrix(b), c: matrix(c), d: matrix(d) }
-}
-
-/// A system of real and imaginary parts, as it is seen from a frame that turns.
-pub(in crate::model) fn seen_from(system: System, frame: &Frame) -> System {
-    let turned = |m: &RationalMatrix, [cosine, sine]: &[RationalFunction; 2]| {
-        RationalMatrix::from_fn(m.rows(), m.columns(), |i, j| {
-            let (x, y) = (&m[(i - i % 2, j)], &m[(i - i % 2 + 1, j)]);
-            match i % 2 {
-                0 => &(cosine * x) - &(sine * y),
-                _ => &(sine * x) + &(cosine * y),
-            }
-        })
-    };
-    let System { a, b, c, d } = system;
-    System { a: turned(&a, &frame.turn), b: turned(&b, &frame.enters), d: turned(&d, &frame.direct), c }
-}
-
-/// The complex ratio's controllable canonical form, in real and imaginary parts, and the square of the modulus of the denominator's leading
-/// coefficient; `None` where that is zero.
-pub(in crate::model) fn realised_ratio(
-    numerator: &[Vec<RationalFunction>; 2],
-    denominator: &[Vec<RationalFunction>; 2],
-) -> Option<(System, RationalFunction)> {
-    let n = denominator[0].len() - 1;
-    let at = |p: &[Vec<RationalFunction>; 2], k: usize| Parts { re: p[0][k].clone(), im: p[1][k].clone() };
-    let leading = at(denominator, n);
-    let square = &(&leading.re * &leading.re) + &(&leading.im * &leading.im);
-    let below = square.recip()?;
-    let times = |a: &Parts, b: &Parts| Parts {
-        re: &(&a.re * &b.re) - &(&a.im * &b.im),
-        im: &(&a.re * &b.im) + &(&a.im * &b.re),
-    };
-    let inverse = Parts { re: &leading.re * &below, im: -(&leading.im * &below) };
-    let monic = |p: &[Vec<RationalFunction>; 2], k: usize| times(&at(p, k), &inverse);
-    let real = |f: RationalFunction| Parts { re: f, im: RationalFunction::zero() };
-    let (zero, one) = (real(RationalFunction::zero()), real(RationalFunction::one()));
-    let direct = monic(numerator, n);
-    let last: Vec<Parts> = (0..n).map(|k| monic(denominator, k)).collect();
-    let negative = |p: &Parts| Parts { re: -&p.re, im: -&p.im };
-    let below_diagonal: Vec<Parts> = last.iter().map(negative).collect();
-    let c: Vec<Parts> = (0..n)
-        .map(|k| {
-            let (own, through) = (monic(numerator, k), times(&direct, &last[k]));
-            Parts { re: &own.re - &through.re, im: &own.im - &through.im }
-        })
-        .collect();
-    let a = of_parts(n, n, |i, k| match i + 1 {
-        next if next == n => &below_diagonal[k],
-        next if next == k => &one,
-        _ => &zero,
-    });
-    let b = of_parts(n, 1, |i, _| if i + 1 == n { &one } else { &zero });
-    let c = of_parts(1, n, |_, k| &c[k]);
-    let d = of_parts(1, 1, |_, _| &direct);
-    Some((System { a, b, c, d }, square))
-}
-
-/// Whether a matrix of parts is that of a real matrix.
-fn is_real(m: &RationalMatrix) -> bool {
-    let parts = |i: usize| (0..m.columns()).filter(move |j| i % 2 != j % 2).map(move |j| (i, j));
-    (0..m.rows()).flat_map(parts).all(|at| m[at].is_zero())
-}
-
-/// The system of real signals, where no imaginary part is left in one of real and imaginary parts.
-pub(in crate::model) fn unlifted(system: &System) -> Option<System> {
-    let System { a, b, c, d } = system;
-    let half =
-        |m: &RationalMatrix| RationalMatrix::from_fn(m.rows() / 2, m.columns() / 2, |i, j| m[(2 * i, 2 * j)].clone());
-    [a, b, c, d].into_iter().all(is_real).then(|| System { a: half(a), b: half(b), c: half(c), d: half(d) })
 }
 
 /// The names of the parts of signals.
@@ -313,83 +234,4 @@ pub(crate) fn names_of_parts(names: impl IntoIterator<Item = String>) -> Vec<Str
 pub(crate) fn names_of_wholes(names: &[String]) -> Vec<String> {
     let whole = |name: &String| name.strip_suffix(PARTS[0]).map(str::to_owned);
     names.iter().filter_map(whole).collect()
-}
-
-/// The characteristic polynomial `D` of a complex loop.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct ComplexPolynomial {
-    /// The real parts of the coefficients, from the constant term up.
-    pub re: Vec<RationalFunction>,
-    /// The imaginary parts, as many.
-    pub im: Vec<RationalFunction>,
-}
-
-impl ComplexPolynomial {
-    /// From coefficients in which a variable of this number is the imaginary unit; `None` where one divides by zero.
-    pub(in crate::model) fn of(coefficients: &[RationalFunction], unit: usize) -> Option<ComplexPolynomial> {
-        let parts = coefficients.iter().map(|c| parts_of(c, Some(unit))).collect::<Option<Vec<Parts>>>()?;
-        let (re, im) = parts.into_iter().map(|p| (p.re, p.im)).unzip();
-        Some(ComplexPolynomial { re, im })
-    }
-
-    /// Whether no imaginary part is left.
-    pub fn is_real(&self) -> bool {
-        self.im.iter().all(RationalFunction::is_zero)
-    }
-
-    /// The real polynomial `D conj(D)` of twice the degree, `conj(D)` with conjugated coefficients: its roots are those of `D` and their
-    /// conjugates.
-    pub fn with_conjugate(&self) -> Vec<RationalFunction> {
-        let n = self.re.len();
-        let mut out = vec![RationalFunction::zero(); (2 * n).saturating_sub(1)];
-        for list in [&self.re, &self.im] {
-            for (i, a) in list.iter().enumerate().filter(|(_, a)| !a.is_zero()) {
-                for (k, b) in list.iter().enumerate().filter(|(_, b)| !b.is_zero()) {
-                    out[i + k] = &out[i + k] + &(a * b);
-                }
-            }
-        }
-        out
-    }
-
-    /// The real polynomial that is asked: the polynomial itself where it is real; else that with the conjugate roots, beside it.
-    pub(in crate::model) fn real_or_complex(self) -> (Vec<RationalFunction>, Option<ComplexPolynomial>) {
-        match self.is_real() {
-            true => (self.re, None),
-            false => (self.with_conjugate(), Some(self)),
-        }
-    }
-
-    /// The polynomial without its greatest factor that has real coefficients; `None` where it has no such factor.
-    ///
-    /// Cost: Euclid's algorithm over the field of rational functions.
-    pub(crate) fn without_real_factor(&self) -> Option<ComplexPolynomial> {
-        let (factor, others) = self.real_factor();
-        (factor.len() > 1).then_some(others)
-    }
-
-    /// The greatest factor with real coefficients, and the other one.
-    ///
-    /// Cost: Euclid's algorithm over the field of rational functions.
-    pub(crate) fn real_factor(&self) -> (Vec<RationalFunction>, ComplexPolynomial) {
-        let any = |f: RationalFunction| Some(f);
-        let [re, im] = [&self.re, &self.im].map(|list| ZPoly::new(list.clone()));
-        let split = || {
-            let factor = re.gcd(&im, &any)?;
-            let [re, im] = [re.divide(&factor, &any)?.0, im.divide(&factor, &any)?.0];
-            let list = |p: &ZPoly| (0..=re.degree().max(im.degree())).map(|k| p.coefficient(k)).collect();
-            Some((factor.coefficients().to_vec(), ComplexPolynomial { re: list(&re), im: list(&im) }))
-        };
-        split().unwrap_or_else(|| (vec![RationalFunction::one()], self.clone()))
-    }
-
-    /// The coefficients with images in the place of their parts; `None` where one has none.
-    pub(crate) fn try_map(
-        &self,
-        image: impl Fn(&RationalFunction) -> Option<RationalFunction>,
-    ) -> Option<ComplexPolynomial> {
-        let [re, im] = [&self.re, &self.im].map(|list| list.iter().map(&image).collect::<Option<Vec<_>>>());
-        Some(ComplexPolynomial { re: re?, im: im? })
-    }
 }
