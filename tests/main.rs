@@ -66,6 +66,7 @@ mod loops {
 
 /// Loops with complex coefficients, and plants that are held in another frame.
 mod complex {
+    mod frames;
     mod laws;
     mod oracle;
     mod random;

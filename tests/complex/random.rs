@@ -1,13 +1,14 @@
 //! Random loops with complex coefficients: their sets against the criterion of Schur and Cohn on both sides of every end, against the same
 //! loops in real form, and with the imaginary unit negated.
 
-use super::oracle::Loop;
+use super::oracle::{Loop, is_hurwitz, is_schur, plus};
 use crate::helpers::model::{load, read};
 use crate::helpers::number::ratio;
 use crate::helpers::random::Random;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
-use jurist_engine::answer::Answer;
+use jurist_engine::answer::{Answer, ToleranceRequest};
+use jurist_engine::stability::boxes::BoxDecision;
 use jurist_engine::stability::{Cause, End, StableSet};
 
 fn set(text: &str) -> Answer<StableSet> {
@@ -133,4 +134,76 @@ fn roots_and_verdicts_agree() {
             assert!(f64::hypot(re, im) < 1e-4, "{of:?}: {x} + {y} j is no root");
         }
     }
+}
+
+/// The plane of two parameters: a point of each cell of the exact map against Schur and Cohn.
+#[test]
+fn maps_agree_with_schur_and_cohn() {
+    let mut random = Random::new(1975);
+    let (mut stable, mut cells) = (0, 0);
+    for case in 0..24 {
+        let of = Loop::random(&mut random, case % 2 == 0);
+        // The second parameter turns the constant term: a_0 + b_0 K + (1 + 2j) L/4.
+        let text = of.text(1).replace("K = {", "L = { nominal = 0, min = -3, max = 3 }\nK = {");
+        let text = text.replacen("*z^0", "*z^0 + (1 + 2*j)*L/4", 1).replacen("*s^0", "*s^0 + (1 + 2*j)*L/4", 1);
+        let problem = read(&text).ask().free("K").free("L").plane_problem().unwrap();
+        let map = problem.map(8, &Budget::unlimited()).unwrap().into_value();
+        for strip in &map.decomposition.strips {
+            for cell in &strip.cells {
+                let (k, l) = (&strip.sample, &cell.sample);
+                let mut polynomial = of.at(k);
+                let quarter = &ratio(1, 4) * l;
+                polynomial[0] = plus(&polynomial[0], &[quarter.clone(), &quarter * &ratio(2, 1)]);
+                let expected = if of.is_discrete { is_schur(&polynomial) } else { is_hurwitz(&polynomial) };
+                assert_eq!(cell.stable, expected, "{of:?} at {k}, {l}");
+                assert!(cell.outside <= of.a.len() && (cell.outside == 0) == expected, "{of:?} at {k}, {l}");
+                (stable, cells) = (stable + usize::from(expected), cells + 1);
+            }
+        }
+    }
+    assert!(stable > 30 && cells > 200, "{stable} of {cells}");
+}
+
+/// Boxes of two tolerances: what is said of a box holds at all points of a grid, and the witness of a box that is not stable is none.
+#[test]
+fn boxes_agree_with_schur_and_cohn() {
+    let mut random = Random::new(1932);
+    let (mut stable, mut unstable) = (0, 0);
+    for case in 0..160 {
+        let of = Loop::random(&mut random, case % 2 == 0);
+        let text = of.text(1).replace(
+            "K = { nominal = 0.1, min = -4, max = 4 }",
+            "L = { nominal = 0.2, tolerance = '200%' }\nK = { nominal = 0.1, tolerance = '300%' }",
+        );
+        let text = text.replacen("*z^0", "*z^0 + (1 + 2*j)*L/4", 1).replacen("*s^0", "*s^0 + (1 + 2*j)*L/4", 1);
+        let model = load(&text);
+        let is_stable = |k: &Rational, l: &Rational| {
+            let mut polynomial = of.at(k);
+            let quarter = &ratio(1, 4) * l;
+            polynomial[0] = plus(&polynomial[0], &[quarter.clone(), &quarter * &ratio(2, 1)]);
+            if of.is_discrete { is_schur(&polynomial) } else { is_hurwitz(&polynomial) }
+        };
+        let request = ToleranceRequest::of_model(&model).gap(ratio(1, 100));
+        let answer = model.ask().tolerance(&request, &Budget::unlimited()).unwrap();
+        let free = answer.problem().free().to_vec();
+        let place = |name: &str| free.iter().position(|free| free.name == name).unwrap();
+        let answer = answer.into_value();
+        let (at_k, at_l) = (place("K"), place("L"));
+        match &answer.decision {
+            BoxDecision::NotStable { witness } => {
+                unstable += 1;
+                let point = &witness.as_ref().expect("a point").point;
+                assert!(!is_stable(&point[at_k], &point[at_l]), "{of:?} at {point:?}");
+            }
+            decision => {
+                assert!(decision.is_stable(), "{of:?}: {decision:?}");
+                stable += 1;
+                for (a, b) in (-4..=4).flat_map(|a| (-4..=4).map(move |b| (a, b))) {
+                    let (k, l) = (ratio(4 + 3 * a, 40), ratio(4 + 2 * b, 20));
+                    assert!(is_stable(&k, &l), "{of:?} at {k}, {l}");
+                }
+            }
+        }
+    }
+    assert!(stable > 10 && unstable > 10, "{stable} stable, {unstable} not");
 }
