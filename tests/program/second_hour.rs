@@ -94,7 +94,11 @@ fn the_imaginary_unit_of_a_line_is_j_and_another_letter_is_told() {
     // s = -1 - 2j
     let run = jurist(&["verdict", "2*j/(s+1)"]);
     assert!(run.status == 0 && !run.stderr.contains("imaginary"), "{}", run.stderr);
-    assert!(jurist(&["roots", "2*j/(s+1)"]).stdout.contains("-1.00000000000 - 2.00000000000 j"), "{}", jurist(&["roots", "2*j/(s+1)"]).stdout);
+    assert!(
+        jurist(&["roots", "2*j/(s+1)"]).stdout.contains("-1.00000000000 - 2.00000000000 j"),
+        "{}",
+        jurist(&["roots", "2*j/(s+1)"]).stdout
+    );
     assert!(!jurist(&["verdict", "2*k/(s+1)", "--set", "k=1"]).stderr.contains("imaginary"));
 }
 
