@@ -65,6 +65,15 @@ mod loops {
     mod steady_duty;
 }
 
+/// Loops with complex coefficients, and plants that are held in another frame.
+mod complex {
+    mod frames;
+    mod laws;
+    mod oracle;
+    mod random;
+    mod table;
+}
+
 /// Models with their expected answers in words, asked of every engine.
 mod corpus {
     mod checkers;

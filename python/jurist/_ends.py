@@ -26,6 +26,7 @@ class Cause(str, enum.Enum):
     Z1 = "z=1"
     ZM1 = "z=-1"
     PAIR = "complex pair"
+    ROOT = "complex root"
     S0 = "s=0"
     INFINITY = "infinity"
     POLE = "pole"
@@ -84,7 +85,7 @@ class End:
 
     @property
     def frequency_hz(self) -> float | None:
-        """The frequency of the complex pair in hertz."""
+        """The frequency of the complex pair in hertz; with its sign, of one complex root."""
         return self._document.get("frequency_hz")
 
     @property

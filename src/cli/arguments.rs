@@ -37,7 +37,7 @@ pub(super) struct Arguments {
 }
 
 /// What the causes of ends mean.
-pub(super) const CAUSES: &str = "Causes of an end: z=1, z=-1, s=0, complex pair: roots reach the boundary of stability there; infinity: the \
+pub(super) const CAUSES: &str = "Causes of an end: z=1, z=-1, s=0, complex pair, complex root: roots reach the boundary of stability there; infinity: the \
     degree is lost; pole: the model is undefined there (a division by zero, a block that loses its order, a loop that is \
     not well posed); domain: the parameter's domain ends. Several are joined by '+'.";
 

@@ -42,9 +42,8 @@ pub(super) fn load(model: Option<&OsString>, line: &ReadingOptions, context: &Co
     if named.is_open_loop && !context.quiet {
         note("note: the line is taken for an open loop and closed with unity negative feedback");
     }
-    if named.is_line && !context.quiet {
-        let units = model.parameters().iter().filter(|p| ["i", "j"].contains(&p.name.as_str()));
-        units.for_each(|p| note(&format!("note: '{}' is a parameter, not the imaginary unit", p.name)));
+    if named.is_line && !context.quiet && model.parameter("i").is_some() {
+        note("note: 'i' is a parameter; the imaginary unit is written 'j'");
     }
     context.warn(Some(model.source()), &warnings);
     tell_numbers(&named.name, &named.numbers, line, context)?;

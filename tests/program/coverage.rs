@@ -3,7 +3,7 @@
 use jurist::cli::captured;
 use jurist_algebra::limits::{Budget, parallel_map};
 use jurist_engine::coverage::{Asked, CoefficientRing, Coverage, rows};
-use jurist_engine::error::{Error, Source};
+use jurist_engine::error::{Code, Error, Source};
 use jurist_engine::model::{Model, Time};
 use std::path::Path;
 
@@ -131,6 +131,44 @@ fn every_question_of_a_loop_over_each_ring_has_the_outcome_of_the_table() {
         let of_time = |of: &&Loop| row.time.is_none_or(|time| time == of.model.time());
         let asked = loops.iter().filter(of_time).map(|of| check(row, of, file.to_str().expect("a path")));
         asked.filter_map(Result::err).collect::<Vec<_>>()
+    });
+    let wrong = wrong.concat();
+    std::fs::remove_dir_all(Path::new(&folder)).expect("removed");
+    assert!(wrong.is_empty(), "{} cells:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+/// Loops with complex coefficients over each ring that they may have.
+fn complex_loops() -> Vec<Loop> {
+    use CoefficientRing::*;
+    let zoh = "discretize = { method = 'zoh', T = '1/10' }\n";
+    let frame = "discretize = { method = 'zoh', T = '1/10', frame = 'K' }\n";
+    vec![
+        of_blocks(Rational, "(3 + 4*j)/5/(z - L/2)", ""),
+        of_blocks(Rational, "(3 + 4*j)/5/((s + L)*(s + 1)*(s + 2))", ""),
+        of_blocks(Constants, "L/(s + 1 + j)", zoh),
+        of_blocks(Functions, "L/(s + 1)", frame),
+    ]
+}
+
+#[test]
+fn every_question_of_a_complex_loop_is_answered_or_refused_as_the_table_says() {
+    let folder = std::env::temp_dir().join(format!("jurist-complex-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let loops = complex_loops();
+    let wrong: Vec<Vec<String>> = parallel_map(rows(), |row| {
+        let file = folder.join(format!("{:?}.html", row.asked));
+        let check = |of: &Loop| {
+            let arguments = arguments(row.command, of.model.time(), file.to_str().expect("a path"));
+            let found = outcome(&arguments, &of.model);
+            let is_refused =
+                matches!(&found, Err(Error::Refused(found)) if found.diagnostics()[0].code == Code::Complex);
+            // What is refused of every loop over the ring may say so first.
+            let is_never =
+                matches!(row.asked.over(of.ring), Coverage::Refused(_)) && matches!(found, Err(Error::Refused(_)));
+            let agrees = is_refused == row.asked.of_complex_loop().is_some() || is_never;
+            (!agrees).then(|| format!("{} of {}: {found:?}", row.command, of.ring.name()))
+        };
+        loops.iter().filter(|of| row.time.is_none_or(|time| time == of.model.time())).filter_map(check).collect()
     });
     let wrong = wrong.concat();
     std::fs::remove_dir_all(Path::new(&folder)).expect("removed");

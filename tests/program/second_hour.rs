@@ -83,10 +83,22 @@ fn times_that_cannot_be_are_told_of_the_option() {
 }
 
 #[test]
-fn imaginary_units_are_parameters_and_the_line_says_so() {
-    let run = jurist(&["verdict", "2*j/(s+1)", "--set", "j=1"]);
-    assert!(run.status == 0 && run.stderr.contains("'j' is a parameter, not the imaginary unit"), "{}", run.stderr);
-    assert!(!jurist(&["verdict", "2*j/(s+1)", "--set", "j=1", "-q"]).stderr.contains("imaginary"));
+fn the_imaginary_unit_of_a_line_is_j_and_another_letter_is_told() {
+    let run = jurist(&["verdict", "2*i/(s+1)", "--set", "i=1"]);
+    assert!(
+        run.status == 0 && run.stderr.contains("'i' is a parameter; the imaginary unit is written 'j'"),
+        "{}",
+        run.stderr
+    );
+    assert!(!jurist(&["verdict", "2*i/(s+1)", "--set", "i=1", "-q"]).stderr.contains("imaginary"));
+    // s = -1 - 2j
+    let run = jurist(&["verdict", "2*j/(s+1)"]);
+    assert!(run.status == 0 && !run.stderr.contains("imaginary"), "{}", run.stderr);
+    assert!(
+        jurist(&["roots", "2*j/(s+1)"]).stdout.contains("-1.00000000000 - 2.00000000000 j"),
+        "{}",
+        jurist(&["roots", "2*j/(s+1)"]).stdout
+    );
     assert!(!jurist(&["verdict", "2*k/(s+1)", "--set", "k=1"]).stderr.contains("imaginary"));
 }
 

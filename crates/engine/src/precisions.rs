@@ -23,6 +23,9 @@ pub(crate) const ROOTS: Precisions = Precisions::new(256, 1 << 12);
 /// Entries of matrices that are rounded for other programs. Of one that may be zero no bits tell.
 pub(crate) const ROUNDED_ENTRIES: Precisions = Precisions::new(256, 1 << 12);
 
+/// On which side of the real axis a complex loop's root is. It may have one on either side at once, which no bits show.
+pub(crate) const SIDE_OF_ROOT: Precisions = Precisions::new(128, 1 << 11);
+
 /// The duty ratio of a loop at rest beside 0 and 1, which it may be by a relation that no identity shows.
 pub(crate) const STEADY_DUTY: Precisions = Precisions::new(128, 1 << 11);
 

@@ -16,6 +16,8 @@ pub enum Cause {
     RootAtMinusOne,
     /// A pair of complex conjugate roots on the boundary.
     ComplexPair,
+    /// One complex root on the boundary, without its conjugate: of a loop with complex coefficients.
+    ComplexRoot,
     /// A root at `s = 0`.
     RootAtZero,
     /// The leading coefficient vanishes: a root leaves through infinity.
@@ -36,12 +38,18 @@ pub enum Cause {
 }
 
 impl Cause {
+    /// Whether complex roots are on the boundary.
+    pub fn is_of_complex_roots(self) -> bool {
+        matches!(self, Cause::ComplexPair | Cause::ComplexRoot)
+    }
+
     /// The name used in all output.
     pub fn name(self) -> &'static str {
         match self {
             Cause::RootAtOne => "z=1",
             Cause::RootAtMinusOne => "z=-1",
             Cause::ComplexPair => "complex pair",
+            Cause::ComplexRoot => "complex root",
             Cause::RootAtZero => "s=0",
             Cause::DegreeLost => "infinity",
             Cause::Neutral => "neutral",
@@ -90,6 +98,14 @@ impl Causes {
     /// Whether stability ends for a reason of the loop's, and not where the question or what is known ends.
     pub fn is_limit(&self) -> bool {
         self.0.iter().any(|c| !matches!(c, Cause::Domain | Cause::Undecided))
+    }
+
+    /// The reasons of a polynomial with each root of a complex loop and its conjugate, as reasons of the loop.
+    pub fn of_complex_loop(&mut self) {
+        if self.contains(Cause::ComplexPair) {
+            self.remove(Cause::ComplexPair);
+            self.insert(Cause::ComplexRoot);
+        }
     }
 
     /// Takes a reason back.

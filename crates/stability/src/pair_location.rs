@@ -29,6 +29,18 @@ use std::cmp::Ordering;
 pub struct ComplexPair {
     region: Shape,
     x: HalfSizeRoot,
+    side: Side,
+}
+
+/// Which roots of a pair of conjugates are roots of the loop.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// Both, as always where coefficients are real.
+    Both,
+    /// The one with a positive imaginary part.
+    Upper,
+    /// The other one.
+    Lower,
 }
 
 #[derive(Clone, Debug)]
@@ -71,7 +83,7 @@ pub(super) fn complex_pair_at(
             Shape::LeftHalfPlane => Range::between(None, Some(Rational::ZERO)),
         };
         let roots = zeros_in(&common, &range, budget)?;
-        return Ok(roots.into_iter().last().map(|x| ComplexPair { region, x: HalfSizeRoot::Number(x.into()) }));
+        return Ok(roots.into_iter().last().map(|x| ComplexPair::of(region, HalfSizeRoot::Number(x.into()))));
     }
     let pair = HalfSizePair::new(p.polynomial(), p.formal_degree(), region);
     let (first, second) = if pair.a.degree() >= pair.b.degree() { (pair.a, pair.b) } else { (pair.b, pair.a) };
@@ -89,7 +101,7 @@ pub(super) fn complex_pair_at(
             }
         }
         let x = HalfSizeRoot::Common { pair: both, parameter: value.clone() };
-        return Ok(Some(ComplexPair { region, x }));
+        return Ok(Some(ComplexPair::of(region, x)));
     }
     let chain = subresultant_chain(&both[0], &both[1], budget)?;
     let mut common = Poly::zero();
@@ -114,7 +126,7 @@ pub(super) fn complex_pair_at(
     if common.is_constant() {
         return Ok(None);
     }
-    Ok(Some(ComplexPair { region, x: HalfSizeRoot::Over { polynomial: common, parameter: value.clone() } }))
+    Ok(Some(ComplexPair::of(region, HalfSizeRoot::Over { polynomial: common, parameter: value.clone() })))
 }
 
 /// Bits of the first attempt to see that there is only one common root, and how often they are doubled.
@@ -172,14 +184,28 @@ fn divide_by_linear(p: &Poly<UniPoly>, a: i64) -> (Poly<UniPoly>, UniPoly) {
 }
 
 impl ComplexPair {
+    fn of(region: Shape, x: HalfSizeRoot) -> ComplexPair {
+        ComplexPair { region, x, side: Side::Both }
+    }
+
+    /// The pair of a polynomial with each root and its conjugate, of which a complex loop has the roots on this side.
+    pub fn on_side(self, side: Side) -> ComplexPair {
+        ComplexPair { side, ..self }
+    }
+
+    /// Which of the two are roots of the loop.
+    pub fn side(&self) -> Side {
+        self.side
+    }
+
     /// The pair with a given `2 cos(theta)` in `(-2, 2)`, or `-omega^2 < 0`.
     pub fn at_half_size_root(region: Shape, x: impl Into<Real>) -> ComplexPair {
-        ComplexPair { region, x: HalfSizeRoot::Number(x.into()) }
+        ComplexPair::of(region, HalfSizeRoot::Number(x.into()))
     }
 
     /// The pair `+-i omega` with a given positive `omega`.
     pub fn at_angular_frequency(omega: impl Into<Real>) -> ComplexPair {
-        ComplexPair { region: Shape::LeftHalfPlane, x: HalfSizeRoot::Frequency(omega.into()) }
+        ComplexPair::of(Shape::LeftHalfPlane, HalfSizeRoot::Frequency(omega.into()))
     }
 
     /// The region on whose boundary the pair sits.
@@ -221,7 +247,7 @@ impl ComplexPair {
         }
     }
 
-    /// The angle of the upper root in radians, in `(0, pi)`; `None` in continuous time.
+    /// The angle of the upper root in radians, in `(0, pi)`, whichever [side](ComplexPair::side) counts; `None` in continuous time.
     pub fn angle(&self, bits: u64) -> Option<Enclosure> {
         match self.region {
             Shape::UnitDisc => {

@@ -135,6 +135,7 @@ impl TuneAnswer {
         asked.requirements.region = asked.requirements.region.or(own);
         let lines = Lines::new(question, &asked, budget)?;
         let problem = lines.problem()?;
+        problem.refuse_written_complex()?;
         let found = best(&lines)?;
         let outcome = match found {
             Outcome::Infeasible { cells, .. } => Outcome::Infeasible { conflict: conflict(&lines, cells)?, cells },

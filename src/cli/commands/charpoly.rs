@@ -174,6 +174,7 @@ fn report(options: &Options, context: &Context, problem: &Problem) -> Result<Pol
         polynomials: Vec::new(),
     };
     if let Some([input, output]) = options.transfer.as_deref() {
+        problem.refuse_complex(&context.budget)?;
         let (closed_loop, symbols) = problem.closed_loop_over_symbols(&context.budget)?;
         report.with_symbols(symbols);
         let transfer = closed_loop.transfer_function(input, output, &context.budget);
@@ -191,8 +192,14 @@ fn report(options: &Options, context: &Context, problem: &Problem) -> Result<Pol
         return Err(Error::Undefined(algebra.undefined().unwrap_or_default().to_owned()));
     };
     match &options.root_locus_form {
+        None if let Some(complex) = algebra.complex() => {
+            report.relation = Relation::Complex;
+            let (re, im) = (complex.re.clone(), complex.im.clone());
+            report.polynomials = vec![NamedPolynomial::new("re", "a", re), NamedPolynomial::new("im", "b", im)];
+        }
         None => report.polynomials = vec![NamedPolynomial::new("Q", "a", polynomial.coefficients)],
         Some(name) => {
+            problem.refuse_complex(&context.budget)?;
             let (num, den) = root_locus(context, &polynomial, name)?;
             report.relation = Relation::RootLocus { parameter: name.clone() };
             report.polynomials = vec![num, den];

@@ -104,6 +104,7 @@ fn run(options: &Options, context: &Context) -> Outcome {
     let course = course(options, &problem, context)?;
     context.budget.step("simulating");
     let (mut answer, finals) = if options.switched {
+        problem.refuse_written_complex()?;
         (switched(options, &problem, &course, context)?, Vec::new())
     } else {
         sampled(&problem, &course, context)?

@@ -183,6 +183,7 @@ impl Script {
         let model = problem.model();
         refusals::refuse_dead_time(model)?;
         refusals::refuse_numbers(problem)?;
+        problem.refuse_written_complex()?;
         let names = names::Names::of(model, target);
         let (step, body) = match model.form() {
             Form::Blocks(diagram) if model.hyperperiod() > 1 => connection::lifted(problem, diagram, budget)?,

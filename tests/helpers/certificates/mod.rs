@@ -9,6 +9,7 @@ use super::number::number;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::parse_number;
 use jurist_check::format::Json;
+use jurist_engine::error::Code;
 use jurist_engine::problem::Region;
 use jurist_engine::stability::Range;
 
@@ -99,7 +100,9 @@ pub fn emitted_if_any(model: &str, parameter: &str) -> Option<String> {
     let answer = read(model).ask().free(parameter).stable_set(&budget).expect(model);
     match answer.certificate(&budget) {
         Ok(text) => Some(text),
-        Err(jurist_engine::error::Error::Refused(why)) if why.code() == jurist_engine::error::Code::NoCertificate => {
+        Err(jurist_engine::error::Error::Refused(why))
+            if [Code::NoCertificate, Code::Complex].contains(&why.code()) =>
+        {
             None
         }
         Err(other) => panic!("{model}: {other}"),

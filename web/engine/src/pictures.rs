@@ -51,6 +51,8 @@ fn reasoned(result: Result<Value, Error>) -> Result<Value, Error> {
 
 /// Real part, imaginary part, multiplicity.
 fn roots_at(problem: &Problem, budget: &Budget) -> Result<Value, Error> {
+    // Of a complex loop the polynomial has the conjugate roots as well.
+    problem.refuse_complex(budget)?;
     let algebra = problem.algebra_over_symbols(budget)?;
     if !algebra.symbols().delays().is_empty() {
         // Infinitely many: `jurist roots` says the rightmost.

@@ -33,9 +33,9 @@ impl Enclosing for MovingRoot {
         let target = Rational::dyadic(&Integer::ONE, bits);
         let mut curvature = Rational::from(FIRST_CURVATURE).checked_div(&self.monotone).unwrap_or(Rational::ONE);
         let mut working = bits + 96;
-        let rising = *self.rising.get_or_init(|| self.rises());
         while &hi - &lo > target {
             checkpoint(bits);
+            let rising = *self.rising.get_or_init(|| self.rises());
             // Dyadic numbers, so that they are exact.
             let dyadic = |x: &Rational| Ball::from_rational(x, working).lower();
             let middle = dyadic(&lo.midpoint(&hi));
@@ -49,7 +49,22 @@ impl Enclosing for MovingRoot {
                 let nearer = at_middle.and_then(|c| self.around_zero(&point, &c[0], &Ball::between(&lo, &hi, working)));
                 match nearer.filter(|n| n.upper() - n.lower() <= (&hi - &lo) * Rational::dyadic(&Integer::ONE, 1)) {
                     Some(nearer) => (lo, hi) = (nearer.lower().max(lo), nearer.upper().min(hi)),
-                    None => working *= 2,
+                    None => {
+                        // Over a wide interval nothing is known of the derivative; points beside the zero have signs all the same.
+                        let beside =
+                            [3, 5].map(|n| dyadic(&(&lo + &(&(&hi - &lo) * &Rational::dyadic(&Integer::from(n), 3)))));
+                        let signs = beside.clone().map(|x| self.symbols.sign_at(&self.scheme, &x, working));
+                        for (x, sign) in beside.into_iter().zip(signs) {
+                            match sign {
+                                Some(sign) if sign.is_gt() == rising => hi = x.min(hi),
+                                Some(_) => lo = x.max(lo),
+                                None => {}
+                            }
+                        }
+                        if signs.iter().all(Option::is_none) {
+                            working *= 2;
+                        }
+                    }
                 }
                 continue;
             };
@@ -105,10 +120,12 @@ impl MovingRoot {
         point.sub(&step).intersection(whole)
     }
 
-    /// Whether the function is negative below the zero, which is not an end of its place.
+    /// Whether the function is negative below the zero, which is one end of its place at most.
     fn rises(&self) -> bool {
         until_shown(FIRST_BITS, |working| {
-            Some(self.symbols.sign_at(&self.scheme, self.place.lower(), working)?.is_lt())
+            let sign = |x: &Rational| self.symbols.sign_at(&self.scheme, x, working);
+            let below = sign(self.place.lower()).map(|sign| sign.is_lt());
+            below.or_else(|| Some(sign(self.place.upper())?.is_gt()))
         })
     }
 }

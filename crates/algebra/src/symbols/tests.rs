@@ -223,3 +223,30 @@ fn a_zero_in_the_middle_of_its_bracket_is_refined_without_end_of_bits() {
     assert_eq!((found.zeros.len(), found.undecided.len()), (1, 0));
     assert_eq!(found.zeros[0].exact(), Some(Rational::ZERO));
 }
+
+/// The middle of a wide place is the zero itself, and the derivative is not known there.
+#[test]
+fn a_zero_in_the_middle_of_its_place_is_refined() {
+    use super::horner::Scheme;
+    use super::moving_root::MovingRoot;
+    use crate::real::Enclosing;
+    let exponential = Definition::Exponential(RationalFunction::variable(0));
+    let symbols = Arc::new(MovingSymbols::new(vec![("X".into(), exponential)]));
+    // (p - 30) exp(p)
+    let f = &(&MultiPoly::variable(0) - &MultiPoly::from(30)) * &MultiPoly::variable(1);
+    let function = Function::from(f);
+    for (lower, upper) in [(8, 52), (29, 31), (30, 52), (30, 30)] {
+        let place = Enclosure::new(Rational::from(lower), Rational::from(upper));
+        let root = MovingRoot {
+            symbols: Arc::clone(&symbols),
+            scheme: Arc::new(Scheme::of(&function)),
+            function: Arc::new(function.clone()),
+            place,
+            monotone: Rational::ONE,
+            rising: std::sync::OnceLock::new(),
+        };
+        let found = root.enclose(48, None);
+        assert!(found.contains(&Rational::from(30)), "{found:?}");
+        assert!(found.upper() - found.lower() <= Rational::dyadic(&Integer::ONE, 48), "{found:?}");
+    }
+}

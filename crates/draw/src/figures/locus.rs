@@ -155,6 +155,7 @@ pub fn locus_of(
     budget: &Budget,
 ) -> Result<DrawnLocus, Error> {
     let problem = answer.problem();
+    problem.refuse_complex(budget)?;
     let discrete = problem.time() == Time::Discrete;
     let focus = Complex::new(if discrete { 1.0 } else { 0.0 }, 0.0);
     let Certified { stable, crossings, mut through } = Certified::of(answer, range);

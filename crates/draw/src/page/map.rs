@@ -132,7 +132,7 @@ pub(super) fn data(
         "label": format!("stable region of {} and {}", answer.problem().free()[0].name, answer.problem().free()[1].name),
         "goal": goal_or_stable(answer.problem()),
         "unit": frequency_unit(answer),
-        "degree": answer.problem().evaluated().map_or(0, |a| a.formal_degree()),
+        "degree": answer.problem().evaluated().map_or(0, |a| a.order()),
         "never": map.never_stable,
         "axes": [axis(0), axis(1)],
         "plots": figures.iter().map(plot).collect::<Vec<_>>(),

@@ -120,11 +120,14 @@ pub fn excitation(
     let mut out = Excitation { initial: vec![0.0; order], steps: Vec::new() };
     for (name, value) in initial {
         let unknown = || simulation_error(format!("'{name}' is no state that an initial value can be given"));
-        out.initial[states(name).ok_or_else(unknown)?] = *value;
+        // Of a complex signal the real part is meant.
+        let state = states(name).or_else(|| states(&format!("{name}.re")));
+        out.initial[state.ok_or_else(unknown)?] = *value;
     }
     for (name, sample, value) in steps {
         let unknown = || simulation_error(format!("the loop has no input '{name}'"));
-        let input = inputs.iter().position(|i| i == name).ok_or_else(unknown)?;
+        let position = |name: &str| inputs.iter().position(|i| i == name);
+        let input = position(name).or_else(|| position(&format!("{name}.re"))).ok_or_else(unknown)?;
         out.steps.push(Step { sample: *sample, input, value: *value });
     }
     Ok(out)

@@ -1,7 +1,7 @@
 //! The frequency of the complex pair at an end of a stable interval.
 
 use crate::problem::Problem;
-use crate::stability::{ComplexPair, End, Shape};
+use crate::stability::{ComplexPair, End, Shape, Side};
 use jurist_algebra::limits::doubling;
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::UniPoly;
@@ -71,10 +71,11 @@ impl Problem {
     pub fn frequency(&self, end: &End, bits: u64) -> Option<Frequency> {
         let pair = end.pair.as_ref()?;
         let working = bits + 16;
+        let signed = |e: Enclosure| if pair.side() == Side::Lower { e.neg() } else { e };
         Some(match pair.region() {
-            Shape::LeftHalfPlane => Frequency::new(None, None, pair.angular_frequency(working), bits),
+            Shape::LeftHalfPlane => Frequency::new(None, None, pair.angular_frequency(working).map(signed), bits),
             Shape::UnitDisc => {
-                let angle = pair.angle(working)?;
+                let angle = signed(pair.angle(working)?);
                 let step = self.sample_time().and_then(|t| positive_value_at(&t, &end.value, working));
                 Frequency::new(Some(angle), step.as_ref(), None, bits)
             }

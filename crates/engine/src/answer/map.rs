@@ -4,6 +4,7 @@ use super::{Answer, MapLimit, RegionExtent};
 use crate::error::{Code, Diagnostic, Error};
 use crate::problem::{Problem, Question};
 use crate::response::RequiredMap;
+use crate::stability::Causes;
 use crate::stability::plane::{StabilityMap, stability_map, vanishing_boundary};
 use crate::stability::{Range, StableSet};
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -114,10 +115,15 @@ impl Problem {
 
     /// The exact decomposition alone.
     pub(super) fn decomposed(&self, budget: &Budget) -> Result<StabilityMap, Error> {
-        Ok(match self.plane_over_symbols(budget)? {
+        let mut map = match self.plane_over_symbols(budget)? {
             None => StabilityMap::never_stable(),
             Some(p) => stability_map(p, &self.domains(), self.shape(), budget)?,
-        })
+        };
+        if self.is_complex() {
+            // Each root was counted with its conjugate.
+            map.strips.iter_mut().flat_map(|strip| &mut strip.cells).for_each(|cell| cell.outside /= 2);
+        }
+        Ok(map)
     }
 
     /// The answer around a decomposition.
@@ -136,6 +142,12 @@ impl Problem {
         let map = Map { decomposition, limits, slices: Vec::new(), never_stable_cause, required: None };
         let mut answer = Answer::new(Arc::clone(self), map);
         answer.value.limits = answer.region_extents(digits, budget);
+        if self.is_complex() {
+            let curves = answer.value.decomposition.curves.iter_mut().map(|curve| &mut curve.causes);
+            let extents = answer.value.limits.iter_mut().flatten().flat_map(|extent| &mut extent.ends);
+            let limits = extents.flatten().flatten().map(|end| &mut end.limit.causes);
+            curves.chain(limits).for_each(Causes::of_complex_loop);
+        }
         answer.value.slices = [0, 1].into_iter().filter_map(|fixed| answer.nominal_slice(fixed, budget)).collect();
         Ok(answer)
     }

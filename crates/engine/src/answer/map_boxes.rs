@@ -226,7 +226,17 @@ impl Problem {
             if is_exact && window.is_ok() && !has_boxes {
                 return exact(budget);
             }
-            let boxes = self.boxes_over(ring, window, &request.undecided, budget)?;
+            let mut boxes = self.boxes_over(ring, window, &request.undecided, budget)?;
+            if self.is_complex() {
+                // Each root was counted with its conjugate.
+                for found in &mut boxes.boxes {
+                    if let crate::stability::plane::boxes::BoxVerdict::Unstable { outside: Some(outside) } =
+                        &mut found.verdict
+                    {
+                        *outside /= 2;
+                    }
+                }
+            }
             let value = MapBoxes { goal: request.undecided.clone(), boxes, no_exact_map, required: None };
             Ok(MapOrBoxes::Boxes(Box::new(Answer::new(Arc::clone(self), value))))
         })?

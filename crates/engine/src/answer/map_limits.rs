@@ -32,7 +32,7 @@ use std::sync::Arc;
 pub struct MapLimit {
     /// The value, its causes and its place.
     pub limit: Limit,
-    /// The frequency, for a complex pair at one point.
+    /// The frequency, for a complex pair at one point; `None` of a complex loop.
     pub frequency: Option<Frequency>,
 }
 
@@ -62,7 +62,9 @@ pub struct RegionExtent {
 
 impl Problem {
     fn with_frequency(&self, p: &PlanePolynomial, limit: Limit, bits: u64) -> MapLimit {
-        let frequency = limit.half_size_root.as_ref().map(|root| match self.shape() {
+        // On which side of the real axis a complex loop's root is does not show here.
+        let root = limit.half_size_root.as_ref().filter(|_| !self.is_complex());
+        let frequency = root.map(|root| match self.shape() {
             Shape::LeftHalfPlane => Frequency::new(None, None, Some(root.neg().sqrt(bits + 8)), bits),
             Shape::UnitDisc => {
                 let half = Enclosure::from_rational(Rational::dyadic(&Integer::ONE, 1));
@@ -121,11 +123,10 @@ impl Answer<Map> {
             let branches = self.value.decomposition.branches(x, domain, budget)?;
             let (Some(p), Some((value, _))) = (line.parametric(budget)?, branches.get(number)) else { return Ok(None) };
             let Some(value) = value.algebraic() else { return Ok(None) };
-            let end = end_at(p, value, domain, line.shape(), &budget.silent())?;
-            Ok(end.map(|end| {
-                let frequency = line.frequency(&end, bits);
-                (end, frequency)
-            }))
+            let Some(end) = end_at(p, value, domain, line.shape(), &budget.silent())? else { return Ok(None) };
+            let end = line.with_side(end, budget)?;
+            let frequency = line.frequency(&end, bits);
+            Ok(Some((end, frequency)))
         })?
     }
 

@@ -2,6 +2,7 @@
 
 use super::Answer;
 use super::rightmost::rightmost;
+use super::roots_of_complex::roots_of_complex;
 use crate::error::Error;
 use crate::model::{Time, quotient_at};
 use crate::precisions::ROOTS;
@@ -73,10 +74,11 @@ impl ClosedLoopRoot {
         around(&self.disc.re, &self.disc.radius)
     }
 
-    /// The imaginary part: 0 of a real root, positive of a pair.
+    /// The imaginary part: 0 of a real root, positive of a pair, of either sign of one complex root.
     pub fn imaginary(&self) -> Enclosure {
         match self.disc.is_pair || !self.disc.is_one {
             true => around(&self.disc.im, &self.disc.radius),
+            false if !self.disc.im.is_zero() => around(&self.disc.im, &self.disc.radius),
             false => Enclosure::from_rational(Rational::ZERO),
         }
     }
@@ -98,10 +100,10 @@ impl ClosedLoopRoot {
         Some([self.magnitude(bits).ln(bits)?, self.angle(bits)?])
     }
 
-    /// The angle of the root, from 0 to pi; `None` of a root that may be 0.
+    /// The modulus of the root's angle, from 0 to pi; `None` of a root that may be 0.
     fn angle(&self, bits: u64) -> Option<Enclosure> {
-        let (re, im) = (self.real(), self.imaginary());
-        if !self.disc.is_pair {
+        let (re, im) = (self.real(), absolute(&self.imaginary()));
+        if self.disc.im.is_zero() {
             return match (re.lower().sign(), re.upper().sign()) {
                 _ if !self.disc.is_one => None,
                 (std::cmp::Ordering::Greater, _) => Some(Enclosure::from_rational(Rational::ZERO)),
@@ -267,11 +269,15 @@ impl Problem {
             let why = algebra.undefined().unwrap_or("an expression divides by zero");
             Error::Undefined(why.to_owned())
         };
-        let degree = algebra.formal_degree();
+        let degree = algebra.order();
         let period = algebra.sample_time().and_then(|t| t.as_constant());
         if !symbols.delays().is_empty() {
             let delayed = self.delayed(budget)?.ok_or_else(undefined)?;
             return Ok((with_dead_time(delayed), degree, period));
+        }
+        if let Some(whole) = algebra.complex() {
+            let discs = roots_of_complex(whole, algebra, narrow, budget)?;
+            return Ok((Polynomial::Enclosed(discs), degree, period));
         }
         if symbols.is_empty() {
             let p = self.parametric(budget)?.filter(|p| !p.is_undefined_at(&Rational::ZERO)).ok_or_else(undefined)?;
@@ -294,6 +300,9 @@ impl Problem {
         budget: &Budget,
     ) -> Result<Option<(Polynomial, usize, Option<Rational>)>, Error> {
         let Some((degree, period)) = self.size_in_numbers(budget)? else { return Ok(None) };
+        if self.is_written_complex() {
+            return Ok(None);
+        }
         let discs = discs(|bits| self.polynomial_in_numbers(bits, budget), 0, narrow, budget)?;
         Ok(Some((Polynomial::Enclosed(discs), degree, period)))
     }
@@ -310,7 +319,7 @@ fn with_dead_time(delayed: &DelayedLoop) -> Polynomial {
 
 /// The roots of a polynomial. `enclosed` gives its coefficients with a number of bits; the first `zeros` coefficients, from the constant term up, are 0.
 /// Roots that the last precision does not separate share a disc.
-fn discs(
+pub(super) fn discs(
     enclosed: impl Fn(u64) -> Option<Vec<Ball>>,
     zeros: usize,
     narrow: &Rational,

@@ -66,6 +66,7 @@ impl Answer<StableSet> {
     /// [`Error`]: refused for loops with dead time, or stopped.
     pub fn sensitivities(&self, budget: &Budget) -> Result<Sensitivities, Error> {
         let problem = self.problem();
+        problem.refuse_complex(budget)?;
         let mut ends: Vec<&End> =
             self.value().intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten().collect();
         ends.retain(|end| end.causes.is_limit());

@@ -77,6 +77,12 @@ impl Problem {
 
     /// The stable set inside of the domain.
     fn stable_set_inside(self: &Arc<Self>, budget: &Budget) -> Result<Answer<StableSet>, Error> {
+        let answer = self.stable_set_by_boundaries(budget)?;
+        Ok(Answer { value: self.with_sides(answer.value, budget)?, problem: answer.problem })
+    }
+
+    /// The same, ends named by the boundary functions.
+    fn stable_set_by_boundaries(self: &Arc<Self>, budget: &Budget) -> Result<Answer<StableSet>, Error> {
         budget.enter(|| {
             if !self.model().has_holds() {
                 return self.stable_set_by_algebra(budget);

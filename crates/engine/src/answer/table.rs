@@ -116,6 +116,7 @@ impl Problem {
     /// [`Error::Stopped`]; [`Error::Refused`] where the two ways disagree (a defect of this program), and with `E-function`
     /// where functions depend on the parameter.
     pub fn parametric_table(self: &Arc<Self>, budget: &Budget) -> Result<Answer<ParametricTable>, Error> {
+        self.refuse_complex(budget)?;
         budget.enter(|| {
             let symbols = self.algebra_over_symbols(budget)?.symbols();
             if !symbols.is_empty() && symbols.delays().is_empty() && !symbols.is_moving() {
@@ -159,6 +160,7 @@ impl Problem {
     /// # Errors
     /// [`Error::Stopped`] when the budget runs out; `E-dead-time`.
     pub fn point_table(self: &Arc<Self>, budget: &Budget) -> Result<Answer<PointTable>, Error> {
+        self.refuse_complex(budget)?;
         budget.enter(|| {
             let symbols = self.algebra_over_symbols(budget)?.symbols();
             if !symbols.is_empty() && symbols.delays().is_empty() {

@@ -130,7 +130,7 @@ impl ToleranceRequest {
 pub struct ToleranceAnswer {
     /// The tolerances, each a side of the box, in the order of the problem's free parameters.
     pub sides: Vec<Side>,
-    /// The root count at the nominal point.
+    /// The root count at the nominal point. Of a complex loop each root is counted with its conjugate.
     pub nominal: AtPoint,
     /// Whether every point of the box is stable.
     pub decision: BoxDecision,

@@ -106,6 +106,17 @@ impl PointVerdict {
         PointVerdict { verdict, undefined: None, degree, count: None, infinite: 0, delayed, drifts: false }
     }
 
+    /// The verdict on a complex loop, of which each root has been counted with its conjugate.
+    pub(crate) fn without_conjugates_if(self, is_complex: bool) -> PointVerdict {
+        if !is_complex {
+            return self;
+        }
+        let half =
+            |RootCount { inside, on, outside }| RootCount { inside: inside / 2, on: on / 2, outside: outside / 2 };
+        let (degree, infinite) = (self.degree / 2, self.infinite / 2);
+        PointVerdict { degree, infinite, count: self.count.map(half), ..self }
+    }
+
     /// The verdict where the polynomial of this formal degree has these roots.
     pub(crate) fn of(at: AtPoint, degree: usize) -> PointVerdict {
         let (verdict, count, infinite) = match at {
@@ -169,8 +180,8 @@ impl Problem {
             let found = match self.roots_in_numbers(budget) {
                 // What divides by zero is found again, and said.
                 Ok(None) | Err(Error::Undefined(_)) => self.verdict_exactly(budget)?,
-                Ok(Some(FromNumbers::Known { at, degree, drifts })) => {
-                    PointVerdict { drifts, ..PointVerdict::of(at, degree) }
+                Ok(Some(FromNumbers::Known { at, degree, drifts, is_complex })) => {
+                    PointVerdict { drifts, ..PointVerdict::of(at, degree) }.without_conjugates_if(is_complex)
                 }
                 Ok(Some(FromNumbers::Open(question))) => match self.verdict_exactly(budget) {
                     Err(Error::Stopped(stopped)) if stopped.open.is_none() => {
@@ -215,7 +226,8 @@ impl Problem {
         };
         let algebra = self.algebra_over_symbols(budget)?;
         let undefined = algebra.undefined().map(str::to_owned);
-        Ok(PointVerdict { undefined, drifts, ..PointVerdict::of(at, algebra.formal_degree()) })
+        let found = PointVerdict { undefined, drifts, ..PointVerdict::of(at, algebra.formal_degree()) };
+        Ok(found.without_conjugates_if(algebra.is_complex()))
     }
 }
 

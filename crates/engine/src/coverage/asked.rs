@@ -1,5 +1,6 @@
 //! The questions of the table.
 
+use super::refusals::COMPLEX;
 use super::table::rows;
 use super::{CoefficientRing, Coverage, Refusal};
 use crate::model::Time;
@@ -208,6 +209,40 @@ impl Asked {
             _ => None,
         });
         refusals.reduce(|a, b| a.zip(b).filter(|(a, b)| std::ptr::eq(*a, *b)).map(|(a, _)| a)).flatten()
+    }
+
+    /// The refusal of the question where the loop's coefficients are complex, over whichever ring their parts are; `None` where it is answered
+    /// as of a real loop.
+    ///
+    /// ```
+    /// use jurist_engine::coverage::Asked;
+    /// assert!(Asked::Roots.of_complex_loop().is_none() && Asked::Margins.of_complex_loop().is_some());
+    /// ```
+    pub fn of_complex_loop(self) -> Option<&'static Refusal> {
+        use Asked::*;
+        const KNOWN: [Asked; 20] = [
+            Verdict,
+            VerdictInRegion,
+            Intervals,
+            IntervalsInRegion,
+            RegionBound,
+            Map,
+            ExactMap,
+            BoxMap,
+            Slices,
+            MapInRegion,
+            Tolerance,
+            ToleranceLimit,
+            ToleranceExact,
+            ToleranceVolume,
+            ToleranceInRegion,
+            Roots,
+            Simulate,
+            Charpoly,
+            Analyze,
+            Report,
+        ];
+        (!KNOWN.contains(&self)).then_some(&COMPLEX)
     }
 
     /// The questions that are answered over a ring, as a list in words: those that are a command of their own.

@@ -1,5 +1,6 @@
 //! The table as a page of the documentation.
 
+use super::refusals::COMPLEX;
 use super::{CoefficientRing, Coverage, Method, Refusal, rows};
 use crate::model::Time;
 
@@ -11,6 +12,16 @@ a loop over each ring. `--explain` prints the row and the ring of a question.
 
 A loop may still be refused for a reason of its own, such as dead times without a common divisor, and an answer may stay undecided
 within its budget.
+";
+
+const COMPLEX_LOOPS: &str = "
+## Complex coefficients
+
+A loop with the imaginary unit in it, or with a plant that is held in another frame, has a characteristic polynomial `D` with complex coefficients. Its
+real and imaginary parts are over one of the rings above, and so is `D conj(D)`, whose roots are those of `D` and their conjugates. That is asked
+in the same way, roots are counted once, and `D` tells on which side of the real axis the one is that limits the loop. With dead time in continuous time
+such loops are not known. These questions are answered:
+
 ";
 
 /// The page `docs/explanation/coverage.md`.
@@ -40,6 +51,10 @@ pub fn page() -> String {
         }
         out.push('\n');
     }
+    out += COMPLEX_LOOPS;
+    let known = rows().iter().filter(|row| row.asked.of_complex_loop().is_none());
+    out += &known.map(|row| format!("- `{}`\n", row.command)).collect::<String>();
+    out += &format!("\nAll others are refused (`{}`): {}.\n", COMPLEX.code, COMPLEX.message);
     out += "\n## Methods\n\n";
     for (k, method) in methods.iter().enumerate() {
         out += &format!("{}. **{}** (`{}`). {}\n", k + 1, method.name, method.place, method.how);

@@ -54,6 +54,17 @@ const AT_A_POINT: &str = "ask 'verdict' with a value for every parameter";
 const OTHER_CERTIFICATES: &str = "known: loops behind a hold, or with prewarp, at times that are rational numbers, the dead time of a loop with one, a gain beside a fixed one; the answer is printed without it";
 const CERTIFIED_MAPS: &str = "exact maps have one where the loop is rational, the bound of its region a number, and stability all that is asked; with constants that are not rational maps by boxes have one: --method boxes";
 
+/// The refusal of what is not known of loops with complex coefficients.
+pub(crate) static COMPLEX: Refusal = Refusal::new(
+    Code::Complex,
+    "this cannot be asked of a loop with complex coefficients",
+    "what can be asked of it: verdict, intervals, roots, map, tolerance, charpoly, simulate; in real form, with two signals for each complex one, it can be asked everything",
+);
+pub(crate) static COMPLEX_WITH_DEAD_TIME: Refusal = Refusal::new(
+    Code::Complex,
+    "a continuous loop with complex coefficients and dead time is not known",
+    "write it in real form, with two signals for each complex one",
+);
 pub(crate) static DEAD_TIME: Refusal =
     Refusal::new(Code::DeadTime, "this cannot be asked of a loop with dead time", KNOWN);
 pub(crate) static BESIDE_DEAD_TIME: Refusal = Refusal::new(

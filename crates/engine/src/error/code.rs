@@ -36,6 +36,7 @@ codes! {
 #[non_exhaustive]
 pub enum Code {
     AlgebraicLoop = "E-algebraic-loop",
+    Complex = "E-complex",
     Coq = "E-coq",
     Cut = "E-cut",
     Cycle = "E-cycle",
@@ -50,6 +51,7 @@ pub enum Code {
     Expect = "E-expect",
     Exponent = "E-exponent",
     Export = "E-export",
+    Frame = "E-frame",
     From = "E-from",
     Function = "E-function",
     Import = "E-import",

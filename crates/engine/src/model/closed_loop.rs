@@ -1,5 +1,6 @@
 //! From a loop and a question to polynomials and matrices.
 
+use super::complex::{ComplexPolynomial, names_of_parts, names_of_wholes, unlifted};
 use super::connect::state_space::{Connecting, NotConnected, assemble};
 use super::definition::{Model, Time};
 use super::evaluate::scalar::{Scope, Symbol, Variable};
@@ -60,6 +61,9 @@ pub struct ClosedLoop {
     /// What the characteristic function has been divided by to be monic, where the entries contain `exp(-tau s)`: without
     /// dead time a factor without meaning.
     pub leading: RationalFunction,
+    /// Whether coefficients of the loop are complex. Then each signal and each state stands here as two, its real and its imaginary part,
+    /// called `y.re` and `y.im`; with each root of the loop the matrix has its conjugate.
+    pub is_complex: bool,
 }
 
 /// A transfer function of the closed loop as it stands: nothing is cancelled.
@@ -93,8 +97,10 @@ pub struct TransferFunction {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Evaluated {
-    /// The characteristic polynomial, symbolic in the kept names.
+    /// The characteristic polynomial, symbolic in the kept names. Of a complex loop it is `D conj(D)`, of twice the order.
     pub polynomial: CharacteristicPolynomial,
+    /// The characteristic polynomial `D` itself where it is complex.
+    pub complex: Option<ComplexPolynomial>,
     /// The closed loop in state space; `None` for the form `characteristic`.
     pub closed_loop: Option<ClosedLoop>,
     /// The sample time as a function of the kept names; `None` when the model has none or it divides by zero.
@@ -111,20 +117,25 @@ impl Evaluated {
         symbols: Symbols,
         budget: &Budget,
     ) -> Result<Evaluated, Error> {
-        let mut polynomial = closed_loop.characteristic_polynomial(budget)?;
+        let (mut polynomial, complex) = match closed_loop.is_complex {
+            false => (closed_loop.characteristic_polynomial(budget)?, None),
+            true => closed_loop.complex_polynomial(&symbols, budget)?,
+        };
         polynomial.poles = polynomial.poles.iter().filter_map(|pole| pole_beside(pole, &symbols)).collect();
         let closed_loop = Some(closed_loop);
-        Ok(Evaluated { polynomial, closed_loop, sample_time, symbols }.without_unused_symbols())
+        Ok(Evaluated { polynomial, complex, closed_loop, sample_time, symbols }.without_unused_symbols())
     }
 
     /// The same without symbols where none occurs: then everything is rational.
-    fn without_unused_symbols(mut self) -> Evaluated {
+    pub(super) fn without_unused_symbols(mut self) -> Evaluated {
         let first = self.symbols.first();
         let is_free = |f: &RationalFunction| f.variables().last().is_none_or(|last| *last < first);
         let p = &self.polynomial;
         let closed_loop = self.closed_loop.iter();
         let mut entries = closed_loop.flat_map(|l| [&l.a, &l.e, &l.c, &l.d]).flat_map(|m| m.entries());
+        let complex = self.complex.iter().flat_map(|d| d.re.iter().chain(&d.im));
         let is_rational = p.coefficients.iter().all(is_free)
+            && complex.into_iter().all(is_free)
             && p.poles.iter().all(|pole| pole.variables().last().is_none_or(|last| *last < first))
             && entries.all(is_free)
             && self.sample_time.iter().all(is_free);
@@ -147,7 +158,7 @@ pub(super) struct Answer<'m> {
     /// For each variable of `values`, what it is in kept names and symbols: a number, a variable, or a function of both.
     pub images: Vec<RationalFunction>,
     pub symbols: RefCell<Symbols>,
-    poles: Vec<MultiPoly>,
+    pub poles: Vec<MultiPoly>,
     /// The time from one state to the next: of a loop with several rates its hyperperiod.
     pub sample_time: Option<RationalFunction>,
     /// At which sample a hyperperiod begins, where that matters.
@@ -223,28 +234,8 @@ impl Model {
     ) -> Result<Evaluated, Error> {
         let mut answer = self.answer(kept, values, budget)?;
         answer.symbols = RefCell::new(answer.symbols.into_inner().near(near));
-        if let Values::Characteristic(p) = &answer.values {
-            let undefined = || Error::Undefined("a coefficient divides by zero".into());
-            let mut coefficients = Vec::with_capacity(p.coefficients().len());
-            for c in p.coefficients() {
-                coefficients.push(answer.substituted(c).ok_or_else(undefined)?);
-            }
-            let formal_degree = p.degree();
-            if coefficients.is_empty() {
-                coefficients.push(RationalFunction::zero());
-            }
-            let sample_time = answer.sample_time.as_ref().and_then(|t| answer.substituted(t));
-            let (symbols, images) = merged(&answer.symbols.into_inner())?;
-            let kept = |f: &RationalFunction| substituted(f, &images).ok_or_else(undefined);
-            let polynomial = CharacteristicPolynomial {
-                variables: symbols.variables(),
-                coefficients: coefficients.iter().map(kept).collect::<Result<_, _>>()?,
-                formal_degree,
-                poles: poles_in(&answer.poles, &symbols, &images)?,
-                monic: false,
-            };
-            let sample_time = sample_time.and_then(|t| substituted(&t, &images));
-            return Ok(Evaluated { polynomial, closed_loop: None, sample_time, symbols }.without_unused_symbols());
+        if let Values::Characteristic(_) = &answer.values {
+            return answer.given_polynomial();
         }
         let (closed_loop, sample_time, symbols) = self.connected(answer, budget)?;
         Evaluated::of(closed_loop, sample_time, symbols, budget)
@@ -318,8 +309,8 @@ impl Model {
         let mut failures = Vec::new();
         let mut report = |failure| failures.push(failure);
         let mut scope = self.scope(kept, given, budget, &mut report);
-        let wiring = Wiring::of(self);
-        let values = symbolic(self, &wiring, &mut scope, &mut report);
+        let mut wiring = Wiring::of(self);
+        let values = symbolic(self, &mut wiring, &mut scope, &mut report);
         let sample_time = match self.sample_time_expression() {
             Some(e) => scope.scalar(e).map_err(&mut report).ok(),
             None => None,
@@ -379,6 +370,8 @@ impl Model {
                     }
                 },
                 Variable::Pi => symbols.pi(),
+                // No value has it any more.
+                Variable::Unit => RationalFunction::zero(),
                 Variable::Call(function, argument) => {
                     let undefined = || Error::Undefined(format!("'{}' has no value there", function.name()));
                     let argument = substituted(argument, &images).ok_or_else(undefined)?;
@@ -460,10 +453,21 @@ impl Model {
         let substitution = |f: &RationalFunction| answer.substituted(f);
         let symbols = Some(&answer.symbols);
         let how = Connecting { set: &substitution, symbols, start: answer.start, budget };
-        let assembled = match assemble(self, &answer.wiring, &answer.values, &how) {
-            Ok(assembled) => assembled,
-            Err(why) => return Err(self.not_connected(why)),
-        };
+        let mut assembled =
+            assemble(self, &answer.wiring, &answer.values, &how).map_err(|why| self.not_connected(why))?;
+        let (mut inputs, mut outputs, mut is_complex) = (answer.wiring.inputs.clone(), outputs, false);
+        if answer.wiring.is_complex {
+            outputs = names_of_parts(outputs);
+            match unlifted(&assembled.system) {
+                Some(system) => {
+                    assembled.system = system;
+                    for names in [&mut assembled.states, &mut inputs, &mut outputs] {
+                        *names = names_of_wholes(names);
+                    }
+                }
+                None => is_complex = true,
+            }
+        }
         let mut poles = answer.poles.clone();
         for pole in &assembled.poles {
             add_pole(&mut poles, pole);
@@ -487,22 +491,27 @@ impl Model {
             c: matrix(&system.c)?,
             d: matrix(&system.d)?,
             states: assembled.states,
-            inputs: answer.wiring.inputs.iter().map(|s| (*s).to_owned()).collect(),
+            inputs,
             outputs,
             poles: poles_in(&poles, &symbols, &images)?,
             leading: substituted(&assembled.leading, &images).unwrap_or_else(RationalFunction::one),
+            is_complex,
         };
         Ok((closed_loop, sample_time.and_then(|t| substituted(&t, &images)), symbols))
     }
 }
 
 /// The symbols without relations between powers and multiple angles.
-fn merged(symbols: &Symbols) -> Result<(Symbols, Vec<RationalFunction>), Error> {
+pub(super) fn merged(symbols: &Symbols) -> Result<(Symbols, Vec<RationalFunction>), Error> {
     symbols.merged().ok_or_else(|| Error::Undefined("a function has no value there".into()))
 }
 
 /// The poles in merged symbols, without factors that have no zero.
-fn poles_in(poles: &[MultiPoly], symbols: &Symbols, images: &[RationalFunction]) -> Result<Vec<MultiPoly>, Error> {
+pub(super) fn poles_in(
+    poles: &[MultiPoly],
+    symbols: &Symbols,
+    images: &[RationalFunction],
+) -> Result<Vec<MultiPoly>, Error> {
     let mut out = Vec::new();
     for pole in poles {
         let image = substituted(&pole.clone().into(), images).filter(|f| !f.is_zero());
@@ -533,7 +542,7 @@ fn pole_beside(pole: &MultiPoly, symbols: &Symbols) -> Option<MultiPoly> {
     (!rest.is_constant()).then(|| rest.primitive_over_integers())
 }
 
-fn add_pole(poles: &mut Vec<MultiPoly>, pole: &MultiPoly) {
+pub(super) fn add_pole(poles: &mut Vec<MultiPoly>, pole: &MultiPoly) {
     let pole = pole.primitive_over_integers();
     if !pole.is_constant() && !poles.contains(&pole) {
         poles.push(pole);

@@ -330,6 +330,10 @@ pub struct Discretization {
     pub prewarp: Option<Expression>,
     /// The dead time of the inputs of a held block, in units of time.
     pub delay: Option<Expression>,
+    /// The speed of the frame from which a held block is seen, against the frame in which its inputs are held.
+    pub frame: Option<Expression>,
+    /// The angle by which commands are turned ahead on their way into that frame.
+    pub advance: Option<Expression>,
     /// The pulses of a block behind a modulator.
     pub pulses: Option<Pulses>,
     /// Where it stands.
@@ -463,6 +467,8 @@ pub struct Model {
     pub(super) tuning: Option<Tuning>,
     /// Positions of constants and parameters by name.
     pub(super) index: HashMap<String, Position>,
+    /// Whether the imaginary unit is in an expression.
+    pub(super) has_unit: bool,
 }
 
 /// Where a name is defined.
@@ -522,6 +528,14 @@ impl Model {
     /// What the loop is made of.
     pub fn form(&self) -> &Form {
         &self.form
+    }
+
+    /// True if the imaginary unit is written somewhere, or a plant is held in another frame. The characteristic polynomial may be real all the
+    /// same.
+    pub(crate) fn is_written_complex(&self) -> bool {
+        let Form::Blocks(diagram) = &self.form else { return self.has_unit };
+        let frames = diagram.blocks.iter().filter_map(|b| b.discretization.as_ref()).any(|d| d.frame.is_some());
+        self.has_unit || frames
     }
 
     /// True if a block of the diagram is behind a hold.

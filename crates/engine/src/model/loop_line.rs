@@ -5,7 +5,7 @@
 use super::builder::{BlockBuilder, ModelBuilder, ParameterBuilder, quoted};
 use super::definition::{Model, Time};
 use super::evaluate::work::constant_value;
-use super::text::{Expression, Factor, Function, Node, PI, Text, parse_implied};
+use super::text::{Expression, Factor, Function, Node, PI, Text, UNIT, parse_implied};
 use crate::error::{Code, Diagnostic, Diagnostics, Origin, Source, Span};
 use jurist_algebra::number::Rational;
 use std::collections::{HashMap, HashSet};
@@ -89,7 +89,7 @@ impl LoopLine {
     /// The names without a value, in the order of the line, then those of the hold and of the delay.
     pub fn names(&self) -> Vec<&str> {
         let mut names: Vec<&str> = Vec::new();
-        let mut seen = HashSet::from([PI, self.variable.name()]);
+        let mut seen = HashSet::from([PI, UNIT, self.variable.name()]);
         let others = self.hold.iter().chain(&self.delay).map(|(_, expression)| expression);
         for expression in std::iter::once(&self.expression).chain(others) {
             expression.each_name(&mut |name, _| {

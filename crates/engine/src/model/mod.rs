@@ -10,6 +10,8 @@
 
 mod builder;
 mod closed_loop;
+pub(crate) mod complex;
+mod complex_loop;
 mod connect;
 mod definition;
 mod discretization;
@@ -35,6 +37,7 @@ mod written;
 
 pub use builder::{BlockBuilder, ModelBuilder, ParameterBuilder};
 pub use closed_loop::{ClosedLoop, Evaluated, TransferFunction};
+pub use complex::ComplexPolynomial;
 pub use definition::{
     Block, Constant, Diagram, Discretization, Dynamics, Form, Matrix, Model, Name, Output, Parameter, Ports, Pulses,
     Pwm, Rate, RequirementText, Simulation, Time,

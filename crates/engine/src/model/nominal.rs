@@ -1,5 +1,6 @@
 //! Nominal values of parameters: numbers, and formulas in constants and in other parameters.
 
+use super::complex::has_unit;
 use super::definition::{Model, Parameter, Position};
 use super::evaluate::scalar::Scope;
 use super::evaluate::walk::Failure;
@@ -161,6 +162,12 @@ impl<'m> Values<'m> {
             }
             why => why,
         })?;
+        if has_unit(&value, self.scope.unit) {
+            let message = format!("the nominal value of '{}' is complex", shorten(&of.name));
+            let error = Diagnostic::error(Code::Complex, message).at(formula.span, "a real value belongs here");
+            let help = "parameters are real: write two of them, and a + j*b where they are used";
+            return Err(Without::Wrong(error.help(help)));
+        }
         value.as_constant().ok_or_else(|| {
             let message = format!("the nominal value of '{}' is not known to be a rational number", shorten(&of.name));
             let near = self.scope.enclosure(&value).map(|ball| to_decimal(&ball.lower(), DIGITS));

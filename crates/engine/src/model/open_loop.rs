@@ -6,6 +6,7 @@ use super::definition::{Block, Diagram, Form, Model};
 use super::evaluate::symbolic::{DiscretizationValues, PortValues, Row, Values};
 use super::symbols::Symbols;
 use super::text::names::{did_you_mean, list, shorten};
+use crate::coverage::refusals::COMPLEX;
 use crate::error::{Code, Diagnostic, Diagnostics, Error};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
@@ -219,12 +220,13 @@ impl Model {
     }
 
     fn opened_in(&self, mut answer: Answer<'_>, cut: &Cut, budget: &Budget) -> Result<Opened, Error> {
+        self.refuse_complex(&answer, &COMPLEX)?;
         if let Values::Feedback { a, b, c, k, .. } = &answer.values {
             let (a, b, returned) = (a.clone(), b.clone(), product(k, c));
             let row: Row = (0..a.rows()).map(|j| (j, -&returned[(0, j)])).collect();
             let ports = PortValues { input_matrix: Some(b), outputs: vec![row] };
             answer.values = Values::Matrix { matrix: a, ports };
-            answer.wiring.inputs = vec![PLANT_INPUT];
+            answer.wiring.inputs = vec![PLANT_INPUT.to_owned()];
             return self.opened_with(answer, PLANT_INPUT, budget);
         }
         answer.start = self.start_at(cut)?;
@@ -360,7 +362,7 @@ fn open_diagram(answer: &mut Answer<'_>, cut: &Cut, model: &Model) -> Result<(),
             vec![one(cut)]
         }
     };
-    answer.wiring.inputs.push("the cut");
+    answer.wiring.inputs.push("the cut".to_owned());
     Ok(())
 }
 

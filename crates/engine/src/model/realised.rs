@@ -5,6 +5,7 @@ use super::connect::state_space::{Connecting, System, part, realised};
 use super::definition::Model;
 use super::evaluate::symbolic::Values;
 use super::symbols::Symbols;
+use crate::coverage::refusals::COMPLEX;
 use crate::error::Error;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::RationalMatrix;
@@ -38,6 +39,7 @@ impl Model {
         budget: &Budget,
     ) -> Result<Option<RealisedBlocks>, Error> {
         let answer = self.answer(kept, values, budget)?;
+        self.refuse_complex(&answer, &COMPLEX)?;
         let Values::Blocks { blocks, outputs } = &answer.values else { return Ok(None) };
         let symbols = RefCell::new(answer.symbols.borrow().clone().keeping_flows());
         let set = |f: &RationalFunction| substituted(f, &answer.images);

@@ -325,6 +325,9 @@ impl Symbols {
             Function::Sqrt => self.root(x),
             Function::Exp => Some(self.exponential(x)),
             Function::Sin | Function::Cos | Function::Tan => self.circular(function, x),
+            // Functions of complex values are none of symbols.
+            Function::Conj | Function::Re => Some(x),
+            Function::Im => Some(RationalFunction::zero()),
         }
     }
 

@@ -116,6 +116,7 @@ fn alone(matrices: &[RationalMatrix; 4], symbols: &Symbols, problem: &Problem) -
         outputs: Vec::new(),
         poles: Vec::<MultiPoly>::new(),
         leading: RationalFunction::one(),
+        is_complex: false,
     }
 }
 

@@ -3,8 +3,9 @@
 use super::region::{Bound, Region};
 use super::resolved::Problem;
 use super::substitution::{scaled_by_radius, shifted_by_decay};
+use crate::coverage::refusals::COMPLEX_WITH_DEAD_TIME;
 use crate::error::Error;
-use crate::model::{ClosedLoop, Evaluated, Model, Symbols, Time};
+use crate::model::{ClosedLoop, ComplexPolynomial, Evaluated, Model, Symbols, Time};
 use crate::stability::ParametricPolynomial;
 use crate::stability::boxes::on_line;
 use jurist_algebra::limits::Budget;
@@ -28,10 +29,12 @@ use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
 /// assert_eq!(polynomial.coefficients[0].display(&polynomial.variables).to_string(), "K/2");
 /// # Ok::<(), jurist_engine::error::Error>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Algebra {
     polynomial: Option<CharacteristicPolynomial>,
     undefined: Option<String>,
+    complex: Option<ComplexPolynomial>,
+    is_complex: bool,
     formal_degree: usize,
     sample_time: Option<RationalFunction>,
     closed_loop: Option<ClosedLoop>,
@@ -59,14 +62,16 @@ impl Algebra {
         let evaluated = match evaluated {
             Ok(evaluated) => evaluated,
             Err(Error::Undefined(why)) => {
-                let formal_degree = symbolic_degree(model, &kept, problem.set(), budget)?;
+                let (formal_degree, is_complex) = symbolic_degree(model, &kept, problem.set(), budget)?;
                 let undefined = Some(why);
-                let (sample_time, closed_loop, symbols) = (None, None, Symbols::default());
-                return Ok(Algebra { polynomial: None, undefined, formal_degree, sample_time, closed_loop, symbols });
+                return Ok(Algebra { undefined, formal_degree, is_complex, ..Algebra::default() });
             }
             Err(failure) => return Err(failure),
         };
-        let Evaluated { mut polynomial, closed_loop, sample_time, symbols } = evaluated;
+        let Evaluated { mut polynomial, complex, closed_loop, sample_time, symbols } = evaluated;
+        if complex.is_some() && !symbols.delays().is_empty() {
+            return Err(COMPLEX_WITH_DEAD_TIME.diagnostic(&[]).into());
+        }
         if let Some(closed_loop) = closed_loop.as_ref().filter(|_| !symbols.delays().is_empty()) {
             // The monic polynomial would divide by functions of s.
             polynomial.coefficients.iter_mut().for_each(|c| *c = &*c * &closed_loop.leading);
@@ -81,8 +86,14 @@ impl Algebra {
             None => sample_time,
             Some(at) => sample_time.map(|t| shifted(&t, at)),
         };
+        let complex = match (complex, bound) {
+            (Some(complex), Some(at)) => complex.try_map(|f| Some(shifted(f, at))),
+            (complex, _) => complex,
+        };
         Ok(Algebra {
             formal_degree: polynomial.formal_degree,
+            is_complex: complex.is_some(),
+            complex,
             polynomial: Some(in_region(polynomial, problem.region(), bound)),
             undefined: None,
             sample_time,
@@ -104,12 +115,28 @@ impl Algebra {
         self.polynomial.as_ref()
     }
 
+    /// The characteristic polynomial `D` itself, without the region's bound, where it is complex: [`Algebra::polynomial`] is then
+    /// `D conj(D)`, with each root of `D` and its conjugate.
+    pub fn complex(&self) -> Option<&ComplexPolynomial> {
+        self.complex.as_ref()
+    }
+
+    /// Whether the loop is complex: each of its roots is then counted with its conjugate.
+    pub fn is_complex(&self) -> bool {
+        self.is_complex
+    }
+
+    /// The order of the loop: the degree of its characteristic polynomial while all parameters are symbolic.
+    pub fn order(&self) -> usize {
+        if self.is_complex { self.formal_degree / 2 } else { self.formal_degree }
+    }
+
     /// Why the loop is undefined whatever the free parameters are.
     pub fn undefined(&self) -> Option<&str> {
         self.undefined.as_deref()
     }
 
-    /// The degree of the polynomial while all parameters are symbolic.
+    /// The degree of the polynomial while all parameters are symbolic; of a complex loop twice the order.
     pub fn formal_degree(&self) -> usize {
         self.formal_degree
     }
@@ -137,14 +164,9 @@ impl Algebra {
         let left = |f: &RationalFunction| f.substitute(fixed, value)?.map_variables(|_| 0);
         let sample_time = self.sample_time.as_ref().and_then(left);
         let undefined = self.undefined.clone();
-        Algebra {
-            polynomial: None,
-            undefined,
-            formal_degree: self.formal_degree,
-            sample_time,
-            closed_loop: None,
-            symbols: Symbols::default(),
-        }
+        let (formal_degree, is_complex) = (self.formal_degree, self.is_complex);
+        let complex = self.complex.as_ref().and_then(|d| d.try_map(left));
+        Algebra { undefined, complex, is_complex, formal_degree, sample_time, ..Algebra::default() }
     }
 
     /// What is left where one of two free parameters has a value.
@@ -190,7 +212,7 @@ impl Algebra {
                 ..d.clone()
             })
         });
-        self.moved(polynomial, self.sample_time.as_ref().and_then(left), self.symbols.clone())
+        self.moved(polynomial, &left, self.symbols.clone())
     }
 
     /// The same where there are symbols, which stay variables after the one.
@@ -210,22 +232,24 @@ impl Algebra {
             let is_defined = !poles.iter().any(MultiPoly::is_zero);
             is_defined.then(|| CharacteristicPolynomial { variables, coefficients, poles, ..d.clone() })
         });
-        self.moved(polynomial, self.sample_time.as_ref().and_then(left), symbols.unwrap_or_default())
+        self.moved(polynomial, &left, symbols.unwrap_or_default())
     }
 
     /// The algebra of the same loop on a line.
     fn moved(
         &self,
         polynomial: Option<CharacteristicPolynomial>,
-        sample_time: Option<RationalFunction>,
+        left: &dyn Fn(&RationalFunction) -> Option<RationalFunction>,
         symbols: Symbols,
     ) -> Algebra {
         let undefined = polynomial.is_none().then(|| "an expression divides by zero".to_owned());
         Algebra {
             undefined: self.undefined.clone().or(undefined),
             polynomial,
+            complex: self.complex.as_ref().and_then(|d| d.try_map(left)),
+            is_complex: self.is_complex,
             formal_degree: self.formal_degree,
-            sample_time,
+            sample_time: self.sample_time.as_ref().and_then(left),
             closed_loop: None,
             symbols,
         }
@@ -280,21 +304,21 @@ fn shifted(f: &RationalFunction, at: usize) -> RationalFunction {
     f.map_variables(|i| i + usize::from(i >= at)).expect("no two variables become one")
 }
 
-/// The degree where the values set leave the loop undefined: that of the polynomial before any was set.
+/// The degree where the values set leave the loop undefined: that of the polynomial before any was set; and whether the loop is complex.
 fn symbolic_degree(
     model: &Model,
     kept: &[String],
     set: &[(String, Rational)],
     budget: &Budget,
-) -> Result<usize, Error> {
+) -> Result<(usize, bool), Error> {
     let is_parameter = |name: &String| model.parameter(name).is_some();
     let parameters = model.parameters().iter().map(|p| p.name.clone());
     let all: Vec<String> = parameters.chain(kept.iter().filter(|n| !is_parameter(n)).cloned()).collect();
     let constants: Vec<_> = set.iter().filter(|(name, _)| !is_parameter(name)).cloned().collect();
     match model.evaluate(&all, &constants, budget) {
-        Ok(evaluated) => Ok(evaluated.polynomial.formal_degree),
+        Ok(evaluated) => Ok((evaluated.polynomial.formal_degree, evaluated.complex.is_some())),
         // The order depends on the values: by a dead time that is no fixed number of samples.
-        Err(Error::Refused(_)) => Ok(0),
+        Err(Error::Refused(_)) => Ok((0, false)),
         Err(other) => Err(other),
     }
 }

@@ -20,7 +20,8 @@ impl Problem {
         algebra: &Algebra,
         budget: &Budget,
     ) -> Result<Vec<SymbolicPolynomial>, Error> {
-        let closed_loop = algebra.state_space().filter(|_| !self.region().is_free());
+        let closed_loop =
+            algebra.state_space().filter(|own| !self.region().is_free() && own.is_complex == algebra.is_complex());
         let Some((closed_loop, d)) = closed_loop.zip(algebra.polynomial()) else { return Ok(whole.split(budget)?) };
         let blocks = closed_loop.a.decoupled_parts();
         if blocks.len() < 2 {

@@ -14,8 +14,9 @@ use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction, UniPoly};
 /// What enclosures say of a loop.
 #[derive(Clone, Debug)]
 pub(crate) enum FromNumbers {
-    /// Where the roots are, of how many, and whether an odd number of real ones lies beyond the boundary.
-    Known { at: AtPoint, degree: usize, drifts: bool },
+    /// Where the roots are, of how many, whether an odd number of real ones lies beyond the boundary, and whether each has been counted with
+    /// its conjugate.
+    Known { at: AtPoint, degree: usize, drifts: bool, is_complex: bool },
     /// What is not known: whether an equation holds.
     Open(String),
 }
@@ -168,7 +169,7 @@ fn attempt(of: &InNumbers, region: &Region, shape: Shape, bits: u64) -> FromNumb
     match EnclosedLoop::of(&polynomial, shape) {
         Some(EnclosedLoop { count, drifts }) => {
             let at = AtPoint::Defined { count, infinite: 0 };
-            FromNumbers::Known { at, degree: polynomial.len() - 1, drifts }
+            FromNumbers::Known { at, degree: polynomial.len() - 1, drifts, is_complex: of.closed_loop.is_complex }
         }
         None => FromNumbers::Open(open_equation(&polynomial, shape)),
     }

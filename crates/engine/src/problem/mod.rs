@@ -29,7 +29,7 @@ pub use delayed::{BaseDelay, DelayedLoop};
 pub use evaluation::Algebra;
 pub(crate) use in_numbers::FromNumbers;
 pub use in_numbers::RoundedLoop;
-pub(crate) use over_symbols::{fixed_symbols, moving_symbols, parametric_symbols};
+pub(crate) use over_symbols::{definitions_beside, fixed_symbols, moving_symbols, parametric_symbols};
 pub use plan::Plan;
 pub use question::Question;
 pub use region::{Bound, DECAY, RADIUS, Region};

@@ -51,6 +51,7 @@ impl Answer<ToleranceAnswer> {
         budget.step("certificate");
         let (problem, value) = (self.problem(), self.value());
         refuse_requirements(problem)?;
+        problem.refuse_written_complex()?;
         let is_held = is_held(problem, budget)?;
         let witness = value.factor.as_ref().and_then(|factor| factor.witness.as_ref()).or(match &value.decision {
             BoxDecision::NotStable { witness } => witness.as_ref(),

@@ -41,6 +41,7 @@ impl Answer<StableSet> {
         budget.enter(|| {
             budget.step("certificate");
             let problem = self.problem();
+            problem.refuse_written_complex()?;
             statement::of_rates(problem)?;
             if let Some(delayed) = problem.delayed(budget)? {
                 return dead_time::of_set(self, delayed, budget);
@@ -84,6 +85,7 @@ impl Answer<PointVerdict> {
         budget.enter(|| {
             budget.step("certificate");
             let (problem, verdict) = (self.problem(), self.value());
+            problem.refuse_written_complex()?;
             statement::of_rates(problem)?;
             if let Some(delayed) = problem.delayed(budget)? {
                 return gain::of_verdict(self, delayed);

@@ -44,6 +44,7 @@ impl Problem {
     pub fn boxes_certificate(&self, window: &Window, tree: &str, order: usize, bits: usize) -> Result<String, Error> {
         refuse_requirements(self)?;
         refuse_free_bound(self)?;
+        self.refuse_written_complex()?;
         let [x, y] = self.free() else { panic!("a map is of two parameters") };
         let side = |ends: &[Rational; 2]| ends.iter().map(number).collect();
         let statement = object([

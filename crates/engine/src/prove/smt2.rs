@@ -27,6 +27,7 @@ impl Answer<StableSet> {
     pub fn smt2(&self, budget: &Budget) -> Result<String, Error> {
         budget.enter(|| {
             let problem = self.problem();
+            problem.refuse_complex(budget)?;
             let (parameter, set) = (problem.parameter(), self.value());
             refuse_transcendental(set, "no statement for solvers")?;
             let mut domain = Vec::new();

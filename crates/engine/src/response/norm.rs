@@ -120,6 +120,7 @@ impl Problem {
     /// When a parameter is free.
     pub fn norm(self: &Arc<Self>, input: &str, output: &str, budget: &Budget) -> Result<Answer<Norm>, Error> {
         of_one_rate(self)?;
+        self.refuse_complex(budget)?;
         budget.enter(|| {
             let verdict = self.verdict(budget)?.into_value();
             let (closed_loop, symbols) = self.closed_loop_over_symbols(budget)?;

@@ -108,6 +108,7 @@ impl Problem {
             return Err(NOT_OF_SAMPLES.diagnostic(&[]).into());
         }
         of_one_rate(self)?;
+        self.refuse_complex(budget)?;
         let plain = self.without_region();
         let verdict = plain.verdict(budget)?.into_value();
         let (mut gain, mut response) = (None, None);

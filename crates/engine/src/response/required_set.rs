@@ -197,6 +197,9 @@ impl Problem {
         at: Option<&str>,
         budget: &Budget,
     ) -> Result<Answer<RequiredSet>, Error> {
+        if !requirements.is_empty() {
+            self.refuse_complex(budget)?;
+        }
         budget.enter(|| {
             let stable = self.stable_set(budget)?.into_value();
             let (on_margins, on_roots): (Vec<Requirement>, Vec<Requirement>) =
@@ -279,6 +282,7 @@ impl Problem {
         if requirements.is_empty() {
             return Ok(Vec::new());
         }
+        self.refuse_complex(budget)?;
         budget.enter(|| {
             let stable = self.verdict(budget)?.value().verdict == Verdict::Stable;
             let (margins, zero_loop) = match requirements.iter().any(Requirement::needs_cut) {

@@ -61,8 +61,8 @@ fn named_at(causes: &Causes, time: Time, edge: &str) -> String {
         (Cause::RootAtOne, _) => format!("z={edge}"),
         (Cause::RootAtMinusOne, _) => format!("z=-{edge}"),
         (Cause::RootAtZero, _) => format!("s={edge}"),
-        (Cause::ComplexPair, Time::Discrete) => format!("{cause} on |z|={edge}"),
-        (Cause::ComplexPair, Time::Continuous) => format!("{cause} on Re s={edge}"),
+        (Cause::ComplexPair | Cause::ComplexRoot, Time::Discrete) => format!("{cause} on |z|={edge}"),
+        (Cause::ComplexPair | Cause::ComplexRoot, Time::Continuous) => format!("{cause} on Re s={edge}"),
         (
             Cause::DegreeLost
             | Cause::Neutral

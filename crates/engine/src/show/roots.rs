@@ -32,13 +32,25 @@ fn certain(x: &Enclosure, digits: usize) -> String {
     if most.is_zero() { "0".to_owned() } else { format!("0 (within {})", to_scientific(&(&most + &most), 1)) }
 }
 
+/// `1 - 2 j`; a real number alone.
+fn with_imaginary(real: String, imaginary: &str) -> String {
+    match imaginary.strip_prefix('-') {
+        _ if imaginary == "0" => real,
+        Some(size) => format!("{real} - {size} j"),
+        None => format!("{real} + {imaginary} j"),
+    }
+}
+
 impl ClosedLoopRoot {
     /// `0.5`, `-1 +- 2 j`, `-1 (2 times)`, `3 roots within 1e-9 of 0.5`.
     pub fn text(&self, digits: usize) -> String {
         let disc = &self.disc;
         if !disc.is_one {
             let centre = [&disc.re, &disc.im].map(|x| certain(&Enclosure::from_rational(x.clone()), digits.min(6)));
-            let place = if disc.is_pair { format!("{} +- {} j", centre[0], centre[1]) } else { centre[0].clone() };
+            let place = match disc.is_pair {
+                true => format!("{} +- {} j", centre[0], centre[1]),
+                false => with_imaginary(centre[0].clone(), &centre[1]),
+            };
             let each = if disc.is_pair { " each" } else { "" };
             return format!(
                 "{} roots{each} within {} of {place}",
@@ -49,7 +61,7 @@ impl ClosedLoopRoot {
         let real = certain(&self.real(), digits);
         let text = match disc.is_pair {
             true => format!("{real} +- {} j", certain(&self.imaginary(), digits)),
-            false => real,
+            false => with_imaginary(real, &certain(&self.imaginary(), digits)),
         };
         if disc.count > 1 { format!("{text} ({} times)", disc.count) } else { text }
     }

@@ -201,18 +201,19 @@ impl Shown<'_> {
     /// `, 2 roots outside just beyond`
     fn beyond(&self, witness: &Witness) -> String {
         let Some(at) = &witness.at else { return String::new() };
-        match at {
-            AtPoint::Defined { count, infinite } if count.outside + infinite > 0 => {
-                let n = count.outside + infinite;
+        let own = verdict_of(witness, self.problem);
+        match (at, own.count) {
+            (AtPoint::Defined { .. }, Some(count)) if count.outside + own.infinite > 0 => {
+                let n = count.outside + own.infinite;
                 format!(", {n} {} outside just beyond", if n == 1 { "root" } else { "roots" })
             }
-            AtPoint::Defined { count, .. } if count.on > 0 => format!(", {} on the boundary there", count.on),
-            AtPoint::Delayed { right: Some(n @ 1..), .. } => {
+            (AtPoint::Defined { .. }, Some(count)) if count.on > 0 => format!(", {} on the boundary there", count.on),
+            (AtPoint::Delayed { right: Some(n @ 1..), .. }, _) => {
                 format!(", {n} {} to the right just beyond", if *n == 1 { "root" } else { "roots" })
             }
-            AtPoint::Delayed { on: 1.., right: Some(0) } => ", on the boundary there".to_owned(),
-            AtPoint::Delayed { right: None, .. } => ", infinitely many roots to the right just beyond".to_owned(),
-            AtPoint::Undefined => ", undefined there".to_owned(),
+            (AtPoint::Delayed { on: 1.., right: Some(0) }, _) => ", on the boundary there".to_owned(),
+            (AtPoint::Delayed { right: None, .. }, _) => ", infinitely many roots to the right just beyond".to_owned(),
+            (AtPoint::Undefined, _) => ", undefined there".to_owned(),
             _ => String::new(),
         }
     }
@@ -310,10 +311,10 @@ fn end_words(worst: &WorstEnd) -> String {
 
 /// The root count of a witness as a verdict; answers hold counted ones only.
 pub(crate) fn verdict_of(witness: &Witness, problem: &Problem) -> PointVerdict {
-    PointVerdict::of(
-        witness.at.clone().unwrap_or(AtPoint::Undefined),
-        problem.evaluated().map_or(0, |algebra| algebra.formal_degree()),
-    )
+    let algebra = problem.evaluated();
+    let degree = algebra.map_or(0, |algebra| algebra.formal_degree());
+    let found = PointVerdict::of(witness.at.clone().unwrap_or(AtPoint::Undefined), degree);
+    found.without_conjugates_if(algebra.is_some_and(|algebra| algebra.is_complex()))
 }
 
 /// The number, and a decimal beside what is a fraction.

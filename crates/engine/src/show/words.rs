@@ -20,14 +20,16 @@ pub fn words() -> impl Iterator<Item = (&'static str, &'static str)> {
 #[cfg(test)]
 mod tests {
     use super::words;
-    use crate::stability::Cause::{ComplexPair, DegreeLost, Domain, Pole, RootAtMinusOne, RootAtOne, RootAtZero};
+    use crate::stability::Cause::{
+        ComplexPair, ComplexRoot, DegreeLost, Domain, Pole, RootAtMinusOne, RootAtOne, RootAtZero,
+    };
 
     #[test]
     fn words_are_sorted_and_every_cause_is_one() {
         let sections = super::PAGE.split("\n### ").skip(1).map(|s| s.split(['\n', ',']).next().unwrap().to_lowercase());
         assert!(sections.clone().is_sorted(), "{:?}", sections.collect::<Vec<_>>());
         let known: Vec<&str> = words().map(|(word, _)| word).collect();
-        for cause in [RootAtOne, RootAtMinusOne, ComplexPair, RootAtZero, DegreeLost, Pole, Domain] {
+        for cause in [RootAtOne, RootAtMinusOne, ComplexPair, ComplexRoot, RootAtZero, DegreeLost, Pole, Domain] {
             assert!(known.contains(&cause.to_string().as_str()), "{cause}");
         }
     }

@@ -114,7 +114,7 @@ pub(super) fn frequencies(
     budget: &Budget,
 ) -> Result<Vec<FrequencyPoint>, Error> {
     let causes = &map.curves[wall.curve].causes;
-    if wall.role != Role::Stable || !causes.contains(Cause::ComplexPair) {
+    if wall.role != Role::Stable || !causes.iter().any(Cause::is_of_complex_roots) {
         return Ok(Vec::new());
     }
     let found: Vec<Result<Option<FrequencyPoint>, Error>> = parallel_map(points, |&point| {

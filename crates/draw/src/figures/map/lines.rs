@@ -38,7 +38,7 @@ const TOGETHER: f64 = 0.004;
 /// The colour and the dashes of a mechanism.
 pub fn mechanism_colour(causes: &Causes) -> (&'static str, &'static [f64]) {
     match leading_cause(causes) {
-        Some(Cause::ComplexPair) => (COLOURS[0], &[]),
+        Some(Cause::ComplexPair | Cause::ComplexRoot) => (COLOURS[0], &[]),
         Some(Cause::RootAtOne | Cause::RootAtZero) => (COLOURS[1], &[9.0, 3.0]),
         Some(Cause::RootAtMinusOne) => (COLOURS[3], &[4.0, 3.0]),
         Some(Cause::DegreeLost | Cause::Neutral) => (COLOURS[5], &[9.0, 3.0, 2.0, 3.0]),
@@ -57,12 +57,14 @@ pub fn mechanism_words(causes: &Causes, answer: &Answer<Map>) -> String {
     let words = |cause: Cause| match (cause, answer.problem().shape()) {
         (Cause::RootAtOne, _) => format!("root at z = {}", printed("")),
         (Cause::RootAtMinusOne, _) => format!("root at z = {}", printed("-")),
-        (Cause::ComplexPair, Shape::UnitDisc) if edge.is_some() => format!("complex pair on |z| = {}", printed("")),
-        (Cause::ComplexPair, Shape::LeftHalfPlane) if edge.is_some() => {
-            format!("complex pair on Re s = {}", printed(""))
+        (Cause::ComplexPair | Cause::ComplexRoot, Shape::UnitDisc) if edge.is_some() => {
+            format!("{cause} on |z| = {}", printed(""))
         }
-        (Cause::ComplexPair, Shape::UnitDisc) => "complex pair on the circle".into(),
-        (Cause::ComplexPair, Shape::LeftHalfPlane) => "complex pair on the axis".into(),
+        (Cause::ComplexPair | Cause::ComplexRoot, Shape::LeftHalfPlane) if edge.is_some() => {
+            format!("{cause} on Re s = {}", printed(""))
+        }
+        (Cause::ComplexPair | Cause::ComplexRoot, Shape::UnitDisc) => format!("{cause} on the circle"),
+        (Cause::ComplexPair | Cause::ComplexRoot, Shape::LeftHalfPlane) => format!("{cause} on the axis"),
         (Cause::RootAtZero, _) if edge.is_some() => format!("root at s = {}", printed("")),
         (Cause::RootAtZero, _) => "root at s = 0".into(),
         (Cause::DegreeLost, _) => "degree lost".into(),
@@ -75,21 +77,21 @@ pub fn mechanism_words(causes: &Causes, answer: &Answer<Map>) -> String {
     };
     // On a curve of real roots the pair's constraint vanishes because a root is its own mirror image twice.
     let named: Vec<String> = match leading_cause(causes) {
-        Some(Cause::ComplexPair) | None => causes.iter().map(words).collect(),
-        Some(_) => causes.iter().filter(|c| *c != Cause::ComplexPair).map(words).collect(),
+        Some(Cause::ComplexPair | Cause::ComplexRoot) | None => causes.iter().map(words).collect(),
+        Some(_) => causes.iter().filter(|c| !c.is_of_complex_roots()).map(words).collect(),
     };
     named.join(" + ")
 }
 
 /// The cause that gives a curve its colour: a pair only where nothing else holds.
 fn leading_cause(causes: &Causes) -> Option<Cause> {
-    causes.iter().find(|c| *c != Cause::ComplexPair).or_else(|| causes.iter().next())
+    causes.iter().find(|c| !c.is_of_complex_roots()).or_else(|| causes.iter().next())
 }
 
 fn role(below: &Cell, above: &Cell, causes: &Causes) -> Role {
     if below.stable || above.stable {
         Role::Stable
-    } else if below.outside == above.outside && leading_cause(causes) == Some(Cause::ComplexPair) {
+    } else if below.outside == above.outside && leading_cause(causes).is_some_and(Cause::is_of_complex_roots) {
         Role::Nothing
     } else {
         Role::Count

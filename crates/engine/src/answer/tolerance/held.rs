@@ -6,8 +6,8 @@
 use crate::answer::{DelayedRoots, Verdict};
 use crate::error::Error;
 use crate::problem::Problem;
-use crate::stability::AtPoint;
 use crate::stability::boxes::{BoxDecision, Family, LargestFactor, OpenReason, Side, Witness, corners};
+use crate::stability::{AtPoint, RootCount};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use std::sync::Arc;
@@ -86,6 +86,12 @@ impl<'a> Truth<'a> {
         }
         Ok(match (verdict.verdict, verdict.count) {
             (Verdict::Undefined, _) | (_, None) => AtPoint::Undefined,
+            (_, Some(count)) if problem.algebra_over_symbols(budget)?.is_complex() => {
+                // As of the polynomial, which has the conjugate roots as well.
+                let RootCount { inside, on, outside } = count;
+                let count = RootCount { inside: 2 * inside, on: 2 * on, outside: 2 * outside };
+                AtPoint::Defined { count, infinite: 2 * verdict.infinite }
+            }
             (_, Some(count)) => AtPoint::Defined { count, infinite: verdict.infinite },
         })
     }

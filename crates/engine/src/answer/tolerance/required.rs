@@ -43,6 +43,7 @@ impl Problem {
         base: &F,
         budget: &Budget,
     ) -> Result<RequiredBox, Error> {
+        self.refuse_complex(budget)?;
         let breaks =
             |point: &[Rational]| self.breaks(requirement, &point[..sides.len()], request, (base, truth), budget);
         let mut asked =

@@ -8,6 +8,7 @@ use super::exponential::Modes;
 use super::state_space::{NotConnected, Substitution, System, substituted, undefined};
 use crate::coverage::refusals::NO_FIXED_ORDER;
 use crate::error::{Code, Diagnostic, Span};
+use crate::model::complex::ports_as_written;
 use crate::model::discretization::Inputs;
 use crate::model::evaluate::symbolic::{BlockValues, Hold};
 use crate::model::evaluate::transfer::MAX_ORDER;
@@ -57,7 +58,8 @@ pub(in crate::model) fn held(
     };
     let mut out = Vec::with_capacity(found.len());
     for (phi, aged) in found {
-        let System { a, b, c, d } = Parts { phi, c: &s.c, direct: &s.d, aged, inputs: block.inputs.len() }.system();
+        let System { a, b, c, d } =
+            Parts { phi, c: &s.c, direct: &s.d, aged, inputs: ports_as_written(block).0 }.system();
         let mut short = |m: RationalMatrix| if stays_whole { symbols.shortened(&m) } else { m };
         out.push(System { a: short(a), b: short(b), c: short(c), d: short(d) });
     }
@@ -124,7 +126,7 @@ impl Making<'_> {
             (false, false) => (one, RationalFunction::zero()),
             (false, true) => (fraction.clone(), &one - &fraction),
         };
-        let inputs = self.block.inputs.len();
+        let (inputs, _) = ports_as_written(self.block);
         let aged = |age: usize, enters: RationalMatrix, direct: RationalFunction| Aged {
             age: age as i64,
             enters,
@@ -151,7 +153,7 @@ impl Making<'_> {
         parity: usize,
     ) -> Result<(RationalMatrix, Vec<Aged>), NotConnected> {
         let is_held = |j: usize| self.hold.pulses[j].is_none();
-        let (n, inputs) = (self.s.a.rows(), self.block.inputs.len());
+        let (n, inputs) = (self.s.a.rows(), ports_as_written(self.block).0);
         let (phi, mut all) = if (0..inputs).any(is_held) {
             let (phi, mut aged) = self.behind_hold()?;
             for part in &mut aged {

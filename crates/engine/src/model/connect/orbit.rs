@@ -58,6 +58,9 @@ pub(in crate::model) fn orbit(
 ) -> Result<Orbit, NotConnected> {
     let Values::Blocks { blocks, .. } = values else { unreachable!("a modulator is a block of a diagram") };
     let place = place(blocks)?;
+    if wiring.is_complex {
+        return Err(refused(&blocks[place.block], &place, "is in a loop with complex coefficients"));
+    }
     let height = height(blocks, &place, wiring.driven, how)?;
     let plant = as_written(&blocks[place.block], how.set, &mut Vec::new())?;
     let n = plant.a.rows();
@@ -201,7 +204,7 @@ fn add_to_states(system: &mut System, block: &mut BlockValues, wiring: &mut Wiri
     for _ in 0..states {
         let new = wiring.driven + wiring.inputs.len();
         block.inputs.push(Row::from([(new, RationalFunction::one())]));
-        wiring.inputs.push("added to a state");
+        wiring.inputs.push("added to a state".to_owned());
     }
 }
 

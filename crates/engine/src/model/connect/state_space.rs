@@ -6,10 +6,11 @@
 use super::hold::held;
 use super::rates::{Lifted, lifted};
 use crate::error::{Code, Diagnostic, Span};
+use crate::model::complex::{Lift, lifted_system, names_of_parts, ports_as_written, realised_ratio, seen_from};
 use crate::model::definition::{Dynamics, Form, Model, Rate};
 use crate::model::discretization::Rule;
 use crate::model::evaluate::symbolic::{
-    BlockValues, DiscretizationValues, DynamicValues, PortValues, Row, Values, Wiring,
+    BlockValues, DiscretizationValues, DynamicValues, Hold, PortValues, Row, Values, Wiring,
 };
 use crate::model::evaluate::walk::Failure;
 use crate::model::evaluate::work::count_work;
@@ -116,6 +117,12 @@ pub(in crate::model) fn assemble(
         Form::Matrix { ports, .. } | Form::OutputFeedback { ports, .. } if ports.states.len() == n => {
             ports.states.iter().map(|s| s.name.clone()).collect()
         }
+        Form::Matrix { ports, .. } | Form::OutputFeedback { ports, .. }
+            if 2 * ports.states.len() == n && wiring.is_complex =>
+        {
+            names_of_parts(ports.states.iter().map(|s| s.name.clone()))
+        }
+        _ if wiring.is_complex => names_of_parts((1..=n / 2).map(|i| format!("x_{i}"))),
         _ => (1..=n).map(|i| format!("x_{i}")).collect::<Vec<String>>(),
     };
     let with_ports = |a: RationalMatrix, ports: &PortValues| -> Result<Assembled, NotConnected> {
@@ -186,13 +193,7 @@ fn realise(
 ) -> Result<System, NotConnected> {
     let n = denominator.degree();
     let leading = substituted(&denominator.coefficient(n), set)?;
-    let Some(inverse) = leading.recip() else {
-        let message = format!(
-            "the leading coefficient of the denominator of '{}' is zero: the block loses its order",
-            shorten(&block.name)
-        );
-        return Err(undefined(message, block.span));
-    };
+    let Some(inverse) = leading.recip() else { return Err(loses_order(block)) };
     poles.push(leading.numerator().clone());
     let monic = |p: &ZPoly, k: usize| substituted(&p.coefficient(k), set).map(|c| &c * &inverse);
     let direct = monic(numerator, n)?;
@@ -211,6 +212,29 @@ fn realise(
         b[(n - 1, 0)] = RationalFunction::one();
     }
     Ok(System { a, b, c, d: RationalMatrix::from_fn(1, 1, |_, _| direct.clone()) })
+}
+
+/// The same of a ratio with complex coefficients.
+fn complex_ratio(
+    numerator: &[ZPoly; 2],
+    denominator: &[ZPoly; 2],
+    block: &BlockValues,
+    set: &Substitution<'_>,
+    poles: &mut Vec<MultiPoly>,
+) -> Result<System, NotConnected> {
+    let n = denominator.iter().map(ZPoly::degree).max().unwrap_or(0);
+    let list = |p: &ZPoly| (0..=n).map(|k| substituted(&p.coefficient(k), set)).collect::<Result<Vec<_>, _>>();
+    let numerator = [list(&numerator[0])?, list(&numerator[1])?];
+    let denominator = [list(&denominator[0])?, list(&denominator[1])?];
+    let Some((system, square)) = realised_ratio(&numerator, &denominator) else { return Err(loses_order(block)) };
+    poles.push(square.numerator().clone());
+    Ok(system)
+}
+
+fn loses_order(block: &BlockValues) -> NotConnected {
+    let name = shorten(&block.name);
+    let message = format!("the leading coefficient of the denominator of '{name}' is zero: the block loses its order");
+    undefined(message, block.span)
 }
 
 /// Refuses an angle `w T` that is a number and not below pi.
@@ -336,6 +360,9 @@ pub(super) fn as_written(
 ) -> Result<System, NotConnected> {
     match &block.dynamics {
         DynamicValues::Ratio(ratio) => realise(&ratio.numerator, &ratio.denominator, block, set, poles),
+        DynamicValues::ComplexRatio { numerator, denominator } => {
+            complex_ratio(numerator, denominator, block, set, poles)
+        }
         DynamicValues::StateSpace { a, b, c, d } => {
             let set = |m| substituted_matrix(m, set);
             Ok(System { a: set(a)?, b: set(b)?, c: set(c)?, d: set(d)? })
@@ -356,6 +383,9 @@ pub(in crate::model) fn realised(
         budget.check()?;
         if let DynamicValues::Ratio(ratio) = &block.dynamics {
             *leading = &*leading * &substituted(&ratio.denominator.leading(), set)?;
+            if let Lift::AfterHold = block.lift {
+                *leading = &*leading * &substituted(&ratio.denominator.leading(), set)?;
+            }
         }
         let mut system = as_written(block, set, poles)?;
         let mut of_samples: Vec<System> = Vec::new();
@@ -374,15 +404,26 @@ pub(in crate::model) fn realised(
         if of_samples.is_empty() {
             of_samples.push(system);
         }
-        // Matrices without rows or columns do not remember their other size.
-        let (inputs, outputs) = (block.inputs.len(), block.outputs);
-        for system in of_samples.iter_mut().filter(|system| system.a.rows() == 0) {
-            system.b = RationalMatrix::zeros(0, inputs);
-            system.c = RationalMatrix::zeros(outputs, 0);
+        with_sizes(&mut of_samples, ports_as_written(block));
+        if let Lift::AfterHold = block.lift {
+            of_samples = of_samples.iter().map(lifted_system).collect();
         }
+        if let Some(DiscretizationValues::Hold(Hold { frame: Some(frame), .. })) = &block.discretization {
+            let frame = frame.try_map(&|f| substituted(f, set))?;
+            of_samples = of_samples.into_iter().map(|system| seen_from(system, &frame)).collect();
+        }
+        with_sizes(&mut of_samples, (block.inputs.len(), block.outputs));
         systems.push(of_samples);
     }
     Ok(systems)
+}
+
+/// Matrices without rows or columns do not remember their other size.
+fn with_sizes(systems: &mut [System], (inputs, outputs): (usize, usize)) {
+    for system in systems.iter_mut().filter(|system| system.a.rows() == 0) {
+        system.b = RationalMatrix::zeros(0, inputs);
+        system.c = RationalMatrix::zeros(outputs, 0);
+    }
 }
 
 fn connect(
@@ -395,7 +436,10 @@ fn connect(
     let Connecting { set, symbols, start, budget } = *how;
     let (mut poles, mut leading) = (Vec::new(), RationalFunction::one());
     let systems = realised(blocks, how, &mut poles, &mut leading)?;
-    let named = |(i, block): (usize, &BlockValues)| state_names(model, i, block, systems[i][0].a.rows());
+    let named = |(i, block): (usize, &BlockValues)| match wiring.is_complex {
+        true => names_of_parts(state_names(model, i, block, systems[i][0].a.rows() / 2)),
+        false => state_names(model, i, block, systems[i][0].a.rows()),
+    };
     let mut states: Vec<Vec<String>> = blocks.iter().enumerate().map(named).collect();
     let rates: Vec<Rate> = blocks.iter().map(|block| block.rate).collect();
     let mut closed = |systems: &[System]| -> Result<System, NotConnected> {
@@ -414,7 +458,8 @@ fn connect(
     let Form::Blocks(diagram) = &model.form else { unreachable!("blocks are those of a diagram") };
     for ((states, block), _) in states.iter_mut().zip(&diagram.blocks).zip(keeps_registers).filter(|(_, keeps)| *keeps)
     {
-        states.extend(block.outputs.iter().map(|output| format!("{} held", output.name)));
+        let held = block.outputs.iter().map(|output| format!("{} held", output.name));
+        states.extend(if wiring.is_complex { names_of_parts(held) } else { held.collect() });
     }
     Ok(Assembled { system, states: states.concat(), poles, leading })
 }

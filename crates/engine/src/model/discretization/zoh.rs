@@ -8,7 +8,7 @@ pub(super) const METHOD: Method = Method {
     about: "exact behind a zero-order hold",
     spellings: &["zero-order hold", "zero-order-hold", "zero order hold", "hold"],
     advice: "",
-    keys: &["delay"],
+    keys: &["delay", "frame", "advance"],
     keeps_states: true,
     kind: Kind::Hold {
         inputs: Inputs::Constant,

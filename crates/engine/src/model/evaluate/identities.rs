@@ -5,6 +5,7 @@ use super::scalar::{Scope, Variable};
 use super::zpoly::ZPoly;
 use crate::error::Error;
 use crate::model::closed_loop::substituted;
+use crate::model::complex::{Parts, has_unit, parts_of};
 use crate::model::definition::Model;
 use crate::model::steady::no_duty;
 use crate::model::symbols::Symbols;
@@ -30,8 +31,7 @@ impl Scope<'_> {
     pub fn without_identities(&self, p: ZPoly) -> Result<ZPoly, Exhausted> {
         let mut coefficients = p.coefficients().to_vec();
         while let Some(last) = coefficients.last()
-            && self.has_functions(last)
-            && self.is_identity(last)?
+            && self.is_zero_by_identities(last)?
         {
             coefficients.pop();
         }
@@ -43,7 +43,32 @@ impl Scope<'_> {
     /// # Errors
     /// [`Exhausted`] when the budget runs out.
     pub fn is_hidden_zero(&self, f: &RationalFunction) -> Result<bool, Exhausted> {
-        Ok(self.has_functions(f) && self.needed(f).len() <= MOST && self.is_identity(f)?)
+        for part in self.parts(f) {
+            let is_zero = part.is_zero() || self.needed(&part).len() <= MOST && self.is_zero_by_identities(&part)?;
+            if !is_zero {
+                return Ok(false);
+            }
+        }
+        Ok(!f.is_zero())
+    }
+
+    /// True if a value other than zero has functions in it, and identities show that it is zero.
+    fn is_zero_by_identities(&self, f: &RationalFunction) -> Result<bool, Exhausted> {
+        for part in self.parts(f) {
+            let is_zero = part.is_zero() || self.has_functions(&part) && self.is_identity(&part)?;
+            if !is_zero {
+                return Ok(false);
+            }
+        }
+        Ok(!f.is_zero())
+    }
+
+    /// The value itself where it is real, else its real and its imaginary part.
+    fn parts(&self, f: &RationalFunction) -> Vec<RationalFunction> {
+        match parts_of(f, self.unit).filter(|_| has_unit(f, self.unit)) {
+            Some(Parts { re, im }) => vec![re, im],
+            None => vec![f.clone()],
+        }
     }
 
     /// True if a polynomial is seen to be zero whatever the parameters are.
@@ -122,7 +147,7 @@ impl Scope<'_> {
         for variable in needed.iter().filter_map(own) {
             let of = |x: &RationalFunction| renumbered(x, needed).ok_or_else(undefined);
             variables.push(match variable {
-                Variable::Named(_) | Variable::Pi | Variable::Duty => variable.clone(),
+                Variable::Named(_) | Variable::Pi | Variable::Unit | Variable::Duty => variable.clone(),
                 Variable::Call(function, x) => Variable::Call(*function, of(x)?),
                 Variable::TangentOfRule(x) => Variable::TangentOfRule(of(x)?),
                 Variable::Delay(x) => Variable::Delay(of(x)?),

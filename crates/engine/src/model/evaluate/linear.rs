@@ -34,7 +34,8 @@ pub(in crate::model) fn linear(
             .help("feed constant values in through an external input")
             .into());
     }
-    Ok(value.coefficients)
+    let reduced = |(i, c)| Some((i, scope.reduced(c)?));
+    value.coefficients.into_iter().map(reduced).collect::<Option<_>>().ok_or_else(|| too_large(e.span))
 }
 
 fn not_linear(message: &str, span: Span) -> Failure {

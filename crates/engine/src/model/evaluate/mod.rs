@@ -2,6 +2,7 @@
 //! ([`scalar`]), linear in signals ([`linear`]), rational in z or s ([`transfer`]), and of a whole model
 //! ([`symbolic`]).
 
+mod complex_values;
 mod identities;
 pub(in crate::model) mod linear;
 pub(in crate::model) mod scalar;

@@ -3,8 +3,9 @@
 use super::walk::{Failure, Meaning, division_by_zero, evaluate, too_large};
 use super::work::count_work;
 use crate::error::{Code, Diagnostic, Span};
+use crate::model::complex::{Parts, has_unit};
 use crate::model::definition::{Constant, Parameter};
-use crate::model::text::{Expression, Function, PI, Sign};
+use crate::model::text::{Expression, Function, PI, Sign, UNIT};
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
@@ -26,6 +27,8 @@ pub(in crate::model) struct Scope<'a> {
     /// The model is undefined where all polynomials of one of these are zero together.
     pub divisors: Vec<Vec<MultiPoly>>,
     seen: HashSet<Vec<MultiPoly>>,
+    /// The variable that stands for the imaginary unit, once it is met.
+    pub unit: Option<usize>,
     /// Whether `exp(-tau*s)` is dead time: in a continuous loop.
     pub is_continuous: bool,
     pub budget: &'a Budget,
@@ -38,6 +41,8 @@ pub(in crate::model) enum Variable {
     Named(String),
     /// The circle number.
     Pi,
+    /// The imaginary unit. Values have it in the first power at most, and none below a fraction.
+    Unit,
     /// A function of a value in the variables before this one.
     Call(Function, RationalFunction),
     /// The tangent of a value in the variables before this one that a prewarped rule brings: nobody wrote it.
@@ -72,6 +77,7 @@ impl<'a> Scope<'a> {
             variables: Vec::new(),
             divisors: Vec::new(),
             seen: HashSet::new(),
+            unit: None,
             is_continuous: false,
             budget,
         };
@@ -126,6 +132,9 @@ impl<'a> Scope<'a> {
         span: Span,
     ) -> Result<RationalFunction, Failure> {
         self.budget.check()?;
+        if matches!(function, Function::Conj | Function::Re | Function::Im) || has_unit(&value, self.unit) {
+            return self.call_of_complex(function, &value, span);
+        }
         if let Some(x) = value.as_constant() {
             if function == Function::Sqrt && x.is_negative() {
                 let error = Diagnostic::error(Code::Value, "the square root of a negative number");
@@ -170,7 +179,7 @@ impl<'a> Scope<'a> {
     }
 
     /// The variable that stands for this, the same each time.
-    fn variable(&mut self, wanted: Variable) -> RationalFunction {
+    pub(super) fn variable(&mut self, wanted: Variable) -> RationalFunction {
         let at = self.variables.iter().position(|v| *v == wanted).unwrap_or_else(|| {
             self.variables.push(wanted);
             self.variables.len() - 1
@@ -223,6 +232,11 @@ impl<'a> Scope<'a> {
         let delays = (0..self.variables.len()).filter(|&i| matches!(self.variables[i], Variable::Delay(_)));
         let parts = |p: &MultiPoly, i: usize| p.as_poly_in(i).into_coeffs();
         let polynomials = delays.fold(polynomials, |list, i| list.iter().flat_map(|p| parts(p, i)).collect());
+        // A complex value is zero where both of its parts are.
+        let polynomials: Vec<MultiPoly> = match self.unit {
+            Some(unit) => polynomials.iter().flat_map(|p| Parts::of_polynomial(p, unit)).collect(),
+            None => polynomials,
+        };
         let divisor: Vec<MultiPoly> =
             polynomials.iter().filter(|p| !p.is_zero()).map(MultiPoly::primitive_over_integers).collect();
         if !divisor.iter().any(MultiPoly::is_constant) && self.seen.insert(divisor.clone()) {
@@ -243,6 +257,8 @@ pub(in crate::model) fn rational_value(function: Function, x: &Rational) -> Opti
         Function::Sqrt => x.checked_sqrt(),
         Function::Exp | Function::Cos => x.is_zero().then_some(Rational::ONE),
         Function::Sin | Function::Tan => x.is_zero().then_some(Rational::ZERO),
+        Function::Conj | Function::Re => Some(x.clone()),
+        Function::Im => Some(Rational::ZERO),
     }
 }
 
@@ -287,6 +303,7 @@ impl Meaning for Scope<'_> {
             Some(Some(value)) => Ok(value.clone()),
             Some(None) => Err(Failure::Poisoned),
             None if name == PI => Ok(self.variable(Variable::Pi)),
+            None if name == UNIT => Ok(self.imaginary_unit()),
             None => {
                 let message = format!("unknown name '{}'", crate::model::text::names::shorten(name));
                 Err(Diagnostic::error(Code::UnknownName, message).at(span, "not defined").into())
@@ -309,7 +326,7 @@ impl Meaning for Scope<'_> {
     }
 
     fn product(&mut self, a: RationalFunction, b: RationalFunction, span: Span) -> Result<RationalFunction, Failure> {
-        checked_product(&a, &b).ok_or_else(|| too_large(span))
+        checked_product(&a, &b).and_then(|value| self.reduced(value)).ok_or_else(|| too_large(span))
     }
 
     fn quotient(&mut self, a: RationalFunction, b: RationalFunction, span: Span) -> Result<RationalFunction, Failure> {
@@ -318,7 +335,7 @@ impl Meaning for Scope<'_> {
         }
         let inverse = b.recip().ok_or_else(|| division_by_zero(span))?;
         self.divides_by(vec![b.numerator().clone()]);
-        checked_product(&a, &inverse).ok_or_else(|| too_large(span))
+        checked_product(&a, &inverse).and_then(|value| self.reduced(value)).ok_or_else(|| too_large(span))
     }
 
     fn power(&mut self, base: RationalFunction, exponent: i64, span: Span) -> Result<RationalFunction, Failure> {
@@ -330,7 +347,7 @@ impl Meaning for Scope<'_> {
         }
         let power = base.pow(exponent).ok_or_else(|| too_large(span))?;
         count_work(&power, &base);
-        Ok(power)
+        self.reduced(power).ok_or_else(|| division_by_zero(span))
     }
 
     fn call(&mut self, function: Function, value: RationalFunction, span: Span) -> Result<RationalFunction, Failure> {

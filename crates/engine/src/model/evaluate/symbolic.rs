@@ -6,12 +6,13 @@ use super::transfer::{Fraction, MAX_ORDER, fraction, held_fraction, polynomial};
 use super::walk::{Failure, Meaning, division_by_zero};
 use super::zpoly::ZPoly;
 use crate::error::{Code, Diagnostic, Span};
+use crate::model::complex::{Frame, Lift, lifted};
 use crate::model::definition::{
     Block, Discretization, Dynamics, Form, Matrix, Model, Output, Ports, Pulses, Rate, Time,
 };
 use crate::model::discretization::{Edges, Inputs, Kind, Rule};
-use crate::model::text::Expression;
 use crate::model::text::names::shorten;
+use crate::model::text::{Expression, Function};
 use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
@@ -25,7 +26,9 @@ pub(in crate::model) struct Wiring<'m> {
     pub numbers: HashMap<&'m str, usize>,
     /// How many are driven.
     pub driven: usize,
-    pub inputs: Vec<&'m str>,
+    pub inputs: Vec<String>,
+    /// Whether each signal has become two, its real and its imaginary part.
+    pub is_complex: bool,
 }
 
 impl<'m> Wiring<'m> {
@@ -42,16 +45,30 @@ impl<'m> Wiring<'m> {
         if matches!(model.form, Form::Blocks(_)) {
             numbers.extend(inputs.iter().enumerate().map(|(i, n)| (*n, own.len() + i)));
         }
-        Wiring { numbers, driven: own.len(), inputs }
+        let inputs = inputs.into_iter().map(str::to_owned).collect();
+        Wiring { numbers, driven: own.len(), inputs, is_complex: false }
     }
 }
 
 /// The values of everything in a model's form.
 pub(in crate::model) enum Values {
-    Characteristic(ZPoly),
-    Matrix { matrix: RationalMatrix, ports: PortValues },
-    Feedback { a: RationalMatrix, b: RationalMatrix, c: RationalMatrix, k: RationalMatrix, ports: PortValues },
-    Blocks { blocks: Vec<BlockValues>, outputs: Vec<Row> },
+    /// The real and the imaginary part.
+    Characteristic([ZPoly; 2]),
+    Matrix {
+        matrix: RationalMatrix,
+        ports: PortValues,
+    },
+    Feedback {
+        a: RationalMatrix,
+        b: RationalMatrix,
+        c: RationalMatrix,
+        k: RationalMatrix,
+        ports: PortValues,
+    },
+    Blocks {
+        blocks: Vec<BlockValues>,
+        outputs: Vec<Row>,
+    },
 }
 
 pub(in crate::model) struct PortValues {
@@ -65,6 +82,8 @@ pub(in crate::model) struct BlockValues {
     pub inputs: Vec<Row>,
     pub outputs: usize,
     pub rate: Rate,
+    /// When real and imaginary parts become signals of their own.
+    pub lift: Lift,
     pub dynamics: DynamicValues,
     pub discretization: Option<DiscretizationValues>,
     /// The height of the pulses that the block commands, where it is a modulator.
@@ -94,10 +113,13 @@ pub(in crate::model) struct Hold {
     pub time: RationalFunction,
     /// Dead time of the inputs, in units of time.
     pub delay: RationalFunction,
+    /// How the block is seen, where its input is held in another frame.
+    pub frame: Option<Box<Frame>>,
     pub span: Span,
 }
 
 /// The pulse of an input.
+#[derive(Clone)]
 pub(in crate::model) struct Pulse {
     pub duty: RationalFunction,
     /// Where the edges stand that commands at even and at odd samples move, in sample times; each moves by the same share of a change of
@@ -112,6 +134,11 @@ pub(in crate::model) struct Pulse {
 pub(in crate::model) enum DynamicValues {
     /// Numerator and denominator, of which the denominator's degree is the order.
     Ratio(Fraction),
+    /// The same with complex coefficients, of which these are the real and the imaginary parts.
+    ComplexRatio {
+        numerator: [ZPoly; 2],
+        denominator: [ZPoly; 2],
+    },
     StateSpace {
         a: RationalMatrix,
         b: RationalMatrix,
@@ -132,6 +159,12 @@ impl Evaluator<'_, '_> {
 
     fn scalar(&mut self, e: &Expression) -> Option<RationalFunction> {
         let value = self.scope.scalar(e);
+        self.keep(value)
+    }
+
+    /// A value that has to be real.
+    fn real(&mut self, e: &Expression) -> Option<RationalFunction> {
+        let value = self.scope.real(e);
         self.keep(value)
     }
 
@@ -189,9 +222,9 @@ impl Evaluator<'_, '_> {
         }
         let mut amplitude = None;
         if let Some(pwm) = &block.pwm {
-            amplitude = self.scalar(&pwm.amplitude);
+            amplitude = self.real(&pwm.amplitude);
             for e in [&pwm.carrier, &pwm.period] {
-                self.scalar(e);
+                self.real(e);
             }
         }
         Some(BlockValues {
@@ -200,6 +233,7 @@ impl Evaluator<'_, '_> {
             inputs: inputs?,
             outputs: block.outputs.len(),
             rate: block.rate,
+            lift: Lift::Done,
             dynamics: dynamics?,
             discretization: discretization?,
             amplitude,
@@ -208,9 +242,10 @@ impl Evaluator<'_, '_> {
 
     fn discretization(&mut self, d: &Discretization, rate: Rate) -> Option<DiscretizationValues> {
         // All of them, so that every mistake is reported.
-        let mut value = |e: &Option<Expression>| e.as_ref().map(|e| (self.scalar(e), e.span));
+        let mut value = |e: &Option<Expression>| e.as_ref().map(|e| (self.real(e), e.span));
         let (time, factor, prewarp, delay) =
             (value(&d.sample_time), value(&d.factor), value(&d.prewarp), value(&d.delay));
+        let (speed, advance) = (value(&d.frame), value(&d.advance));
         let by_rule = |rule, value| DiscretizationValues::Rule { rule, value, prewarp: None };
         if let (Kind::Rule(rule), Some((factor, _))) = (&d.method.kind, factor) {
             return Some(by_rule(*rule, factor?));
@@ -229,11 +264,19 @@ impl Evaluator<'_, '_> {
                     Some((delay, _)) => delay?,
                     None => RationalFunction::zero(),
                 };
+                let frame = match speed {
+                    Some((speed, span)) => {
+                        let advance = advance.map_or(Some(RationalFunction::zero()), |(advance, _)| advance)?;
+                        Some(Box::new(self.frame(&(&speed? * &time), &advance, span)?))
+                    }
+                    None => None,
+                };
                 return Some(DiscretizationValues::Hold(Hold {
                     inputs,
                     pulses: Vec::new(),
                     time,
                     delay,
+                    frame,
                     span: d.span,
                 }));
             }
@@ -259,12 +302,24 @@ impl Evaluator<'_, '_> {
         Some(DiscretizationValues::Rule { rule, value, prewarp: Some(Prewarp { angle, span }) })
     }
 
+    /// A frame that turns by an angle in each sample.
+    fn frame(&mut self, angle: &RationalFunction, advance: &RationalFunction, span: Span) -> Option<Frame> {
+        let mut rotation = |angle: RationalFunction| {
+            let of = [Function::Cos, Function::Sin].map(|f| self.scope.call(f, angle.clone(), span));
+            let [cosine, sine] = of.map(|value| self.keep(value));
+            Some([cosine?, sine?])
+        };
+        let [cosine, sine] = rotation(angle.clone())?;
+        let (turn, enters) = ([cosine, -sine], rotation(advance - angle)?);
+        Some(Frame { turn, enters, direct: rotation(advance.clone())? })
+    }
+
     /// The pulses of inputs, which are these expressions in signals; with one word for all of them, an input that no signal of the
     /// loop is in is held: nothing controls it.
     fn pulses(&mut self, pulses: &Pulses, inputs: &[Row], driven: usize) -> Option<Vec<Option<Pulse>>> {
         let duties: Vec<RationalFunction> = match pulses.is_steady {
             true => vec![self.scope.duty()],
-            false => pulses.duties.iter().map(|e| self.scalar(e)).collect::<Option<_>>()?,
+            false => pulses.duties.iter().map(|e| self.real(e)).collect::<Option<_>>()?,
         };
         let one_of = |len: usize, i: usize| if len == 1 { 0 } else { i };
         let of = |(i, row): (usize, &Row)| {
@@ -322,7 +377,7 @@ impl Evaluator<'_, '_> {
                 (Fraction { numerator: ZPoly::one(), denominator: ZPoly::power_of_variable(samples) }, block.span)
             }
             Dynamics::DeadTime(e) => {
-                let time = self.scalar(e)?;
+                let time = self.real(e)?;
                 let value = self.scope.delay(time, e.span);
                 let value = self.keep(value)?;
                 (Fraction { numerator: ZPoly::constant(value), denominator: ZPoly::one() }, e.span)
@@ -401,8 +456,19 @@ impl Evaluator<'_, '_> {
     }
 }
 
-/// Evaluates the form; `None` when something was reported.
+/// Evaluates the form; `None` when something was reported. Where it is complex each signal becomes two.
 pub(in crate::model) fn symbolic(
+    model: &Model,
+    wiring: &mut Wiring<'_>,
+    scope: &mut Scope<'_>,
+    report: &mut dyn FnMut(Failure),
+) -> Option<Values> {
+    let values = as_written(model, wiring, scope, report)?;
+    Some(lifted(values, wiring, scope.unit))
+}
+
+/// Evaluates the form as it is written; `None` when something was reported.
+fn as_written(
     model: &Model,
     wiring: &Wiring<'_>,
     scope: &mut Scope<'_>,
@@ -411,13 +477,13 @@ pub(in crate::model) fn symbolic(
     scope.is_continuous = model.time == Time::Continuous;
     let mut evaluator = Evaluator { scope, report };
     if let Some(e) = &model.sample_time {
-        evaluator.scalar(e);
+        evaluator.real(e);
     }
     match &model.form {
         Form::Characteristic(e) => {
             let value = polynomial(e, model.time.variable(), evaluator.scope);
             let value = value.and_then(|p| Ok(evaluator.scope.without_identities(p)?));
-            evaluator.keep(value).map(Values::Characteristic)
+            evaluator.keep(value).map(|p| Values::Characteristic([p, ZPoly::new(Vec::new())]))
         }
         Form::Matrix { matrix, ports } => {
             let (matrix, ports) = (evaluator.matrix(matrix), evaluator.ports(ports, wiring));

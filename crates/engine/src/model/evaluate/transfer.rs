@@ -3,8 +3,9 @@
 
 use super::scalar::Scope;
 use super::walk::{Failure, Meaning, division_by_zero, evaluate, too_large};
-use super::zpoly::ZPoly;
+use super::zpoly::{Reduced, ZPoly};
 use crate::error::{Code, Diagnostic, Span};
+use crate::model::complex::has_unit;
 use crate::model::text::{Expression, Factor, Function, Node, Sign};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
@@ -106,7 +107,7 @@ impl Fraction {
         Fraction { numerator: ZPoly::constant(value), denominator: ZPoly::one() }
     }
 
-    fn sum(&self, sign: Sign, other: &Self) -> Option<Self> {
+    fn sum(&self, sign: Sign, other: &Self, reduced: &Reduced<'_>) -> Option<Self> {
         let (d, e) = (&self.denominator, &other.denominator);
         if d == e {
             return Some(Fraction { numerator: self.numerator.sum(sign, &other.numerator)?, denominator: d.clone() });
@@ -117,8 +118,8 @@ impl Fraction {
         } else {
             // Without denominators: what is left of `d` and `e` then has none either. A monic divisor would leave its
             // leading coefficient behind as a factor, which has zeros of its own where it contains a dead time.
-            let g = d.gcd(e)?.primitive()?;
-            (e.divide(&g)?.0, d.divide(&g)?.0)
+            let g = d.gcd(e, reduced)?.primitive()?;
+            (e.divide(&g, reduced)?.0, d.divide(&g, reduced)?.0)
         };
         let left = self.numerator.product(&e_rest)?;
         let right = other.numerator.product(&d_rest)?;
@@ -157,7 +158,14 @@ impl InVariable<'_, '_> {
     }
 
     fn limited(&self, f: Fraction, span: Span) -> Result<Fraction, Failure> {
-        if f.numerator.degree().max(f.denominator.degree()) > MAX_ORDER { Err(too_large(span)) } else { Ok(f) }
+        if f.numerator.degree().max(f.denominator.degree()) > MAX_ORDER {
+            return Err(too_large(span));
+        }
+        if self.scope.unit.is_none() {
+            return Ok(f);
+        }
+        let reduced = |p: &ZPoly| p.try_map(&|c| self.scope.reduced(c)).ok_or_else(|| division_by_zero(span));
+        Ok(Fraction { numerator: reduced(&f.numerator)?, denominator: reduced(&f.denominator)? })
     }
 }
 
@@ -181,7 +189,7 @@ impl Meaning for InVariable<'_, '_> {
 
     fn sum(&mut self, a: Fraction, sign: Sign, b: Fraction, span: Span) -> Result<Fraction, Failure> {
         self.scope.budget.check()?;
-        let sum = a.sum(sign, &b).ok_or_else(|| too_large(span))?;
+        let sum = a.sum(sign, &b, &|f| self.scope.reduced(f)).ok_or_else(|| too_large(span))?;
         self.limited(sum, span)
     }
 
@@ -220,13 +228,14 @@ impl Meaning for InVariable<'_, '_> {
             Some(power) => Ok(power),
             None => budget.check().map_err(Failure::from).and(Err(too_large(span))),
         };
-        Ok(Fraction { numerator: raise(&base.numerator)?, denominator: raise(&base.denominator)? })
+        let raised = Fraction { numerator: raise(&base.numerator)?, denominator: raise(&base.denominator)? };
+        self.limited(raised, span)
     }
 
     fn call(&mut self, function: Function, value: Fraction, span: Span) -> Result<Fraction, Failure> {
         if value.numerator.degree() == 0 && value.denominator.degree() == 0 {
             let inner = value.numerator.leading().checked_div(&value.denominator.leading());
-            let inner = inner.ok_or_else(|| division_by_zero(span))?;
+            let inner = inner.and_then(|x| self.scope.reduced(x)).ok_or_else(|| division_by_zero(span))?;
             return self.scope.call(function, inner, span).map(Fraction::constant);
         }
         if function == Function::Exp && self.variable == "s" && self.scope.is_continuous {
@@ -253,7 +262,13 @@ impl InVariable<'_, '_> {
                 .help("a dead time tau is written exp(-tau*s)")
                 .into());
         }
-        Ok(-n.leading().checked_div(&d.leading()).ok_or_else(|| division_by_zero(span))?)
+        let time = n.leading().checked_div(&d.leading()).and_then(|x| self.scope.reduced(x));
+        let time = -time.ok_or_else(|| division_by_zero(span))?;
+        if has_unit(&time, self.scope.unit) {
+            let error = Diagnostic::error(Code::Complex, "a dead time is real").at(span, "a complex value");
+            return Err(error.help("exp(j*phi) of a constant is a factor of its own").into());
+        }
+        Ok(time)
     }
 }
 

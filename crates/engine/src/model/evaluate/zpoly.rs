@@ -5,6 +5,9 @@ use crate::model::text::Sign;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
 
+/// The one form of a value; `None` where it has none.
+pub(in crate::model) type Reduced<'r> = dyn Fn(RationalFunction) -> Option<RationalFunction> + 'r;
+
 /// Coefficients from the constant term up, no zero at the top.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::model) struct ZPoly(Vec<RationalFunction>);
@@ -116,16 +119,17 @@ impl ZPoly {
         Some(result)
     }
 
-    /// Quotient and remainder over the field of rational functions; `None` for a zero divisor.
-    pub fn divide(&self, divisor: &Self) -> Option<(Self, Self)> {
-        let inverse = divisor.leading().recip()?;
+    /// Quotient and remainder over the field of rational functions, whose elements `reduced` brings into the one form that equal
+    /// ones have; `None` for a zero divisor.
+    pub fn divide(&self, divisor: &Self, reduced: &Reduced<'_>) -> Option<(Self, Self)> {
+        let inverse = reduced(divisor.leading().recip()?)?;
         let shift = divisor.degree();
         let mut rest = self.0.clone();
         let mut quotient = vec![RationalFunction::zero(); (rest.len()).saturating_sub(shift)];
         for k in (0..quotient.len()).rev() {
-            let factor = checked_product(&rest[k + shift], &inverse)?;
+            let factor = reduced(checked_product(&rest[k + shift], &inverse)?)?;
             for (j, c) in divisor.0.iter().enumerate() {
-                rest[k + j] = checked_sum(&rest[k + j], Sign::Minus, &checked_product(&factor, c)?)?;
+                rest[k + j] = checked_sum(&rest[k + j], Sign::Minus, &reduced(checked_product(&factor, c)?)?)?;
             }
             quotient[k] = factor;
         }
@@ -133,8 +137,13 @@ impl ZPoly {
     }
 
     /// Divided by the leading coefficient; `None` for zero.
-    pub fn monic(&self) -> Option<Self> {
-        self.scaled(&self.leading().recip()?)
+    pub fn monic(&self, reduced: &Reduced<'_>) -> Option<Self> {
+        self.scaled(&reduced(self.leading().recip()?)?)?.try_map(reduced)
+    }
+
+    /// The polynomial of the images of the coefficients.
+    pub fn try_map(&self, image: &Reduced<'_>) -> Option<Self> {
+        self.0.iter().cloned().map(image).collect::<Option<Vec<_>>>().map(ZPoly::new)
     }
 
     /// A monic polynomial times the least common denominator of its coefficients.
@@ -147,14 +156,14 @@ impl ZPoly {
     }
 
     /// The monic greatest common divisor of two polynomials that are not both zero.
-    pub fn gcd(&self, other: &Self) -> Option<Self> {
+    pub fn gcd(&self, other: &Self, reduced: &Reduced<'_>) -> Option<Self> {
         let (mut a, mut b) = (self.clone(), other.clone());
         while !b.is_zero() {
             // Monic remainders keep the coefficients as small as the field allows.
-            let rest = a.divide(&b)?.1;
+            let rest = a.divide(&b, reduced)?.1;
             a = b;
-            b = if rest.is_zero() { rest } else { rest.monic()? };
+            b = if rest.is_zero() { rest } else { rest.monic(reduced)? };
         }
-        a.monic()
+        a.monic(reduced)
     }
 }

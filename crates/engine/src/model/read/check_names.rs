@@ -7,7 +7,7 @@ use crate::model::definition::{
     Block, Constant, Discretization, Dynamics, Form, Matrix, Model, Name, Output, Parameter, Ports, Position, Time,
 };
 use crate::model::text::names::{did_you_mean, known_names, nearest_name, shorten};
-use crate::model::text::{Expression, Function, PI, hint};
+use crate::model::text::{Expression, Function, PI, UNIT, hint};
 use std::collections::{HashMap, HashSet};
 
 /// Unknown names for which a known one is looked for: no more are shown.
@@ -40,8 +40,13 @@ pub(super) fn definitions(
     reader: &mut Reader,
 ) {
     let named = constants.iter().map(|c| (&c.name, c.span)).chain(parameters.iter().map(|p| (&p.name, p.span)));
-    for (name, span) in named.filter(|(name, _)| *name == PI || Function::named(name).is_some()) {
-        let what = if name == PI { "the circle number" } else { "a function" };
+    let is_known = |name: &str| name == PI || name == UNIT || Function::named(name).is_some();
+    for (name, span) in named.filter(|(name, _)| is_known(name)) {
+        let what = match name.as_str() {
+            PI => "the circle number",
+            UNIT => "the imaginary unit",
+            _ => "a function",
+        };
         let message = format!("here '{name}' is not {what}");
         reader.report(
             Diagnostic::warning(Code::OwnMeaningWarning, message).at(span, "has a meaning of its own in this model"),
@@ -182,6 +187,8 @@ impl<'m> Names<'m, '_> {
                 self.used.insert(name);
             } else if name == PI {
                 // The circle number.
+            } else if name == UNIT {
+                self.reader.has_unit = true;
             } else if let Some(matrix) = self.reader.matrices.iter().find(|m| m.name.name == name) {
                 let message = format!("'{}' is a matrix", shorten(name));
                 let error = Diagnostic::error(Code::Type, message).at(span, "a number belongs here");
@@ -410,9 +417,11 @@ fn check_block<'m>(names: &mut Names<'m, '_>, block: &'m Block, signals: &HashSe
         }
         Dynamics::Static(d) => names.matrix(d, &none),
     }
-    if let Some(Discretization { sample_time, factor, prewarp, delay, pulses, .. }) = &block.discretization {
+    if let Some(Discretization { sample_time, factor, prewarp, delay, frame, advance, pulses, .. }) =
+        &block.discretization
+    {
         let duties = pulses.iter().filter(|pulses| !pulses.is_steady).flat_map(|pulses| &pulses.duties);
-        let parts = [sample_time, factor, prewarp, delay].into_iter().flatten();
+        let parts = [sample_time, factor, prewarp, delay, frame, advance].into_iter().flatten();
         parts.chain(duties).for_each(|e| names.expression(e, &none, ""));
     }
     block.sample_time.iter().for_each(|e| names.expression(e, &none, ""));

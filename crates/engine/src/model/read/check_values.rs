@@ -82,8 +82,8 @@ fn problems(model: &Model, symbol: &mut dyn FnMut(&str, bool) -> Option<Symbol>)
     };
     let left = budget.enter(|| {
         let mut scope = Scope::new(model.parameters.iter(), model.ordered_constants(), symbol, &budget, &mut report);
-        let wiring = Wiring::of(model);
-        let form = symbolic(model, &wiring, &mut scope, &mut report);
+        let mut wiring = Wiring::of(model);
+        let form = symbolic(model, &mut wiring, &mut scope, &mut report);
         let set = |f: &RationalFunction| Some(f.clone());
         let how = Connecting { set: &set, symbols: None, start: None, budget: &budget };
         if let Some(form) = form

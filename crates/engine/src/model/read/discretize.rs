@@ -12,10 +12,12 @@ use crate::model::text::names::{did_you_mean, list, shorten};
 use crate::model::text::toml_value::{Entry, Kind, Table};
 
 /// The keys that some methods have, with what to do where another method is asked for.
-const METHOD_KEYS: [(&str, &str); 5] = [
+const METHOD_KEYS: [(&str, &str); 7] = [
     ("c", "leave it out"),
     ("prewarp", "leave it out"),
     ("delay", "add a block with 'delay' for whole samples"),
+    ("frame", "a plant is held in another frame by discretize = { method = \"zoh\", frame = \"..\" }"),
+    ("advance", "leave it out"),
     ("edge", "leave it out"),
     ("duty", "leave it out"),
 ];
@@ -45,6 +47,8 @@ pub(super) fn discretize(
                 factor: None,
                 prewarp: None,
                 delay: None,
+                frame: None,
+                advance: None,
                 pulses: None,
                 span: entry.key_span,
             }
@@ -105,6 +109,12 @@ fn from_table(entry: &Entry, table: &Table, reader: &mut Reader) -> Option<Discr
     }
     let mut part = |key: &str| table.get(key).and_then(|v| reader.expression(v, &format!("'{key}'")));
     let (sample_time, factor, prewarp, delay) = (part("T"), part("c"), part("prewarp"), part("delay"));
+    let (frame, advance) = (part("frame"), part("advance"));
+    if let (Some(entry), None) = (table.entry("advance"), table.entry("frame")) {
+        let error = Diagnostic::error(Code::Frame, "'advance' turns a command ahead into a frame that is not given");
+        let error = error.at(entry.key_span, "into which frame?");
+        reader.report(error.help("give the speed of the controller's frame: frame = \"omega_e\""));
+    }
     let pulses = if method.is_modulated() { pulses(entry, table, &meant, reader) } else { None };
     if let Some(time) = table.entry("T").filter(|_| method.is_modulated()) {
         let help = "leave it out: there is one pulse in each sample time of the loop";
@@ -123,6 +133,8 @@ fn from_table(entry: &Entry, table: &Table, reader: &mut Reader) -> Option<Discr
         factor,
         prewarp,
         delay,
+        frame,
+        advance,
         pulses,
         span: entry.key_span,
     })

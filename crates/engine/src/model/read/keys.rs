@@ -299,12 +299,18 @@ pub(super) const BLOCK: [Key; 17] = [
 ];
 
 /// The table `discretize` of a block.
-pub(super) const DISCRETIZE: [Key; 7] = [
+pub(super) const DISCRETIZE: [Key; 9] = [
     needed("method", Shape::Method, "the rule or the hold"),
     key("T", Shape::Expression, "the sample time, that of the loop when missing"),
     key("c", Shape::Expression, "the factor of tustin, 2/T when missing"),
     key("prewarp", Shape::Expression, "the angular frequency at which tustin is exact, below half the sampling rate"),
     key("delay", Shape::Expression, "dead time of the inputs of a held block, in units of time"),
+    key(
+        "frame",
+        Shape::Expression,
+        "the speed, in radians per unit of time, at which the frame of the block's signals turns against that in which zoh holds its inputs; the signals are then complex, d + j q",
+    ),
+    key("advance", Shape::Expression, "the angle by which commands are turned ahead into that frame, 0 when missing"),
     key(
         "edge",
         Shape::OneOrEach(&EDGES),

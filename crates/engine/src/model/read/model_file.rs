@@ -154,9 +154,11 @@ fn read_model(root: &Table, source: &Arc<Source>, reader: &mut Reader) -> Option
         shipping,
         tuning,
         index,
+        has_unit: false,
     };
     let form_is_broken = form.is_none();
     check_names::names(&model, form_is_broken, reader);
+    model.has_unit = reader.has_unit;
     let broken = reader.diagnostics.iter().any(|d| d.severity == Severity::Error);
     if !broken {
         if let Some(form) = &mut form {

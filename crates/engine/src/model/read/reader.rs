@@ -20,6 +20,8 @@ pub(super) struct Reader {
     pub refused: HashSet<String>,
     /// The constants that are matrices.
     pub matrices: Vec<NamedMatrix>,
+    /// Whether the imaginary unit is in an expression.
+    pub has_unit: bool,
 }
 
 /// A constant that is a matrix: blocks use it by its name.

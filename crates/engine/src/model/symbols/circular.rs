@@ -3,9 +3,40 @@
 use super::{Definition, Symbols};
 use crate::model::text::Function;
 use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::RationalFunction;
+use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
 
 impl Symbols {
+    /// A function of the symbols with `sin^2 = 1 - cos^2` put in, of angles that depend on kept names; `None` where it divides by zero then.
+    pub(in crate::model) fn on_circle(&self, f: &RationalFunction) -> Option<RationalFunction> {
+        let circle = [1.into(), RationalFunction::zero(), 1.into()];
+        let of = |wanted: usize, t: Option<&RationalFunction>| {
+            let is_it = |(i, symbol): (usize, &super::Symbol)| match symbol.definition()? {
+                Definition::Fundamental { polynomial, time, index } => {
+                    let is_it = *polynomial == circle && *index == wanted && t.is_none_or(|t| t == time);
+                    is_it.then(|| (self.first() + i, time.clone()))
+                }
+                _ => None,
+            };
+            self.table.iter().enumerate().filter_map(is_it).collect::<Vec<_>>()
+        };
+        let mut f = f.clone();
+        for (sine, time) in of(1, None) {
+            let Some((cosine, _)) = of(0, Some(&time)).pop() else { continue };
+            let cosine = MultiPoly::variable(cosine);
+            let square = &MultiPoly::one() - &(&cosine * &cosine);
+            let reduced = |p: &MultiPoly| {
+                let mut sum = MultiPoly::zero();
+                for (k, c) in p.as_poly_in(sine).into_coeffs().into_iter().enumerate() {
+                    let even = (0..k / 2).fold(c, |product, _| &product * &square);
+                    sum = &sum + &if k % 2 == 0 { even } else { &even * &MultiPoly::variable(sine) };
+                }
+                sum
+            };
+            f = RationalFunction::new(reduced(f.numerator()), reduced(f.denominator()))?;
+        }
+        Some(f)
+    }
+
     /// Sine, cosine or tangent.
     pub(super) fn circular(&mut self, function: Function, x: RationalFunction) -> Option<RationalFunction> {
         let (sine, cosine) = match self.multiple_of_pi(&x) {

@@ -3,6 +3,9 @@
 /// The circle number, where a model gives the name no other meaning.
 pub(in crate::model) const PI: &str = "pi";
 
+/// The imaginary unit, where a model gives the name no other meaning.
+pub(in crate::model) const UNIT: &str = "j";
+
 /// A function of one value in an expression.
 ///
 /// ```
@@ -23,11 +26,26 @@ pub enum Function {
     Cos,
     /// The tangent of an angle in radians.
     Tan,
+    /// The conjugate of a complex value.
+    Conj,
+    /// The real part of a complex value.
+    Re,
+    /// The imaginary part of a complex value.
+    Im,
 }
 
 impl Function {
     /// All of them.
-    pub const ALL: [Function; 5] = [Function::Sqrt, Function::Exp, Function::Sin, Function::Cos, Function::Tan];
+    pub const ALL: [Function; 8] = [
+        Function::Sqrt,
+        Function::Exp,
+        Function::Sin,
+        Function::Cos,
+        Function::Tan,
+        Function::Conj,
+        Function::Re,
+        Function::Im,
+    ];
 
     /// Its name in expressions.
     pub fn name(self) -> &'static str {
@@ -37,6 +55,9 @@ impl Function {
             Function::Sin => "sin",
             Function::Cos => "cos",
             Function::Tan => "tan",
+            Function::Conj => "conj",
+            Function::Re => "re",
+            Function::Im => "im",
         }
     }
 
@@ -54,6 +75,7 @@ pub(in crate::model) fn hint(name: &str) -> Option<String> {
     }
     Some(match name {
         "Pi" | "PI" | "π" | "M_PI" => "the circle number is written 'pi'".into(),
+        "i" => "the imaginary unit is written 'j'".into(),
         "e" => "the base of the exponential function is written 'exp(1)'".into(),
         _ => return None,
     })

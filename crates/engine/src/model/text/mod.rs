@@ -13,7 +13,7 @@ pub(in crate::model) mod toml_value;
 
 pub use expression::{Expression, Factor, Node, Sign};
 pub use function::Function;
-pub(in crate::model) use function::{PI, hint};
+pub(in crate::model) use function::{PI, UNIT, hint};
 pub(crate) use lexer::is_blank_letter;
 pub(in crate::model) use lexer::is_name;
 pub(in crate::model) use located::Text;

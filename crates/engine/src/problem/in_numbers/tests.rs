@@ -70,7 +70,7 @@ fn enclosures_and_exact_algebra_count_the_same_roots() {
                     Err(failure) => panic!("{plant} {hold} {gain}: {failure}"),
                 };
                 match problem.roots_in_numbers(&budget) {
-                    Ok(Some(FromNumbers::Known { at, degree, drifts })) => {
+                    Ok(Some(FromNumbers::Known { at, degree, drifts, .. })) => {
                         known += 1;
                         let found = PointVerdict { drifts, ..PointVerdict::of(at, degree) };
                         assert_eq!(found, exact, "{plant} {hold} {gain}");

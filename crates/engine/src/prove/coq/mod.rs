@@ -51,6 +51,7 @@ impl Answer<StableSet> {
         budget.enter(|| {
             budget.step("theorem for Coq");
             let problem = self.problem();
+            problem.refuse_complex(budget)?;
             // A loop with exponentials says so itself; what is left are other ways to an answer.
             one_rate(problem)?;
             let loop_ = Loop::of(problem, budget)?;
@@ -88,6 +89,7 @@ impl Answer<PointVerdict> {
         budget.enter(|| {
             budget.step("theorem for Coq");
             let problem = self.problem();
+            problem.refuse_complex(budget)?;
             if self.value().verdict == Verdict::Undefined {
                 return Err(refused("the model is undefined at the point", "choose another point with '--set'"));
             }

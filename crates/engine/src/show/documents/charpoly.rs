@@ -85,8 +85,11 @@ pub struct OpenPolynomials<N> {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Coefficients {
-    /// From the constant term up.
+    /// From the constant term up. Of a complex loop the real parts.
     pub coefficients: Vec<Coefficient>,
+    /// The imaginary parts, as many; left out where the polynomial is real.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub imaginary: Option<Vec<Coefficient>>,
 }
 
 /// `1 + parameter * numerator/denominator = 0`.
@@ -198,7 +201,12 @@ pub(in crate::show) fn report_text(report: &PolynomialReport, digits: Option<usi
     };
     match &report.relation {
         notation::Relation::Characteristic => {
-            to_text(&Charpoly::known(report, digits, Coefficients { coefficients: list("Q") }))
+            let polynomial = Coefficients { coefficients: list("Q"), imaginary: None };
+            to_text(&Charpoly::known(report, digits, polynomial))
+        }
+        notation::Relation::Complex => {
+            let polynomial = Coefficients { coefficients: list("re"), imaginary: Some(list("im")) };
+            to_text(&Charpoly::known(report, digits, polynomial))
         }
         notation::Relation::RootLocus { parameter } => {
             let (numerator, denominator) = (list("num"), list("den"));

@@ -61,7 +61,8 @@ pub struct FrequencyOfPair {
     pub frequency_enclosure: Option<Enclosure>,
     /// In radians per second; `null` also in discrete time without a sample time.
     pub radians_per_second: Option<serde_json::Number>,
-    /// The angle of the upper root in radians; `null` also in continuous time.
+    /// The angle of the upper root in radians; `null` also in continuous time. Of one complex root, of a loop with complex coefficients, the
+    /// angle and the frequencies have its sign.
     pub angle: Option<serde_json::Number>,
 }
 
@@ -88,7 +89,7 @@ pub struct End {
     /// The value, in the parameter's unit.
     #[serde(flatten)]
     pub number: Number,
-    /// Why stability ends: `z=1`, `z=-1`, `complex pair`, `s=0`, `infinity` (the degree is lost), `neutral`
+    /// Why stability ends: `z=1`, `z=-1`, `complex pair`, `complex root` (one without its conjugate), `s=0`, `infinity` (the degree is lost), `neutral`
     /// (infinitely many roots reach the boundary), `pole` (undefined there), `square root` (undefined beyond: the
     /// number under a square root is negative), `duty` (no pulse, or no pause, of a modulator is left), `domain`; several are joined by `+` in this order.
     /// `undecided` alone: no limit, but where a bracket begins in which nothing is known.

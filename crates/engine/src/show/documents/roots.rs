@@ -55,7 +55,7 @@ pub struct RootsFound {
 pub struct RootFound {
     /// The real part, with as many digits as were asked for and are certain; 0 where the enclosure holds 0.
     pub re: String,
-    /// The imaginary part; positive of a pair.
+    /// The imaginary part; positive of a pair. One complex root, of a loop with complex coefficients, has it of either sign.
     pub im: String,
     /// Certified bounds of the real part.
     pub re_enclosure: Enclosure,

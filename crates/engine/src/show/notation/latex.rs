@@ -9,6 +9,9 @@ pub(super) fn write(report: &PolynomialReport, digits: Option<usize>) -> String 
     let mut lines = Vec::new();
     match &report.relation {
         Relation::Characteristic => {}
+        Relation::Complex => {
+            lines.push(format!("Q({v}) &= \\mathrm{{re}}({v}) + j \\, \\mathrm{{im}}({v})"));
+        }
         Relation::RootLocus { parameter } => {
             lines
                 .push(format!("1 + {} \\frac{{\\mathrm{{num}}({v})}}{{\\mathrm{{den}}({v})}} &= 0", symbol(parameter)));

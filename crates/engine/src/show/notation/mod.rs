@@ -74,6 +74,8 @@ impl NamedPolynomial {
 pub enum Relation {
     /// The characteristic polynomial `Q`.
     Characteristic,
+    /// The characteristic polynomial `re + j im` of a complex loop.
+    Complex,
     /// `1 + NAME num/den = 0`.
     RootLocus {
         /// The parameter that stands in front.
@@ -103,7 +105,7 @@ pub struct PolynomialReport {
     pub set: Vec<(String, Rational)>,
     /// What the polynomials say.
     pub relation: Relation,
-    /// `Q`, or `num` and `den`.
+    /// `Q`, or `re` and `im`, or `num` and `den`.
     pub polynomials: Vec<NamedPolynomial>,
 }
 
@@ -163,6 +165,7 @@ impl PolynomialReport {
                 };
                 format!("Q({v}) = {sum}")
             }
+            Relation::Complex => format!("Q({v}) = re({v}) + j*im({v})"),
             Relation::RootLocus { parameter } => format!("1 + {parameter}*num({v})/den({v}) = 0"),
             Relation::Transfer { input, output } => format!("{output}/{input} = num({v})/den({v})"),
         }

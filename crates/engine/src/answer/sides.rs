@@ -1,0 +1,125 @@
+//! On which side of the real axis a complex loop has the root that limits it. Its boundary functions are those of `D conj(D)`, whose roots are
+//! those of `D` and their conjugates: so they tell the modulus of an angle, and `D` itself the sign.
+
+use crate::error::Error;
+use crate::model::ComplexPolynomial;
+use crate::precisions::SIDE_OF_ROOT;
+use crate::problem::{Algebra, Bound, Problem, Region, definitions_beside};
+use crate::stability::{Cause, End, Shape, Side, StableSet};
+use jurist_algebra::ball::{Ball, cos_sin};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::MultiPoly;
+use jurist_algebra::symbols::MovingSymbols;
+
+/// Work that the polynomial may be where the set has been found without it.
+const WORK: u64 = 100_000_000;
+
+impl Problem {
+    /// Names the ends of a complex loop's set by its own roots: `complex root` with the side that it is on, and `complex pair` where there is
+    /// one on either side. Where that is not told no frequency is left.
+    ///
+    /// Cost: enclosures of the polynomial's coefficients at each end, with more bits until one of two values is seen not to be zero.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] when the budget runs out.
+    pub(super) fn with_sides(&self, mut set: StableSet, budget: &Budget) -> Result<StableSet, Error> {
+        if !self.is_written_complex() {
+            return Ok(set);
+        }
+        budget.step("the sides of the roots");
+        if self.algebra_over_symbols(&budget.clone().within_work(WORK)).is_err() {
+            budget.check()?;
+            // Its set was found without the polynomial: by enclosures, or one order after another.
+            for end in set.ends_mut().filter(|end| end.causes.contains(Cause::ComplexPair)) {
+                end.causes.of_complex_loop();
+                end.pair = None;
+            }
+            return Ok(set);
+        }
+        for end in set.ends_mut() {
+            *end = self.with_side(end.clone(), budget)?;
+        }
+        Ok(set)
+    }
+
+    /// The same of one end.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] when the budget runs out.
+    pub(super) fn with_side(&self, mut end: End, budget: &Budget) -> Result<End, Error> {
+        let algebra = self.evaluated().filter(|_| end.causes.contains(Cause::ComplexPair));
+        let Some((algebra, whole)) = algebra.and_then(|algebra| Some((algebra, algebra.complex()?))) else {
+            return Ok(end);
+        };
+        let side = budget.enter(|| self.side(&end, whole, algebra))?;
+        if side != Some(Side::Both) {
+            end.causes.of_complex_loop();
+        }
+        end.pair = end.pair.take().zip(side).map(|(pair, side)| pair.on_side(side));
+        Ok(end)
+    }
+
+    /// The side that the root at an end is on: where `D` may vanish on either side, both if it is a factor with real coefficients that does.
+    fn side(&self, end: &End, whole: &ComplexPolynomial, algebra: &Algebra) -> Option<Side> {
+        let pair = end.pair.as_ref()?;
+        let table = definitions_beside(algebra.symbols(), self.free().len()).ok()?;
+        let symbols = MovingSymbols::new(table);
+        let vanishes_at = |whole: &ComplexPolynomial, bits: u64| {
+            let place = match pair.region() {
+                Shape::UnitDisc => pair.angle(bits),
+                Shape::LeftHalfPlane => pair.angular_frequency(bits),
+            };
+            let place = place.map(|place| Ball::from_enclosure(&place, bits));
+            let (lo, hi) = end.value.refined(&Rational::dyadic(&Integer::ONE, bits)).enclosure();
+            let parameter = Ball::between(&lo, &hi, bits);
+            let vanishes = |place: &Ball| self.may_vanish(place, &parameter, whole, &symbols);
+            place.and_then(|place| Some([vanishes(&place)?, vanishes(&place.neg())?]))
+        };
+        let side = SIDE_OF_ROOT.bits().find_map(|bits| match vanishes_at(whole, bits) {
+            Some([true, false]) => Some(Side::Upper),
+            Some([false, true]) => Some(Side::Lower),
+            _ => None,
+        });
+        side.or_else(|| {
+            let others = whole.without_real_factor()?;
+            let is_elsewhere = |bits: u64| vanishes_at(&others, bits) == Some([false, false]);
+            SIDE_OF_ROOT.bits().any(is_elsewhere).then_some(Side::Both)
+        })
+    }
+
+    /// Whether a polynomial may vanish at a point of the region's boundary, given by its angle or frequency; `None` where something may be divided by
+    /// zero.
+    fn may_vanish(
+        &self,
+        place: &Ball,
+        parameter: &Ball,
+        whole: &ComplexPolynomial,
+        symbols: &MovingSymbols,
+    ) -> Option<bool> {
+        let bits = place.bits();
+        let number = |bound: &Bound| match bound {
+            Bound::Number(value) => Ball::from_rational(value, bits),
+            Bound::Free => parameter.clone(),
+        };
+        let [x, y] = match self.region() {
+            Region::Disc(radius) => {
+                let ((cosine, sine), radius) = (cos_sin(place), number(radius));
+                [cosine.mul(&radius), sine.mul(&radius)]
+            }
+            Region::HalfPlane(decay) => [number(decay).neg(), place.clone()],
+        };
+        let [re, im] = [&whole.re, &whole.im].map(|list| {
+            let sides: Vec<MultiPoly> =
+                list.iter().flat_map(|f| [f.numerator().clone(), f.denominator().clone()]).collect();
+            let values = symbols.enclose(&sides, parameter)?;
+            values.chunks(2).map(|pair| pair[0].div(&pair[1])).collect::<Option<Vec<Ball>>>()
+        });
+        let mut value = [Ball::zero(bits), Ball::zero(bits)];
+        for (re, im) in re?.into_iter().zip(im?).rev() {
+            let [u, v] = &value;
+            value = [u.mul(&x).sub(&v.mul(&y)).add(&re), u.mul(&y).add(&v.mul(&x)).add(&im)];
+        }
+        Some(value.iter().all(Ball::contains_zero))
+    }
+}
