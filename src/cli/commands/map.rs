@@ -220,7 +220,7 @@ fn required(
         for requirement in &asked.list {
             let coverage = Asked::Map.with_requirement(requirement, problem.time()).over(ring);
             match coverage.refusal() {
-                Some(refusal) if !refusal.help.contains('{') => return Err(refusal.diagnostic(&[]).into()),
+                Some(refusal) if refusal.is_complete() => return Err(refusal.diagnostic(&[]).into()),
                 // What a loop is asked depends on its ring.
                 Some(refusal) if refusal.help.contains("{known}") => drop(problem.algebra(&context.budget)?),
                 _ => {}

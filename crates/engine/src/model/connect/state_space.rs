@@ -4,6 +4,7 @@
 //! factors included: its characteristic polynomial is the denominator.
 
 use super::hold::held;
+use super::modulators::periods_agree;
 use super::rates::{Lifted, lifted};
 use crate::error::{Code, Diagnostic, Span};
 use crate::model::definition::{Dynamics, Form, Model, Rate};
@@ -394,6 +395,7 @@ fn connect(
 ) -> Result<Assembled, NotConnected> {
     let Connecting { set, symbols, start, budget } = *how;
     let (mut poles, mut leading) = (Vec::new(), RationalFunction::one());
+    periods_agree(blocks, how)?;
     let systems = realised(blocks, how, &mut poles, &mut leading)?;
     let named = |(i, block): (usize, &BlockValues)| state_names(model, i, block, systems[i][0].a.rows());
     let mut states: Vec<Vec<String>> = blocks.iter().enumerate().map(named).collect();
