@@ -74,6 +74,11 @@ fn the_drive_with_its_speed_loop_slower_than_its_current_loop() {
     // A gain of the fast loop.
     let fast = ends(&set(&drive(2, "zoh"), "K_pwm"), 12);
     assert_eq!(fast.map(|(value, _)| value), ["0.0382515735080", "551.459983270"]);
+    // Ten and twenty factors of it: with exact polynomials the one took seconds, and the other did not end.
+    let fast = ends(&set(&drive(10, "zoh"), "K_pwm"), 26);
+    assert_eq!(fast.map(|(value, _)| value), ["0.039363295654287949254582346", "551.16384161823060903428475"]);
+    let [(lower, _), (upper, _)] = ends(&set(&drive(20, "zoh"), "K_pwm"), 12);
+    assert_eq!([lower.as_str(), upper.as_str()], ["0.0407902243088", "551.238894408"]);
 }
 
 #[test]

@@ -147,7 +147,7 @@ pub(super) struct Answer<'m> {
     /// For each variable of `values`, what it is in kept names and symbols: a number, a variable, or a function of both.
     pub images: Vec<RationalFunction>,
     pub symbols: RefCell<Symbols>,
-    poles: Vec<MultiPoly>,
+    pub(super) poles: Vec<MultiPoly>,
     /// The time from one state to the next: of a loop with several rates its hyperperiod.
     pub sample_time: Option<RationalFunction>,
     /// At which sample a hyperperiod begins, where that matters.

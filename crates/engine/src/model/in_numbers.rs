@@ -1,6 +1,8 @@
 //! Closed loops of which only numbers are asked for.
 
 use super::closed_loop::{ClosedLoop, Evaluated};
+use super::connect::samples::{Samples, samples};
+use super::connect::state_space::Connecting;
 use super::definition::Model;
 use super::evaluate::symbolic::Values;
 use super::symbols::Symbols;
@@ -52,5 +54,27 @@ impl Model {
         answer.symbols = RefCell::new(answer.symbols.into_inner().keeping_flows());
         let (closed_loop, sample_time, symbols) = self.connected(answer, budget)?;
         Ok(Some(InNumbers { closed_loop, sample_time, symbols }))
+    }
+
+    /// A loop with several rates by the matrices of its samples. `None` where the name is in a divisor or a function, or not linear in the matrix
+    /// of a sample.
+    ///
+    /// Cost: that of the closed loop in numbers, without products of matrices.
+    ///
+    /// # Errors
+    /// As [`Model::evaluate`].
+    pub(crate) fn samples_in(
+        &self,
+        name: &str,
+        values: &[(String, Rational)],
+        budget: &Budget,
+    ) -> Result<Option<Samples>, Error> {
+        let mut answer = self.answer(&[name.to_owned()], values, budget)?;
+        answer.symbols = RefCell::new(answer.symbols.into_inner().keeping_flows());
+        let set = |f: &RationalFunction| answer.substituted(f);
+        let how = Connecting { set: &set, symbols: Some(&answer.symbols), start: None, budget };
+        let found = budget.enter(|| samples(self, &answer.wiring, &answer.values, &how))?;
+        let found = found.map_err(|why| self.not_connected(why))?;
+        Ok(found.filter(|_| answer.poles.iter().all(|pole| pole.degree_in(0) == 0)))
     }
 }

@@ -6,4 +6,5 @@ mod hold;
 mod modulators;
 pub(in crate::model) mod orbit;
 mod rates;
+pub(in crate::model) mod samples;
 pub(in crate::model) mod state_space;
