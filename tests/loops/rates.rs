@@ -74,6 +74,10 @@ fn the_drive_with_its_speed_loop_slower_than_its_current_loop() {
     // A gain of the fast loop.
     let fast = ends(&set(&drive(2, "zoh"), "K_pwm"), 12);
     assert_eq!(fast.map(|(value, _)| value), ["0.0382515735080", "551.459983270"]);
+    // Integral gains; without them an integrator is left that nobody reads.
+    for (name, end) in [("K_is", "911.398818129"), ("K_ii", "61020.5684189"), ("K_pi", "50.2143917019")] {
+        assert_eq!(ends(&set(&drive(5, "zoh"), name), 12)[1].0, end, "{name}");
+    }
     // Ten and twenty factors of it: with exact polynomials the one took seconds, and the other did not end.
     let fast = ends(&set(&drive(10, "zoh"), "K_pwm"), 26);
     assert_eq!(fast.map(|(value, _)| value), ["0.039363295654287949254582346", "551.16384161823060903428475"]);

@@ -222,3 +222,22 @@ fn the_switched_pulses_are_as_long_as_the_gain_of_the_modulator_says() {
     let run = jurist_with_input(&["simulate", "-", "--switched"], none.as_bytes());
     assert!(run.stderr.contains("have no height"), "{}", run.stderr);
 }
+
+/// The exponential of a plant over a period of 1e9 took all memory.
+#[test]
+fn a_period_in_which_a_plant_changes_beyond_measure_is_refused_or_undecided() {
+    let text = leaky("edge = 'trailing', duty = 'steady'", "1").replace("1/(s + 3)", "1/(s - 3)");
+    let text = text.replace("V = '3*(1 - exp(-3*T))/(1)'", "V = 10").replace("r = 1", "r = -1");
+    for time in ["1e4", "1e9", "1e30"] {
+        let Err(Error::Refused(why)) = verdict(&text, "T", time) else { panic!("{time}") };
+        assert_eq!(why.code(), Code::Duty, "{time}");
+        assert!(why.to_string().contains("change by more than"), "{why}");
+    }
+    let model = read(&text);
+    let far = Range::between(Some(1_000_000.into()), Some(2_000_000.into()));
+    let question = model.ask().free("T").domain("T", far);
+    match question.stable_set(&Budget::with_work(1_000_000_000)) {
+        Ok(set) => assert!(set.value().intervals().is_empty(), "{:?}", set.value()),
+        Err(stopped) => assert!(matches!(stopped, Error::Stopped(_) | Error::Refused(_)), "{stopped}"),
+    }
+}

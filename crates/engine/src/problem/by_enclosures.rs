@@ -79,7 +79,9 @@ impl Problem {
     fn lifted_parts(&self, name: &str, budget: &Budget) -> Result<Option<EnclosedParts>, Error> {
         let Some(samples) = self.model().samples_in(name, self.set(), budget)? else { return Ok(None) };
         let degree = samples.parts.iter().map(|part| part.degree).max().unwrap_or(0);
-        if !(2..=MOST_LIFTED_POWERS).contains(&degree) || !samples.symbols.has_flows() {
+        // Where the parameter acts once, the matrix over a hyperperiod is linear in it; but a root at 1 does not show in it.
+        let acts_once = degree < 2 && samples.parts.iter().all(|part| part.degree == 0 || part.at_one == 0);
+        if acts_once || degree > MOST_LIFTED_POWERS || !samples.symbols.has_flows() {
             return Ok(None);
         }
         budget.step("coefficients by enclosures");

@@ -8,6 +8,7 @@ use super::rates::{Run, at_sample, first_sample, runs};
 use super::state_space::{Connecting, NotConnected, System, closed, realised};
 use crate::model::definition::{Model, Rate};
 use crate::model::evaluate::symbolic::{Values, Wiring};
+use crate::model::evaluate::work::count_work;
 use crate::model::symbols::{Symbols, beside};
 use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::poly::{MultiPoly, RationalFunction};
@@ -36,6 +37,8 @@ pub(crate) struct SamplesPart {
     pub states: Vec<usize>,
     /// A bound of the degree in `K` of its characteristic polynomial.
     pub degree: usize,
+    /// So many roots are 1 where `K` is 0, at least.
+    pub at_one: usize,
 }
 
 /// The samples of a loop with several rates. `None` where the kept name is in a divisor or a function, or not linear in the matrix of a sample.
@@ -96,10 +99,50 @@ fn parts(patterns: &[[RationalMatrix; 2]], runs: &[(usize, u64)], places: &[Opti
             states: kept.iter().filter_map(|&k| places[at_sample[k]]).collect(),
             kept,
             degree: runs.iter().map(|(pattern, length)| ranks[*pattern] * *length as usize).sum(),
+            at_one: resting(patterns, &at_sample),
             at_sample,
         }
     };
     action.decoupled_parts().into_iter().map(part).filter(|part| !part.states.is_empty()).collect()
+}
+
+/// How many independent states stay what they are in all samples where `K` is 0, such as that of an integrator nobody reads; or how many
+/// combinations of states do, such as that of an integrator nothing drives.
+fn resting(patterns: &[[RationalMatrix; 2]], at_sample: &[usize]) -> usize {
+    let n = at_sample.len();
+    let moved = |transposed: bool| {
+        let rows = patterns.iter().flat_map(|[a, _]| {
+            let own = a.principal(at_sample);
+            let entry = move |i: usize, j: usize| if transposed { own[(j, i)].clone() } else { own[(i, j)].clone() };
+            let less_one =
+                move |i: usize, j: usize| if i == j { &entry(i, j) - &RationalFunction::one() } else { entry(i, j) };
+            (0..n).map(move |i| (0..n).map(|j| less_one(i, j)).collect::<Vec<_>>()).collect::<Vec<_>>()
+        });
+        n - rank(rows.collect(), n)
+    };
+    moved(false).max(moved(true))
+}
+
+/// The rank of a matrix by Gaussian elimination.
+fn rank(mut rows: Vec<Vec<RationalFunction>>, columns: usize) -> usize {
+    let mut found = 0;
+    for column in 0..columns {
+        let size = |f: &RationalFunction| f.numerator().terms().len() + f.denominator().terms().len();
+        let candidates = (found..rows.len()).filter(|&i| !rows[i][column].is_zero());
+        let Some(pivot) = candidates.min_by_key(|&i| size(&rows[i][column])) else { continue };
+        rows.swap(found, pivot);
+        let (above, below) = rows.split_at_mut(found + 1);
+        let pivot = &above[found];
+        for row in below.iter_mut().filter(|row| !row[column].is_zero()) {
+            let factor = row[column].checked_div(&pivot[column]).expect("a pivot is not zero");
+            for (entry, p) in row.iter_mut().zip(pivot).filter(|(_, p)| !p.is_zero()) {
+                count_work(&factor, p);
+                *entry = &*entry - &(&factor * p);
+            }
+        }
+        found += 1;
+    }
+    found
 }
 
 /// For each state of a sample, registers among them, which state of the hyperperiod it is; `None` for a register that the first sample

@@ -66,7 +66,18 @@ impl Part {
     /// A part of a loop over a hyperperiod, by its matrix at `K = 0` and the matrices of its samples.
     pub fn lifted(symbols: &Arc<Symbols>, constant: RationalMatrix, samples: &Arc<Samples>, of: &SamplesPart) -> Part {
         let matrices = Matrices::Samples(Arc::clone(samples), of.clone());
-        Part::of_constant(symbols, constant, matrices, of.degree)
+        let mut part = Part::of_constant(symbols, constant, matrices, of.degree);
+        let root_at_one = UniPoly::from_i64(&[-1, 1]);
+        let mut rest = part.exact.clone();
+        let known = std::iter::from_fn(|| rest.div_exact(&root_at_one).map(|next| rest = next)).count();
+        // Roots that the factors of rational parts do not have are those of the other part.
+        if let [(_, at_one)] = part.others.as_mut_slice() {
+            for _ in known..of.at_one {
+                *at_one += 1;
+                part.exact = part.exact.times(&root_at_one);
+            }
+        }
+        part
     }
 
     /// What is known of a part by its matrix at `K = 0`.

@@ -84,6 +84,21 @@ fn other_forms_have_the_set_of_the_exact_polynomial() {
     }
 }
 
+/// Integrators that nobody reads where the parameter is 0: a root at 1 that does not show in the matrix over a hyperperiod.
+#[test]
+fn an_integral_gain_has_the_set_of_the_exact_polynomial() {
+    let plant = "transfer = '1/(s + 1)'\ndiscretize = 'zoh'";
+    for (slow, fast) in [
+        ("gain = 1\nevery = 3", "transfer = '1/2 + K/20*(z + 1)/(z - 1)'"),
+        ("transfer = '1/2 + 1/20*(z + 1)/(z - 1)'\nevery = 2", "transfer = '(1/3 + K/20*(z + 1)/(z - 1))/z'"),
+    ] {
+        let found = both(&cascade(slow, fast, plant, "min = 0"));
+        let [own, exact] = found.unwrap_or_else(|| panic!("{slow}, {fast}"));
+        assert_eq!(own, exact, "{slow}, {fast}");
+        assert!(own[0][0].as_ref().is_some_and(|(at, causes)| at == "0" && causes.contains("z=1")), "{own:?}");
+    }
+}
+
 /// Beyond that number the loop is unstable, and a tenth of it is none for a loop whose gain is that large at its limit.
 #[test]
 fn a_number_beyond_which_a_loop_is_unstable_is_one() {
