@@ -85,6 +85,17 @@ fn the_drive_with_its_speed_loop_slower_than_its_current_loop() {
     assert_eq!([lower.as_str(), upper.as_str()], ["0.0407902243088", "551.238894408"]);
 }
 
+/// Ends that enclosures found had no frequency: 2.111250332 rad in ten samples are 336.0 Hz, an alias of 1664 Hz.
+#[test]
+fn ends_of_several_rates_have_their_frequency() {
+    for (name, frequency) in [("K_pwm", 336.0159), ("K_ps", 0.8077485 / (2e-3 * std::f64::consts::PI))] {
+        let run = jurist_with_input(&["intervals", "-", "--param", name, "--json"], drive(10, "zoh").as_bytes());
+        let document: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
+        let found = document["stable"][0]["upper"]["frequency_hz"].as_f64().unwrap_or_else(|| panic!("{name}"));
+        assert!((found - frequency).abs() < 1e-3, "{name}: {found}");
+    }
+}
+
 #[test]
 fn one_rate_for_all_controllers_is_a_longer_sample_time() {
     let text = example_text("drive-hold");

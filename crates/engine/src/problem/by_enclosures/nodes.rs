@@ -69,7 +69,7 @@ fn at_node(a: &BallMatrix, b: &BallMatrix, k: usize) -> BallMatrix {
 fn power(m: &BallMatrix, exponent: u64) -> BallMatrix {
     match exponent {
         1 => m.clone(),
-        _ if exponent % 2 == 0 => power(&m.mul(m), exponent / 2),
+        _ if exponent.is_multiple_of(2) => power(&m.mul(m), exponent / 2),
         _ => power(m, exponent - 1).mul(m),
     }
 }

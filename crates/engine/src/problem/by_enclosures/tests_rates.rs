@@ -17,8 +17,11 @@ fn cascade(slow: &str, fast: &str, plant: &str, limits: &str) -> Arc<Problem> {
     model.ask().free("K").problem().unwrap()
 }
 
+/// Ends of intervals with their causes.
+type Ends = Vec<[Option<(String, String)>; 2]>;
+
 /// The sets by enclosures and by exact polynomials; `None` where enclosures do not tell, so that the program asks exact polynomials.
-fn both(problem: &Problem) -> Option<[Vec<[Option<(String, String)>; 2]>; 2]> {
+fn both(problem: &Problem) -> Option<[Ends; 2]> {
     let (budget, domain) = (Budget::unlimited(), &problem.parameter().domain);
     let own = match problem.lifted_parts("K", &budget).unwrap()? {
         EnclosedParts::Unstable => Ok(StableSet::from_intervals(Vec::new(), Vec::new())),
