@@ -180,6 +180,12 @@ impl CommandLine {
             Some(ContextValue::String(s)) => Some(s.as_str()),
             _ => None,
         };
+        if let (ErrorKind::ArgumentConflict, Some(command), Some(option)) =
+            (error.kind(), text(ContextKind::InvalidSubcommand), text(ContextKind::PriorArg))
+        {
+            let option = option.split(' ').next().unwrap_or(option);
+            return Some(format!("options stand behind their command: 'jurist {command} {option} ...'"));
+        }
         let definition = Arguments::command();
         let named = |a: &OsString| definition.get_subcommands().any(|c| a == c.get_name());
         if self.arguments.iter().skip(1).any(named) {

@@ -74,6 +74,26 @@ fn the_drive_with_its_speed_loop_slower_than_its_current_loop() {
     // A gain of the fast loop.
     let fast = ends(&set(&drive(2, "zoh"), "K_pwm"), 12);
     assert_eq!(fast.map(|(value, _)| value), ["0.0382515735080", "551.459983270"]);
+    // Integral gains; without them an integrator is left that nobody reads.
+    for (name, end) in [("K_is", "911.398818129"), ("K_ii", "61020.5684189"), ("K_pi", "50.2143917019")] {
+        assert_eq!(ends(&set(&drive(5, "zoh"), name), 12)[1].0, end, "{name}");
+    }
+    // Ten and twenty factors of it: with exact polynomials the one took seconds, and the other did not end.
+    let fast = ends(&set(&drive(10, "zoh"), "K_pwm"), 26);
+    assert_eq!(fast.map(|(value, _)| value), ["0.039363295654287949254582346", "551.16384161823060903428475"]);
+    let [(lower, _), (upper, _)] = ends(&set(&drive(20, "zoh"), "K_pwm"), 12);
+    assert_eq!([lower.as_str(), upper.as_str()], ["0.0407902243088", "551.238894408"]);
+}
+
+/// Ends that enclosures found had no frequency: 2.111250332 rad in ten samples are 336.0 Hz, an alias of 1664 Hz.
+#[test]
+fn ends_of_several_rates_have_their_frequency() {
+    for (name, frequency) in [("K_pwm", 336.0159), ("K_ps", 0.8077485 / (2e-3 * std::f64::consts::PI))] {
+        let run = jurist_with_input(&["intervals", "-", "--param", name, "--json"], drive(10, "zoh").as_bytes());
+        let document: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
+        let found = document["stable"][0]["upper"]["frequency_hz"].as_f64().unwrap_or_else(|| panic!("{name}"));
+        assert!((found - frequency).abs() < 1e-3, "{name}: {found}");
+    }
 }
 
 #[test]

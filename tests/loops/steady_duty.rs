@@ -6,7 +6,8 @@ use crate::helpers::program::jurist_with_input;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::parse_number;
 use jurist_engine::answer::Verdict;
-use jurist_engine::error::{Code, Error};
+use jurist_engine::error::{Code, Error, Source};
+use jurist_engine::model::Model;
 use jurist_engine::stability::{Cause, Range};
 
 fn drive(edge: &str) -> String {
@@ -147,4 +148,96 @@ fn what_a_steady_duty_ratio_is_not_known_of_is_refused_in_words() {
     // Nothing is commanded, whatever the gain is: the duty ratio is 0.
     let idle = verdict(&with("r = 1", "r = 0"), "K", "1");
     assert!(matches!(&idle, Err(Error::Undefined(why)) if why.contains("duty 0")), "{idle:?}");
+}
+
+/// There is one pulse in each sample time: another period was passed over, and the switched simulation refused it.
+#[test]
+fn pulses_of_another_period_are_refused_where_they_are_read() {
+    let text = leaky("edge = 'trailing', duty = 'steady'", "exp(-3*(7/10)*T) - exp(-3*T)");
+    for (text, duty) in [(text.clone(), "steady"), (text.replace("'steady'", "'3/10'"), "3/10")] {
+        assert!(Model::from_toml(&Source::new("model.toml", text.clone())).is_ok(), "{duty}");
+        for other in ["2*T", "1/3"] {
+            let text = text.replace("period = 'T'", &format!("period = '{other}'"));
+            let found = Model::from_toml(&Source::new("model.toml", text)).unwrap_err();
+            assert_eq!(found.code(), Code::Discretize, "{duty}, {other}: {found}");
+            assert!(found.to_string().contains("another period"), "{found}");
+        }
+        // A number that is the sample time as long as nobody sets that.
+        let model = read(&text.replace("period = 'T'", "period = 0.5"));
+        assert!(model.ask().verdict(&Budget::unlimited()).is_ok(), "{duty}");
+        let other = model.ask().set("T", parse_number("0.4").unwrap()).verdict(&Budget::unlimited());
+        let Err(Error::Refused(diagnostics)) = other else { panic!("{duty}: {other:?}") };
+        assert_eq!(diagnostics.code(), Code::Discretize, "{duty}");
+    }
+}
+
+/// That was "duty 0 of 'y'".
+#[test]
+fn an_orbit_of_inputs_without_values_says_what_is_missing() {
+    let text = leaky("edge = 'trailing', duty = 'steady'", "1");
+    let text = &text[..text.find("[simulation]").unwrap()];
+    let asked = [
+        read(text).ask().verdict(&Budget::unlimited()).map(|_| ()),
+        read(text).ask().free("K").stable_set(&Budget::unlimited()).map(|_| ()),
+    ];
+    for found in asked {
+        let Err(Error::Refused(diagnostics)) = found else { panic!("{found:?}") };
+        assert_eq!(diagnostics.code(), Code::Duty);
+        let first = &diagnostics.diagnostics()[0];
+        assert!(first.message.contains("'r' has no value in [simulation]"), "{first:?}");
+        assert!(
+            first.help.as_deref().is_some_and(|help| help.contains("[simulation] inputs = { r = 1 }")),
+            "{first:?}"
+        );
+    }
+}
+
+/// The duty ratio was the modulator's input over its carrier, whatever its gain was.
+#[test]
+fn the_switched_pulses_are_as_long_as_the_gain_of_the_modulator_says() {
+    let text = leaky("edge = 'trailing', duty = 'steady'", "1");
+    // The switched circuit takes rational numbers.
+    let height = 3.0 * (1.0 - (-1.5f64).exp()) / ((-1.05f64).exp() - (-1.5f64).exp());
+    let text = text.replace("V = '3*(1 - exp(-3*T))/(1)'", &format!("V = '{height}'"));
+    // A state of the modulator's is one more sample of delay; at rest it passes on what goes in.
+    for (gain, carrier) in [("gain = 1", "1"), ("gain = 3", "1"), ("gain = 1", "5"), ("transfer = '1/z'", "1")] {
+        let text = text.replacen("gain = 1", gain, 1).replace("carrier = 1", &format!("carrier = {carrier}"));
+        let run = jurist_with_input(
+            &["simulate", "-", "--switched", "--steady", "--json", "--set", "K=0.1", "--duration", "1"],
+            text.as_bytes(),
+        );
+        let document: serde_json::Value =
+            serde_json::from_str(&run.stdout).unwrap_or_else(|e| panic!("{e}: {}", run.stderr));
+        let duty = document["steady_state"]["duty"][0].as_f64().unwrap();
+        assert!((duty - 0.3).abs() < 1e-9, "{gain}, {carrier}: {duty}");
+        // The multipliers are the roots of the loop that verdicts are about.
+        let roots = read(&text).ask().set("K", parse_number("0.1").unwrap()).problem().unwrap();
+        let roots = jurist_draw::simulate::SampledModel::from_loop(&roots, 1.0, &Budget::unlimited()).unwrap();
+        let largest = roots.transition.complex_eigenvalues().iter().map(|z| z.norm()).fold(0.0, f64::max);
+        let multiplier = &document["steady_state"]["multipliers"][0];
+        let found = multiplier[0].as_f64().unwrap().hypot(multiplier[1].as_f64().unwrap());
+        assert!((found - largest).abs() < 1e-9, "{gain}, {carrier}: {found} and {largest}");
+    }
+    let none = text.replace("'steady'", "'1/2'").replace("amplitude = 'V'", "amplitude = 0");
+    let run = jurist_with_input(&["simulate", "-", "--switched"], none.as_bytes());
+    assert!(run.stderr.contains("have no height"), "{}", run.stderr);
+}
+
+/// The exponential of a plant over a period of 1e9 took all memory.
+#[test]
+fn a_period_in_which_a_plant_changes_beyond_measure_is_refused_or_undecided() {
+    let text = leaky("edge = 'trailing', duty = 'steady'", "1").replace("1/(s + 3)", "1/(s - 3)");
+    let text = text.replace("V = '3*(1 - exp(-3*T))/(1)'", "V = 10").replace("r = 1", "r = -1");
+    for time in ["1e4", "1e9", "1e30"] {
+        let Err(Error::Refused(why)) = verdict(&text, "T", time) else { panic!("{time}") };
+        assert_eq!(why.code(), Code::Duty, "{time}");
+        assert!(why.to_string().contains("change by more than"), "{why}");
+    }
+    let model = read(&text);
+    let far = Range::between(Some(1_000_000.into()), Some(2_000_000.into()));
+    let question = model.ask().free("T").domain("T", far);
+    match question.stable_set(&Budget::with_work(1_000_000_000)) {
+        Ok(set) => assert!(set.value().intervals().is_empty(), "{:?}", set.value()),
+        Err(stopped) => assert!(matches!(stopped, Error::Stopped(_) | Error::Refused(_)), "{stopped}"),
+    }
 }

@@ -327,6 +327,43 @@ fn conditions_name_their_rows_and_sides() {
 }
 
 #[test]
+fn refusals_say_what_to_do() {
+    let refused = |arguments: &[&str]| {
+        let run = jurist(arguments);
+        assert_eq!(run.status, 2, "{arguments:?}");
+        run.stderr
+    };
+    assert!(refused(&["-q", "verdict"]).contains("options stand behind their command: 'jurist verdict --quiet ...'"));
+    // A box alone was what had been asked.
+    let tolerance = refused(&["tolerance", "--only", "--phase-margin", "45deg", "--tol", "K_pwm=10%"]);
+    assert!(tolerance.contains("ask without '--only'") && !tolerance.contains("ask for the box alone"), "{tolerance}");
+    for command in ["nyquist", "bode", "margins"] {
+        let found = refused(&[command, "2*s + 1"]);
+        assert!(found.contains("has no parameter that is a gain: write one"), "{command}: {found}");
+    }
+}
+
+/// A refusal of the table whose words come with the question was printed as it is there: "the dead time of '{name}'".
+#[test]
+fn no_message_has_a_word_in_braces() {
+    let model = "time = 'discrete'\nsample_time = 'T'\n[parameters]\nT = { nominal = '1/2', min = '1/10', max = 10 }\n\
+         W = { nominal = 1, min = '1/2', max = 3 }\n[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\ninput = 'W*(r - y)'\n\
+         output = 'y'\ntransfer = '1/(s + 1)'\ndiscretize = { method = 'zoh', delay = '1/3' }\n";
+    for arguments in [
+        &["map", "-", "-x", "T", "-y", "W"][..],
+        &["map", "-", "-x", "T", "-y", "W", "--phase-margin", "40deg"],
+        &["map", "-", "-x", "T", "-y", "W", "--damping", "0.1", "--explain"],
+        &["jury", "-", "--param", "T", "--explain"],
+        &["tolerance", "-", "--tol", "T=10%", "--explain"],
+    ] {
+        let run = jurist_with_input(arguments, model.as_bytes());
+        let said = format!("{}{}", run.stdout, run.stderr);
+        assert_eq!(run.status, 2, "{arguments:?}: {said}");
+        assert!(!said.contains("{name}") && said.contains("is no fixed number of samples"), "{arguments:?}: {said}");
+    }
+}
+
+#[test]
 fn the_readme_has_no_marks_of_a_merge() {
     let readme = std::fs::read_to_string("README.md").unwrap();
     assert!(readme.lines().all(|l| !["<<<<<<<", "=======", ">>>>>>>"].iter().any(|mark| l.starts_with(mark))));

@@ -221,7 +221,7 @@ fn required(
             let coverage = Asked::Map.with_requirement(requirement, problem.time()).over(ring);
             // What is answered in part is asked.
             match coverage.refusal().filter(|_| coverage.method().is_none()) {
-                Some(refusal) if !refusal.help.contains('{') => return Err(refusal.diagnostic(&[]).into()),
+                Some(refusal) if refusal.is_complete() => return Err(refusal.diagnostic(&[]).into()),
                 // What a loop is asked depends on its ring.
                 Some(refusal) if refusal.help.contains("{known}") => drop(problem.algebra(&context.budget)?),
                 _ => {}

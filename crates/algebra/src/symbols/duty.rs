@@ -10,6 +10,9 @@ const RANGES: [[i64; 2]; 2] = [[-2, 4], [0, 2]];
 /// The slope over a range is looked at in so many pieces, as powers of two: an exponential at a time that is an interval is known badly.
 const MOST_PIECES: std::ops::RangeInclusive<u64> = 0..=4;
 
+/// Where a root of the plant times the period may be larger than two to this power there is no enclosure: exponentials would be too long.
+const MOST_OCTAVES: i64 = 14;
+
 /// Newton's method is repeated so often in one dimension at most.
 const MOST_STEPS: usize = 64;
 
@@ -54,10 +57,22 @@ impl DutyRatio {
     pub(super) fn value<S: Elementary>(&self, at: impl Fn(&RationalFunction) -> Option<S>) -> Option<S> {
         let list = |fs: &[RationalFunction]| fs.iter().map(&at).collect::<Option<Vec<S>>>();
         let (weights, polynomial, time) = (list(&self.weights)?, list(&self.polynomial)?, at(&self.time)?);
+        if octaves(&polynomial, &time) > MOST_OCTAVES {
+            return None;
+        }
         let equation = Equation::new(at(&self.mean)?, weights, polynomial, time, &self.parts);
         let start = equation.in_ranges().bracket()?;
         equation.mean.implicit(&start, &|duty| equation.at(duty))
     }
+}
+
+/// A bound of the binary logarithm of the largest root of a monic polynomial times a time.
+fn octaves<S: Elementary>(polynomial: &[S], time: &S) -> i64 {
+    let size = |s: &S| s.range().magnitude_units().bit_length() as i64 - s.bits() as i64;
+    let n = polynomial.len() as i64;
+    let root = |(j, c): (usize, &S)| (size(c).max(0) as u64).div_ceil(n as u64 - j as u64) as i64;
+    // No root is larger than twice the greatest |c_j|^(1/(n - j)).
+    1 + polynomial.iter().enumerate().map(root).max().unwrap_or(0) + size(time)
 }
 
 /// The equation with values for its arguments.

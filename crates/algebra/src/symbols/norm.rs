@@ -55,6 +55,11 @@ impl Symbols {
         let is_algebraic = |i| matches!(self.definition(i), Definition::Algebraic(_) | Definition::Root(_));
         (0..self.len()).all(is_algebraic)
     }
+
+    /// Whether of some symbols nothing but enclosures is known: then no identity shows that a polynomial in them is zero.
+    pub fn has_enclosed_numbers(&self) -> bool {
+        (0..self.len()).any(|i| matches!(self.definition(i), Definition::Enclosed(_)))
+    }
 }
 
 /// A polynomial that the symbol is a zero of, over symbols that are variables from `first` on.

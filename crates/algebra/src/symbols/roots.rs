@@ -14,6 +14,9 @@ use crate::precisions::ZEROS_OVER_SYMBOLS;
 use crate::real::{Real, Transcendental};
 use std::sync::Arc;
 
+/// Bits with which most numbers that are not zero show it.
+const FEW_BITS: u64 = 512;
+
 /// A rational number of so few bits in an interval as narrow is hardly there by chance.
 const CANDIDATE_BITS: u64 = 96;
 
@@ -54,9 +57,11 @@ impl SymbolicPoly {
         if p.is_zero() {
             return Ok(None);
         }
-        // A polynomial is zero where all its coefficients are.
-        let mut is_zero = true;
-        for coefficient in p.as_poly_in(0).coeffs().iter().rev() {
+        // A polynomial is zero where all its coefficients are. That one is not mostly shows with few bits.
+        let in_unknown = p.as_poly_in(0);
+        let shows = |c: &MultiPoly| !symbols.enclose(&of_symbols(c), FEW_BITS).contains_zero();
+        let mut is_zero = !budget.enter(|| in_unknown.coeffs().iter().rev().any(shows))?;
+        for coefficient in in_unknown.coeffs().iter().rev().filter(|_| is_zero) {
             if !symbols.is_zero(&of_symbols(coefficient), budget)? {
                 is_zero = false;
                 break;
@@ -205,8 +210,9 @@ fn real_roots(
     }
     let in_unknown = p.as_poly_in(0);
     let mut list: Vec<MultiPoly> = in_unknown.coeffs().iter().map(of_symbols).collect();
-    // Coefficients that vanish although they are no zero polynomials.
-    while list.len() > 1 && symbols.is_zero(&list[list.len() - 1], budget)? {
+    // Coefficients that vanish although they are no zero polynomials. Between two numbers a last one that may be zero does no harm.
+    let may_stay = lower.is_some() && upper.is_some() && symbols.has_enclosed_numbers();
+    while !may_stay && list.len() > 1 && symbols.is_zero(&list[list.len() - 1], budget)? {
         list.pop();
     }
     let mut zeros = 0;
@@ -224,8 +230,8 @@ fn real_roots(
     Ok(found)
 }
 
-/// The real roots strictly between two numbers of a polynomial with enclosed coefficients, ascending. Its first and last
-/// coefficients must not be zero, and its roots must be simple: else the search ends by itself, with an error. A root that is a rational
+/// The real roots strictly between two numbers of a polynomial with enclosed coefficients, ascending. Its first coefficient must not be
+/// zero, nor its last one where one of the two numbers is missing, and its roots must be simple: else the search ends by itself, with an error. A root that is a rational
 /// number of few digits is given as that.
 ///
 /// Cost: enclosures of the coefficients, and the real roots of the two polynomials with their lower and their upper ends, with
@@ -375,7 +381,8 @@ impl Band {
 impl Attempt<'_> {
     /// The brackets; `None` where more bits are needed.
     fn isolate(&self, coefficients: &[Ball]) -> Result<Option<Vec<(Rational, Rational)>>, Exhausted> {
-        if coefficients[0].contains_zero() || coefficients[coefficients.len() - 1].contains_zero() {
+        let may_vanish = |at: usize| coefficients[at].contains_zero();
+        if may_vanish(0) || (self.far.is_none() && may_vanish(coefficients.len() - 1)) {
             return Ok(None);
         }
         let (band, slope) = (Band::new(coefficients), Band::new(&derivative(coefficients)));

@@ -1,6 +1,6 @@
 //! Nyquist diagrams: the curve of the open loop around -1.
 
-use super::frequency::FrequencyResponse;
+use super::frequency::{FrequencyResponse, ResponsePoint};
 use super::panel::{Corner, Curve, Mark, Panel, Shape, Text};
 use super::response::{Crossing, crossings, labelled, margins_line, title};
 use super::{COLOURS, Figure};
@@ -82,13 +82,22 @@ pub fn nyquist(answer: &Answer<Margins>, response: &FrequencyResponse) -> Figure
         x,
         y,
         curves: curves(response, modulus),
-        marks: std::iter::once(critical).chain(marks).collect(),
+        marks: std::iter::once(critical).chain(still(response)).chain(marks).collect(),
         texts: said.iter().map(text).collect(),
         equal: true,
         legend: Some(Corner::Above),
         ..Panel::default()
     };
     panel.figure(SIZE, SIZE)
+}
+
+/// The point where an open loop stays that is the same at all frequencies: a curve has no length there.
+fn still(response: &FrequencyResponse) -> Option<Mark> {
+    let place = |p: &ResponsePoint| (p.real, p.imaginary);
+    let first = place(response.points.first()?);
+    let near = |p: &ResponsePoint| (p.real - first.0).hypot(p.imaginary - first.1) <= 1e-9 * first.0.hypot(first.1);
+    let mark = Mark { at: first, shape: Shape::Dot, colour: COLOURS[0].to_owned(), label: None };
+    response.points.iter().all(near).then_some(mark)
 }
 
 fn curves(response: &FrequencyResponse, modulus: Option<f64>) -> Vec<Curve> {
@@ -116,7 +125,7 @@ fn curves(response: &FrequencyResponse, modulus: Option<f64>) -> Vec<Curve> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::frequency::{ResponsePoint, frequency_response};
+    use super::super::frequency::frequency_response;
     use super::super::response::bode;
     use super::*;
     use jurist_algebra::limits::Budget;
@@ -164,6 +173,16 @@ mod tests {
         // Three integrators begin at -270 degrees.
         let (_, bode) = drawn("(s + 1)^2/s^3");
         assert!(bode.contains(">\u{2212}270<") && !bode.contains(">90<"));
+    }
+
+    /// Nothing was drawn of it, and its title said "open loop" twice.
+    #[test]
+    fn a_constant_open_loop_is_a_point() {
+        let (curve, bode) = drawn("(s + 1)/(2*s + 2)");
+        assert!(curve.matches("<circle").count() > drawn("4/(s + 1)^3").0.matches("<circle").count(), "{curve}");
+        for svg in [&curve, &bode] {
+            assert!(svg.contains(">open loop at 'P'<") && !svg.contains("open loop: open loop"));
+        }
     }
 
     #[test]

@@ -19,10 +19,11 @@ pub(super) const MOST_WORDS: usize = 4;
 const UNNAMED: &str = "open loop";
 
 pub(super) fn title(answer: &Answer<Margins>) -> String {
-    let name = answer.problem().title().map(visible).unwrap_or_else(|| UNNAMED.into());
-    match answer.value().open_loop.cut().name() {
-        UNNAMED => name.into_owned(),
-        cut => format!("{name}: open loop at '{}'", visible(cut)),
+    let title = answer.problem().title().map(visible);
+    match (title, answer.value().open_loop.cut().name()) {
+        (title, UNNAMED) => title.unwrap_or_else(|| UNNAMED.into()).into_owned(),
+        (Some(title), cut) => format!("{title}: open loop at '{}'", visible(cut)),
+        (None, cut) => format!("open loop at '{}'", visible(cut)),
     }
 }
 

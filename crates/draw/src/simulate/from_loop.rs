@@ -7,7 +7,8 @@ use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::number::Rational;
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Error, Span};
 use jurist_engine::model::{
-    Block, ClosedLoop, Diagram, Discretization, Form, Model, Name, Output, Symbols, Time, value_approximate,
+    Block, ClosedLoop, Diagram, Discretization, Expression, Factor, Form, Model, Name, Node, Output, Symbols, Time,
+    value_approximate,
 };
 use jurist_engine::problem::Problem;
 use nalgebra::DMatrix;
@@ -177,7 +178,7 @@ impl SwitchedModel {
             let message = format!("the switched simulation has no dead time for '{}'", late.name);
             return Err(simulation_error(message).into());
         }
-        let value = |e: &jurist_engine::model::Expression| model.value(e, problem.set(), budget);
+        let value = |e: &Expression| model.value(e, problem.set(), budget);
         let (mut period, mut sources): (Option<Rational>, Vec<Pwm>) = (None, Vec::new());
         for block in &parts.sources {
             let Some(pwm) = &block.pwm else { continue };
@@ -186,9 +187,13 @@ impl SwitchedModel {
                 return Err(simulation_error("all modulators need the same period").into());
             }
             period = Some(this);
+            let amplitude = value(&pwm.amplitude)?;
+            if amplitude.is_zero() {
+                return Err(simulation_error(format!("the pulses of '{}' have no height", block.name)).into());
+            }
             sources.push(Pwm {
                 name: block.outputs[0].name.clone(),
-                amplitude: value(&pwm.amplitude)?.to_f64_approximate(),
+                amplitude: amplitude.to_f64_approximate(),
                 carrier: value(&pwm.carrier)?.to_f64_approximate(),
                 pulse: parts.pulse(&block.outputs[0].name, pulse)?,
             });
@@ -220,11 +225,8 @@ impl SwitchedModel {
         }
         let [f, g, h, k] = [&sampled.a, &sampled.e, &sampled.c, &sampled.d].map(|m| rounded(m, &in_sampled));
         let (f, g, h, k) = (f?, g?, h?, k?);
-        // Inputs of the sampled part: external, pulses, the continuous signals.
-        if g.columns(r, m).iter().chain(k.columns(r, m).iter()).any(|v| *v != 0.0) {
-            return Err(simulation_error("a sampled block must not read a modulator's pulses").into());
-        }
-        let (gy, ky) = (g.columns(r + m, signals), k.columns(r + m, signals));
+        // Inputs of the sampled part: external, the continuous signals.
+        let (gy, ky) = (g.columns(r, signals), k.columns(r, signals));
         let direct = d.columns(0, r);
         let controller = Controller {
             from_plant: gy * &c,
@@ -282,6 +284,11 @@ impl<'m> Parts<'m> {
         if parts.continuous.is_empty() {
             return Err(simulation_error("no block has a 'discretize' entry, so nothing is continuous"));
         }
+        let pulses: Vec<&str> = parts.sources.iter().map(|b| b.outputs[0].name.as_str()).collect();
+        let reads = |b: &&&Block| b.inputs.iter().any(|e| pulses.iter().any(|pulse| e.names().contains(pulse)));
+        if parts.sampled.iter().chain(&parts.sources).any(|b| reads(&b)) {
+            return Err(simulation_error("a sampled block must not read a modulator's pulses"));
+        }
         Ok(parts)
     }
 
@@ -290,7 +297,7 @@ impl<'m> Parts<'m> {
         let mut said = Vec::new();
         for block in &self.continuous {
             let Some(pulses) = block.discretization.as_ref().and_then(|d| d.pulses.as_ref()) else { continue };
-            let reads = |e: &jurist_engine::model::Expression| e.names().contains(source);
+            let reads = |e: &Expression| e.names().contains(source);
             for (j, _) in block.inputs.iter().enumerate().filter(|(_, e)| reads(e)) {
                 let edges = pulses.edges[if pulses.edges.len() == 1 { 0 } else { j }];
                 said.extend(edges.map(|edges| (edges.name, pulse_of(edges.name))));
@@ -318,16 +325,21 @@ impl<'m> Parts<'m> {
         }
     }
 
-    /// The sampled blocks, open: external inputs, pulses, continuous signals go in, what the
-    /// modulators read comes out.
+    /// The sampled blocks and the modulators, open: external inputs and continuous signals go in. What comes out is compared with the
+    /// carriers: a modulator commands the mean of its pulses, which is its share of their height.
     fn controller(&self, diagram: &Diagram) -> Diagram {
-        let inputs =
-            diagram.inputs.iter().cloned().chain(outputs_of(&self.sources)).chain(outputs_of(&self.continuous));
-        let read = self.sources.iter().map(|b| Output {
-            name: Name { name: b.name.clone(), span: Span::default() },
-            expression: b.inputs[0].clone(),
-        });
-        let blocks = self.sampled.iter().map(|b| (*b).clone()).collect();
+        let inputs = diagram.inputs.iter().cloned().chain(outputs_of(&self.continuous));
+        let compared = |b: &&&Block| {
+            let pwm = b.pwm.as_ref()?;
+            let mean = Expression::name(b.outputs[0].name.clone());
+            let mut expression = pwm.carrier.clone();
+            let share =
+                [(Factor::Times, mean), (Factor::Over, pwm.amplitude.clone()), (Factor::Times, pwm.carrier.clone())];
+            expression.node = Node::Product(share.to_vec());
+            Some(Output { name: Name { name: b.name.clone(), span: Span::default() }, expression })
+        };
+        let read = self.sources.iter().filter_map(|b| compared(&b));
+        let blocks = self.sampled.iter().chain(&self.sources).map(|b| (*b).clone()).collect();
         Diagram { inputs: inputs.collect(), outputs: read.collect(), blocks }
     }
 }
@@ -347,7 +359,7 @@ fn outputs_of<'b>(blocks: &'b [&Block]) -> impl Iterator<Item = Name> + 'b {
 }
 
 fn as_outputs(names: impl Iterator<Item = Name>) -> Vec<Output> {
-    names.map(|n| Output { expression: jurist_engine::model::Expression::name(n.name.clone()), name: n }).collect()
+    names.map(|n| Output { expression: Expression::name(n.name.clone()), name: n }).collect()
 }
 
 #[cfg(test)]

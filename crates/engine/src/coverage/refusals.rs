@@ -31,6 +31,22 @@ impl Refusal {
         Diagnostic::error(self.code, filled(self.message, words)).help(filled(self.help, words))
     }
 
+    /// The message where nothing supplies the words of their names in braces: `...` stands for each.
+    ///
+    /// ```
+    /// use jurist_engine::coverage::{Asked, CoefficientRing};
+    /// let refusal = Asked::ExactMap.over(CoefficientRing::Functions).refusal().unwrap();
+    /// assert_eq!(refusal.in_general(), "'...' is inside of functions, as behind a hold: there is no exact map");
+    /// ```
+    pub fn in_general(&self) -> String {
+        self.message.split(['{', '}']).enumerate().map(|(k, part)| if k % 2 == 0 { part } else { "..." }).collect()
+    }
+
+    /// True if the message and the help have no names in braces.
+    pub fn is_complete(&self) -> bool {
+        ![self.message, self.help].iter().any(|text| text.contains('{'))
+    }
+
     /// True if an error of this message may be this refusal: the texts between braces are in it, in their order.
     pub fn is_of(&self, code: Code, message: &str) -> bool {
         let mut rest = message;

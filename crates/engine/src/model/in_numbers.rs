@@ -1,14 +1,20 @@
 //! Closed loops of which only numbers are asked for.
 
-use super::closed_loop::{ClosedLoop, Evaluated};
+use super::closed_loop::{ClosedLoop, Evaluated, substituted};
+use super::connect::samples::{Samples, samples};
+use super::connect::state_space::Connecting;
 use super::definition::Model;
 use super::evaluate::symbolic::Values;
+use super::steady::no_duty;
 use super::symbols::Symbols;
 use crate::error::Error;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
 use std::cell::RefCell;
+
+/// Units of work that the expression of a sample time may take.
+const WORK_OF_A_TIME: u64 = 1_000_000;
 
 /// A closed loop of whose constants only numbers are asked for.
 #[derive(Clone, Debug)]
@@ -52,5 +58,39 @@ impl Model {
         answer.symbols = RefCell::new(answer.symbols.into_inner().keeping_flows());
         let (closed_loop, sample_time, symbols) = self.connected(answer, budget)?;
         Ok(Some(InNumbers { closed_loop, sample_time, symbols }))
+    }
+
+    /// The time of a hyperperiod, where that is a number whatever the kept names are.
+    pub(crate) fn fixed_sample_time(&self, kept: &[String], values: &[(String, Rational)]) -> Option<Rational> {
+        let budget = Budget::with_work(WORK_OF_A_TIME);
+        let time = budget.enter(|| {
+            let mut scope = self.scope(kept, values, &budget, &mut |_| {});
+            let time = scope.scalar(self.sample_time_expression()?).ok()?;
+            let (images, _) = Model::images(&scope.variables, kept, values, &no_duty).ok()?;
+            substituted(&time, &images)?.as_constant()
+        });
+        Some(time.ok()?? * Rational::from(self.hyperperiod() as i64))
+    }
+
+    /// A loop with several rates by the matrices of its samples. `None` where the name is in a divisor or a function, or not linear in the matrix
+    /// of a sample.
+    ///
+    /// Cost: that of the closed loop in numbers, without products of matrices.
+    ///
+    /// # Errors
+    /// As [`Model::evaluate`].
+    pub(crate) fn samples_in(
+        &self,
+        name: &str,
+        values: &[(String, Rational)],
+        budget: &Budget,
+    ) -> Result<Option<Samples>, Error> {
+        let mut answer = self.answer(&[name.to_owned()], values, budget)?;
+        answer.symbols = RefCell::new(answer.symbols.into_inner().keeping_flows());
+        let set = |f: &RationalFunction| answer.substituted(f);
+        let how = Connecting { set: &set, symbols: Some(&answer.symbols), start: None, budget };
+        let found = budget.enter(|| samples(self, &answer.wiring, &answer.values, &how))?;
+        let found = found.map_err(|why| self.not_connected(why))?;
+        Ok(found.filter(|_| answer.poles.iter().all(|pole| pole.degree_in(0) == 0)))
     }
 }

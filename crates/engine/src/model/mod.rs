@@ -38,6 +38,7 @@ mod written;
 pub use builder::{BlockBuilder, ModelBuilder, ParameterBuilder};
 pub use closed_loop::{ClosedLoop, Evaluated, TransferFunction};
 pub use complex::ComplexPolynomial;
+pub(crate) use connect::samples::{Samples, SamplesPart, in_powers, rank_bound};
 pub use definition::{
     Block, Constant, Diagram, Discretization, Dynamics, Form, Matrix, Model, Name, Output, Parameter, Ports, Pulses,
     Pwm, Rate, RequirementText, Simulation, Time,

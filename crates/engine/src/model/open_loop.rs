@@ -132,7 +132,13 @@ impl Model {
                 parameters => {
                     let error = Diagnostic::error(Code::Cut, "it has to be said which parameter is the loop's gain");
                     let names = list(parameters.iter().take(8).map(|p| p.name.as_str()));
-                    Err(refused(if names.is_empty() { error } else { error.help(format!("--at one of {names}")) }))
+                    let help = match names.is_empty() {
+                        true => "the model has no parameter that is a gain: write one into it, as K in 's^2 + s + K', or give an open loop \
+                                 with its denominator, such as 'K/(s*(s + 1))'"
+                            .to_owned(),
+                        false => format!("--at one of {names}"),
+                    };
+                    Err(refused(error.help(help)))
                 }
             },
             (form, Some(name)) => {

@@ -25,6 +25,10 @@ const WORK_BEFORE: u64 = 30_000_000;
 /// A bracket of the duty ratio is halved so often before the slope has to show its sign.
 const MOST_HALVINGS: u64 = 12;
 
+/// The norm of a plant's matrix times the period up to which an orbit is looked for: the exponential of more has some ten thousand bits, and
+/// of a billion more than there is memory.
+const MOST_EXPONENT: i64 = 1 << 14;
+
 /// Bits beside those that are asked for.
 const GUARD_BITS: u64 = 64;
 
@@ -97,6 +101,12 @@ impl Model {
         };
         let equation =
             Equation::of(&orbit, fixed, symbols.first()).ok_or_else(|| Error::Undefined("a divisor is zero".into()))?;
+        if equation.is_long() {
+            let why = format!(
+                "the duty ratio of the orbit of '{block}' is not looked for: in one period its states may change by more than exp({MOST_EXPONENT})"
+            );
+            return Err(refused(why, "choose a shorter period, or write the duty ratio as a number or an expression"));
+        }
         equation.is_between(&block)?;
         let Some(bracket) = equation.bracket() else {
             let why = format!("the orbit of '{block}' may not be the only one");
@@ -228,6 +238,18 @@ impl Equation {
             None => Ok(()),
             Some(mean) => outside(to_decimal(&mean.lower().midpoint(&mean.upper()), 6)),
         }
+    }
+
+    /// Whether the norm of the plant's matrix times the period is a large number, so that its exponential may be longer than memory.
+    fn is_long(&self) -> bool {
+        let number = |f: &RationalFunction| f.as_constant().map(|x| x.abs());
+        let Some((entries, time)) = self.plant.iter().map(number).collect::<Option<Vec<_>>>().zip(number(&self.time))
+        else {
+            return false;
+        };
+        let row = |row: &[Rational]| row.iter().fold(Rational::ZERO, |sum, entry| &sum + entry);
+        let norm = entries.chunks(self.answers.len() + 1).map(row).max().unwrap_or(Rational::ZERO);
+        &norm * &time > Rational::from(MOST_EXPONENT)
     }
 
     /// An interval that holds the only solution: the left side falls on it, and has no zero in the rest of [0, 1]. `None` where that is not shown.

@@ -6,13 +6,14 @@
 //! roots at 1 that integrators bring, are exact factors: so `D(1; 0) = 0` is an identity where the loop drifts without feedback.
 
 mod exact_zeros;
+mod nodes;
 mod part;
 mod quotient;
 mod steady_state;
 
 use super::{Bound, Problem, Region};
 use crate::error::Error;
-use crate::model::{InNumbers, beside, quotient_at};
+use crate::model::{ClosedLoop, InNumbers, Samples, beside, in_powers, quotient_at};
 use crate::stability::{EnclosedLoop, Shape, SymbolicPolynomial};
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, Exhausted, Stop};
@@ -32,6 +33,9 @@ const WORK_BEFORE_AT_RATES: u64 = 1_000_000;
 
 /// Work of an answer by enclosures, before exact polynomials are asked again.
 const WORK_OF_ENCLOSURES: u64 = 2_000_000_000;
+
+/// The degree in the parameter, over a hyperperiod, up to which polynomials are looked at.
+const MOST_LIFTED_POWERS: usize = 64;
 
 /// Bits with which parts without the parameter are counted, and all divisors are to be seen different from 0.
 const BITS: u64 = 512;
@@ -55,11 +59,39 @@ impl Problem {
         if !self.positive().is_empty() {
             return Ok(None);
         }
+        if self.model().hyperperiod() > 1
+            && radius.is_one()
+            && let Some(found) = self.lifted_parts(&free.name, budget)?
+        {
+            return Ok(Some(found));
+        }
         let kept = [free.name.clone()];
         let found = budget.enter(|| self.model().closed_loop_in_numbers(&kept, self.set(), budget))??;
         let Some(found) = found.filter(|found| found.symbols.has_flows()) else { return Ok(None) };
         budget.step("coefficients by enclosures");
         Ok(budget.enter(|| EnclosedParts::of(&found, radius))?)
+    }
+}
+
+impl Problem {
+    /// The same of a loop with several rates in which the parameter acts at several samples: the map over a hyperperiod at as many whole values
+    /// of the parameter as the degree asks for, each by products of matrices of numbers. `None` where it acts once, or the degree is large.
+    fn lifted_parts(&self, name: &str, budget: &Budget) -> Result<Option<EnclosedParts>, Error> {
+        let Some(samples) = self.model().samples_in(name, self.set(), budget)? else { return Ok(None) };
+        let degree = samples.parts.iter().map(|part| part.degree).max().unwrap_or(0);
+        // Where the parameter acts once, the matrix over a hyperperiod is linear in it; but a root at 1 does not show in it.
+        let acts_once = degree < 2 && samples.parts.iter().all(|part| part.degree == 0 || part.at_one == 0);
+        if acts_once || degree > MOST_LIFTED_POWERS || !samples.symbols.has_flows() {
+            return Ok(None);
+        }
+        budget.step("coefficients by enclosures");
+        // What is exact is read off the loop without the parameter.
+        let given: Vec<_> = self.set().iter().cloned().chain([(name.to_owned(), Rational::ZERO)]).collect();
+        match budget.enter(|| self.model().closed_loop_in_numbers(&[], &given, budget))? {
+            Ok(Some(at_zero)) => Ok(budget.enter(|| EnclosedParts::lifted(samples, at_zero))?),
+            Err(stopped @ Error::Stopped(_)) => Err(stopped),
+            Ok(None) | Err(_) => Ok(None),
+        }
     }
 }
 
@@ -83,19 +115,47 @@ impl EnclosedParts {
         let [constant, linear] = [0, 1].map(|k| RationalMatrix::from_fn(n, n, |i, j| split[i * n + j][k].clone()));
         let mut parts = Vec::new();
         for block in a.decoupled_parts() {
-            let part = Part::new(&symbols, constant.principal(&block), linear.principal(&block))?;
+            let part = Part::linear(&symbols, constant.principal(&block), linear.principal(&block))?;
             if part.degree > 0 {
                 parts.push(Arc::new(part).polynomial(radius));
                 continue;
             }
-            let polynomial = in_disc(part.at(&values, 0, BITS)?, radius);
-            let count = EnclosedLoop::of(&polynomial, Shape::UnitDisc)?.count;
-            if count.inside + 1 < polynomial.len() {
+            if !is_stable(&part, &values, radius)? {
                 return Some(EnclosedParts::Unstable);
             }
         }
         Some(EnclosedParts::Parts(parts))
     }
+}
+
+impl EnclosedParts {
+    /// From the samples, and the loop over a hyperperiod at `K = 0`. `None` where a divisor may be zero.
+    fn lifted(samples: Samples, at_zero: InNumbers) -> Option<EnclosedParts> {
+        let values = at_zero.symbols.enclosed(BITS)?;
+        let ClosedLoop { a, poles, .. } = &at_zero.closed_loop;
+        are_nonzero(poles.iter().chain(a.entries().iter().map(RationalFunction::denominator)), 0, &values)?;
+        let in_samples = samples.patterns.iter().flatten().flat_map(RationalMatrix::entries);
+        are_nonzero(in_samples.map(RationalFunction::denominator), 0, &samples.symbols.enclosed(BITS)?)?;
+        let (symbols, samples) = (Arc::new(at_zero.symbols), Arc::new(samples));
+        let mut found = Vec::new();
+        for of in &samples.parts {
+            let part = Part::lifted(&symbols, a.principal(&of.states), &samples, of);
+            if part.degree > 0 {
+                let end = part.unstable_beyond(BITS)?;
+                found.push(Arc::new(part).polynomial(&Rational::ONE).unstable_beyond(end));
+            } else if !is_stable(&part, &values, &Rational::ONE)? {
+                return Some(EnclosedParts::Unstable);
+            }
+        }
+        Some(EnclosedParts::Parts(found))
+    }
+}
+
+/// Whether a part without the parameter is stable; `None` where that does not show.
+fn is_stable(part: &Part, values: &[Ball], radius: &Rational) -> Option<bool> {
+    let polynomial = in_disc(part.at_zero(values, BITS)?, radius);
+    let count = EnclosedLoop::of(&polynomial, Shape::UnitDisc)?.count;
+    Some(count.inside + 1 == polynomial.len())
 }
 
 /// `Some` if enclosures show that no divisor is zero. The first `kept` variables of a divisor are names, symbols follow.
@@ -162,17 +222,6 @@ fn is_too_long(stopped: &Exhausted) -> bool {
     matches!(stopped.stop, Stop::Work(_) | Stop::Memory(_))
 }
 
-/// `p + q K` as `[p, q]` in the other variables; `None` for another function of `K`.
-fn in_powers(f: &RationalFunction) -> Option<[RationalFunction; 2]> {
-    let powers = f.numerator().as_poly_in(0);
-    if powers.degree() > Some(1) {
-        return None;
-    }
-    let below: RationalFunction = f.denominator().clone().into();
-    let over = |p: MultiPoly| beside(&RationalFunction::from(p).checked_div(&below)?, 1);
-    Some([over(powers.coeff(0))?, over(powers.coeff(1))?])
-}
-
 /// `D(r z)`.
 fn in_disc(polynomial: Vec<Ball>, radius: &Rational) -> Vec<Ball> {
     let power = |(k, c): (usize, Ball)| {
@@ -184,3 +233,5 @@ fn in_disc(polynomial: Vec<Ball>, radius: &Rational) -> Vec<Ball> {
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_rates;

@@ -391,9 +391,16 @@ impl Problem {
     }
 
     /// Numerator and denominator of the sample time in the one free parameter; `None` in continuous time, without a sample
-    /// time, and before the algebra is computed.
+    /// time, and where it depends on the parameter before the algebra is computed.
     pub fn sample_time(&self) -> Option<(UniPoly, UniPoly)> {
-        let f = self.algebra.get()?.sample_time()?;
+        let Some(algebra) = self.algebra.get() else {
+            // Enclosures may have answered.
+            let kept: Vec<String> = self.free.iter().map(|free| free.name.clone()).collect();
+            let time = self.model.fixed_sample_time(&kept, &self.set).filter(|_| self.time() == Time::Discrete)?;
+            let constant = |n| UniPoly::new(vec![n]);
+            return Some((constant(time.numerator()), constant(time.denominator())));
+        };
+        let f = algebra.sample_time()?;
         Some((f.numerator().to_univariate(0)?, f.denominator().to_univariate(0)?))
     }
 

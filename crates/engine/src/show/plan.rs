@@ -42,7 +42,7 @@ fn text(plan: &Plan, problem: &Problem) -> String {
     }
     if let Some(refusal) = plan.coverage.refusal() {
         let head = if plan.coverage.method().is_some() { "or refused" } else { "refused" };
-        line(head, &format!("{}: {}", refusal.code, refusal.message));
+        line(head, &format!("{}: {}", refusal.code, refusal.in_general()));
     }
     line("presupposed", "every expression has a value, and the degree is that in all parameters");
     for inequality in &plan.presupposed {

@@ -83,6 +83,8 @@ pub struct SymbolicPolynomial {
     poles: Vec<MultiPoly>,
     /// A usual value of the parameter.
     usual: Rational,
+    /// The loop is unstable where the parameter is beyond this number or its negative.
+    unstable_beyond: Option<Rational>,
 }
 
 /// What the symbols stand for.
@@ -125,6 +127,7 @@ impl SymbolicPolynomial {
             formal_degree: d.formal_degree,
             poles,
             usual: Rational::ONE,
+            unstable_beyond: None,
         }
     }
 
@@ -138,7 +141,15 @@ impl SymbolicPolynomial {
         poles: Vec<MultiPoly>,
     ) -> Self {
         let symbols = Table::Fixed(Arc::clone(symbols));
-        SymbolicPolynomial { symbols, polynomial, degree_loss, formal_degree, poles, usual: Rational::ONE }
+        let (usual, unstable_beyond) = (Rational::ONE, None);
+        SymbolicPolynomial { symbols, polynomial, degree_loss, formal_degree, poles, usual, unstable_beyond }
+    }
+
+    /// With a number beyond which, and beyond whose negative, the loop is known to be unstable: zeros are looked for between the two. Then the
+    /// coefficients of the highest powers of the parameter may be zero without a reason that shows.
+    #[must_use]
+    pub fn unstable_beyond(self, number: Rational) -> Self {
+        SymbolicPolynomial { unstable_beyond: Some(number), ..self }
     }
 
     /// With a usual value of the parameter: where nothing else bounds it, it is looked at up to a multiple of that.
@@ -146,6 +157,11 @@ impl SymbolicPolynomial {
     pub fn with_usual_value(mut self, usual: Rational) -> Self {
         self.usual = usual;
         self
+    }
+
+    /// A number beyond which, and beyond whose negative, the loop is unstable, where one is known.
+    pub fn known_unstable_beyond(&self) -> Option<&Rational> {
+        self.unstable_beyond.as_ref()
     }
 
     /// A usual value of the parameter.

@@ -42,9 +42,16 @@ impl PairResultant {
     /// where both polynomials of the pair lose degree. Other such ends follow from the degrees of the coefficients, if these fall or
     /// rise with the power of the unknown: in each product of the determinant the powers have the same sum.
     ///
+    /// Where zeros are looked for in a bounded range, the highest powers may have coefficients that are zero for no reason that is known: they stay.
+    ///
     /// # Errors
     /// [`Exhausted`] when the budget runs out, and where coefficients seem to be zero for no such reason.
-    pub fn new(pair: &Arc<Pair>, symbols: &Arc<Symbols>, budget: &Budget) -> Result<PairResultant, Exhausted> {
+    pub fn new(
+        pair: &Arc<Pair>,
+        symbols: &Arc<Symbols>,
+        is_bounded: bool,
+        budget: &Budget,
+    ) -> Result<PairResultant, Exhausted> {
         let split = |list: &[MultiPoly]| -> Vec<Vec<MultiPoly>> {
             let part = |c: &MultiPoly| c.map_variables(|i| i.saturating_sub(1));
             list.iter().map(|p| p.as_poly_in(0).coeffs().iter().map(part).collect()).collect()
@@ -63,8 +70,10 @@ impl PairResultant {
             let all = budget.enter(|| out.coefficients(bits))?;
             let ends = (all.iter().position(|c| !c.contains_zero()), all.iter().rposition(|c| !c.contains_zero()));
             let (Some(first), Some(last)) = ends else { return Ok(None) };
+            let last = if is_bounded { high } else { last };
             let is_known = |below: usize, above: usize| {
-                first as i64 == -least.bound + below as i64 && last as i64 + above as i64 == greatest.bound
+                let is_last_known = is_bounded || last as i64 + above as i64 == greatest.bound;
+                first as i64 == -least.bound + below as i64 && is_last_known
             };
             // Common roots are asked for once it is known that it matters.
             let (below, above) = match known {
@@ -72,7 +81,7 @@ impl PairResultant {
                 None if is_known(0, 0) => (0, 0),
                 None => {
                     let common = |face: &Face| out.common_on(face, budget);
-                    *known.insert((common(&least)?, common(&greatest)?))
+                    *known.insert((common(&least)?, if is_bounded { 0 } else { common(&greatest)? }))
                 }
             };
             Ok::<_, Exhausted>(is_known(below, above).then_some((first, last)))
@@ -93,7 +102,7 @@ impl PairResultant {
     ) -> Result<PairResultant, Exhausted> {
         // Whether 0 is a common root is asked first, which it often is.
         let pair = Arc::new(Pair { a, b, region: Shape::LeftHalfPlane });
-        Ok(PairResultant { name: "resultant of boundary curves", ..PairResultant::new(&pair, symbols, budget)? })
+        Ok(PairResultant { name: "resultant of boundary curves", ..PairResultant::new(&pair, symbols, false, budget)? })
     }
 
     /// How many roots the polynomials of a face have in common: so many coefficients of the resultant are zero at its end.

@@ -36,6 +36,16 @@ pub fn symbolic_stable_set(
         Table::Fixed(symbols) => symbols,
         Table::Moving(symbols) => return moving_stable_set(p, symbols, range, region, budget),
     };
+    if let Some(end) = &p.unstable_beyond {
+        let lower = range.lower.clone().map_or_else(|| -end, |lower| lower.max(-end));
+        let upper = range.upper.clone().map_or_else(|| end.clone(), |upper| upper.min(end.clone()));
+        if lower >= upper {
+            return Ok(StableSet::from_intervals(Vec::new(), Vec::new()));
+        }
+        // An expansion over coefficients of which nothing else is known would show nothing.
+        let range = Range { lower: Some(lower), upper: Some(upper) };
+        return set_over(p, symbols, &range, region, Way::Expanding(MOST_EXPANDED), budget);
+    }
     // Zeros that coincide, or a resultant that is zero, show in its expansion.
     Way::in_order(symbols, MOST_EXPANDED, |way| set_over(p, symbols, range, region, way, budget))
 }
@@ -170,7 +180,8 @@ fn boundaries(
             }
             Function::Resultant { .. } => {
                 let pair = Arc::new(Pair::of(&p.pair(region)));
-                enclosed.push((cause, Arc::new(PairResultant::new(&pair, symbols, budget)?)));
+                enclosed
+                    .push((cause, Arc::new(PairResultant::new(&pair, symbols, p.unstable_beyond.is_some(), budget)?)));
             }
         }
     }

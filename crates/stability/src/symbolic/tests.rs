@@ -284,7 +284,7 @@ fn zeros_at_either_end_of_an_enclosed_resultant_are_known() {
     let p = looped(list, symbols);
     let Table::Fixed(symbols) = &p.symbols else { unreachable!() };
     let pair = Arc::new(pair::Pair::of(&p.pair(Shape::UnitDisc)));
-    let resultant = resultant::PairResultant::new(&pair, symbols, &Budget::unlimited()).unwrap();
+    let resultant = resultant::PairResultant::new(&pair, symbols, false, &Budget::unlimited()).unwrap();
     assert!(resultant.vanishes_at_zero());
     let by = |most| {
         set_over(&p, symbols, &Range::all(), Shape::UnitDisc, Way::Expanding(most), &Budget::unlimited()).unwrap()

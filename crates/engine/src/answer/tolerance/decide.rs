@@ -387,8 +387,9 @@ fn refuse_beside_requirements(request: &ToleranceRequest) -> Result<(), Error> {
         _ if !request.factor => "a box alone, without its factor,",
         _ => return Ok(()),
     };
+    let help = "with requirements the largest factor is what is known: ask without '--only', '--limit' and '--volume', or leave out the requirements";
     let message = format!("{what} is not decided with requirements on margins, damping or settling");
-    Err(Diagnostic::error(Code::Require, message).help("ask for the box alone, or leave out the requirements").into())
+    Err(Diagnostic::error(Code::Require, message).help(help).into())
 }
 
 pub(super) fn too_many(boxes: &ToleranceProblem) -> Error {

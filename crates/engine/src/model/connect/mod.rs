@@ -3,6 +3,8 @@
 mod exponential;
 mod factor;
 mod hold;
+mod modulators;
 pub(in crate::model) mod orbit;
 mod rates;
+pub(in crate::model) mod samples;
 pub(in crate::model) mod state_space;

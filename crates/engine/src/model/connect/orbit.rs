@@ -5,12 +5,13 @@
 //! `h (S(D) - D S(1))` added to the plant's states in each period, has the same orbit. That loop is linear. At rest it commands
 //! `h D = u + r h (S(D) - D S(1))`: `u` is what it commands with nothing added, and the row `r` how the command at rest answers to what is added.
 
+use super::modulators::{drivers, periods_agree};
 use super::state_space::{Connecting, NotConnected, System, as_written, closed, realised, solve};
 use crate::error::{Code, Diagnostic, Span};
 use crate::model::definition::{Form, Model};
 use crate::model::discretization::{Edges, Inputs};
 use crate::model::evaluate::symbolic::{BlockValues, DiscretizationValues, Hold, Row, Values, Wiring};
-use crate::model::text::names::shorten;
+use crate::model::text::names::{list, shorten};
 use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::RationalFunction;
@@ -61,7 +62,8 @@ pub(in crate::model) fn orbit(
     if wiring.is_complex {
         return Err(refused(&blocks[place.block], &place, "is in a loop with complex coefficients"));
     }
-    let height = height(blocks, &place, wiring.driven, how)?;
+    periods_agree(blocks, how)?;
+    let height = height(blocks, &place, how)?;
     let plant = as_written(&blocks[place.block], how.set, &mut Vec::new())?;
     let n = plant.a.rows();
     if (0..plant.d.rows()).any(|i| !plant.d[(i, place.input)].is_zero()) {
@@ -87,6 +89,13 @@ pub(in crate::model) fn orbit(
     let value = |k: usize| inputs.iter().find(|(name, _)| name.name == wiring.inputs[k]).map(|(_, value)| value);
     let term = |k: usize| value(k).map(|value| &answers[k] * &value.clone().into());
     let commanded = (0..external).filter_map(term).fold(RationalFunction::zero(), |sum, term| &sum + &term);
+    let without: Vec<&str> = (0..external)
+        .filter(|&k| value(k).is_none() && !answers[k].is_zero())
+        .map(|k| wiring.inputs[k].as_str())
+        .collect();
+    if commanded.is_zero() && !without.is_empty() {
+        return Err(nothing_commanded(&blocks[place.block], &place, &without));
+    }
     let mean = commanded.checked_div(&height).ok_or_else(|| {
         let message = format!("the pulses of '{}' have no height", shorten(&blocks[place.block].name));
         super::state_space::undefined(message, place.span)
@@ -111,6 +120,20 @@ fn refused(block: &BlockValues, place: &Place, why: &str) -> NotConnected {
         "write the duty ratio from the mean over a period: A x + B v = 0 at the operating point gives the mean input v, and duty is v over the \
          height of the pulse",
     )))
+}
+
+/// The refusal where the loop at rest commands nothing, and these inputs have no value.
+fn nothing_commanded(block: &BlockValues, place: &Place, without: &[&str]) -> NotConnected {
+    let name = shorten(&block.name);
+    let message = format!(
+        "the orbit of '{name}' is not known: {} {} no value in [simulation], and without one nothing is commanded",
+        list(without.iter().copied()),
+        if without.len() == 1 { "has" } else { "have" }
+    );
+    let error = Diagnostic::error(Code::Duty, message).at(place.span, "the duty ratio of the loop at rest");
+    let inputs: Vec<String> = without.iter().map(|name| format!("{name} = 1")).collect();
+    let help = format!("say at which inputs the loop rests, such as [simulation] inputs = {{ {} }}", inputs.join(", "));
+    NotConnected::Refused(Box::new(error.help(help)))
 }
 
 /// The only input that is a pulse.
@@ -139,28 +162,12 @@ fn place(blocks: &[BlockValues]) -> Result<Place, NotConnected> {
 }
 
 /// The height of the pulses, in the unit of the plant's input: what the modulator that drives it says.
-fn height(
-    blocks: &[BlockValues],
-    place: &Place,
-    driven: usize,
-    how: &Connecting<'_>,
-) -> Result<RationalFunction, NotConnected> {
+fn height(blocks: &[BlockValues], place: &Place, how: &Connecting<'_>) -> Result<RationalFunction, NotConnected> {
     let row: &Row = &blocks[place.block].inputs[place.input];
-    let mut signals = row.iter().filter(|(_, c)| !c.is_zero());
-    let only = match (signals.next(), signals.next()) {
-        (Some((signal, c)), None) if *signal < driven => Some((*signal, c)),
-        _ => None,
-    };
-    // Signals are numbered block by block.
-    let mut next = 0;
-    let driver = only.and_then(|(signal, c)| {
-        let block = blocks.iter().find(|block| {
-            next += block.outputs;
-            signal < next
-        })?;
-        Some(&block.amplitude.clone()? * c)
-    });
-    let height = driver.ok_or_else(|| {
+    let is_one = row.values().filter(|c| !c.is_zero()).count() == 1;
+    let driver = drivers(blocks, row).next().filter(|_| is_one);
+    let height = driver.and_then(|(block, c)| Some(&block.modulator.as_ref()?.amplitude * c));
+    let height = height.ok_or_else(|| {
         let why = "is not driven by one block with 'pwm' alone, which says how high the pulses are";
         match refused(&blocks[place.block], place, why) {
             NotConnected::Refused(error) => NotConnected::Refused(Box::new(error.help(

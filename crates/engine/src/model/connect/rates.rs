@@ -14,7 +14,7 @@ use std::cell::RefCell;
 
 /// The systems of blocks at a sample, with the registers of slower blocks behind their states: those that are active compute, the others
 /// show what they hold.
-fn at_sample(systems: &[Vec<System>], rates: &[Rate], sample: u64) -> Vec<System> {
+pub(super) fn at_sample(systems: &[Vec<System>], rates: &[Rate], sample: u64) -> Vec<System> {
     let at = |(of_samples, rate): (&Vec<System>, &Rate)| {
         let s = &of_samples[sample as usize % of_samples.len()];
         match (rate.every, rate.is_active(sample)) {
@@ -75,20 +75,11 @@ pub(super) fn lifted(
     budget: &Budget,
     mut connect: impl FnMut(&[System]) -> Result<System, NotConnected>,
 ) -> Result<Lifted, NotConnected> {
-    let alternates = systems.iter().any(|of_samples| of_samples.len() > 1);
-    let overwritten = |k: u64| -> usize {
-        let slow = systems.iter().zip(rates).filter(|(_, rate)| rate.every > 1 && rate.is_active(k));
-        slow.map(|(s, _)| s[0].d.rows()).sum()
-    };
-    let start = start.unwrap_or_else(|| (0..steps).max_by_key(|&k| (overwritten(k), steps - k)).unwrap_or(0));
+    let start = start.unwrap_or_else(|| first_sample(systems, rates, steps));
     let mut known: Vec<(Vec<bool>, System)> = Vec::new();
     let (mut whole, mut first): (Option<System>, Option<System>) = (None, None);
-    let mut sample = start;
-    while sample < start + steps {
+    for Run { sample, length, active } in runs(systems, rates, start, steps) {
         budget.check()?;
-        let parity = alternates && sample % 2 == 1;
-        let active: Vec<bool> = rates.iter().map(|rate| rate.is_active(sample)).chain([parity]).collect();
-        let length = if alternates { 1 } else { run_length(rates, sample, start + steps) };
         let system = match known.iter().find(|(pattern, _)| *pattern == active) {
             Some((_, system)) => system.clone(),
             None => {
@@ -103,7 +94,6 @@ pub(super) fn lifted(
             None => run,
             Some(before) => shortened(after(&run, &before), symbols),
         });
-        sample += length;
     }
     let (whole, first) = (whole.expect("a hyperperiod has a sample"), first.expect("a hyperperiod has a sample"));
     // Registers that the first sample overwrites are no states.
@@ -123,6 +113,44 @@ pub(super) fn lifted(
         d: first.d,
     };
     Ok(Lifted { system, keeps_registers })
+}
+
+/// The sample at which most registers are overwritten at once.
+pub(super) fn first_sample(systems: &[Vec<System>], rates: &[Rate], steps: u64) -> u64 {
+    let overwritten = |k: u64| -> usize {
+        let slow = systems.iter().zip(rates).filter(|(_, rate)| rate.every > 1 && rate.is_active(k));
+        slow.map(|(s, _)| s[0].d.rows()).sum()
+    };
+    (0..steps).max_by_key(|&k| (overwritten(k), steps - k)).unwrap_or(0)
+}
+
+/// Samples in a row in which the loop is the same.
+pub(super) struct Run {
+    /// The first one.
+    pub sample: u64,
+    /// How many these are.
+    pub length: u64,
+    /// Which blocks are active, and at last whether the sample is odd where that matters: systems are the same where these are.
+    pub active: Vec<bool>,
+}
+
+/// The samples of a hyperperiod from a sample on.
+pub(super) fn runs<'a>(
+    systems: &'a [Vec<System>],
+    rates: &'a [Rate],
+    start: u64,
+    steps: u64,
+) -> impl Iterator<Item = Run> + 'a {
+    let alternates = systems.iter().any(|of_samples| of_samples.len() > 1);
+    let mut next = start;
+    std::iter::from_fn(move || {
+        let sample = (next < start + steps).then_some(next)?;
+        let length = if alternates { 1 } else { run_length(rates, sample, start + steps) };
+        next += length;
+        let parity = alternates && sample % 2 == 1;
+        let active = rates.iter().map(|rate| rate.is_active(sample)).chain([parity]).collect();
+        Some(Run { sample, length, active })
+    })
 }
 
 /// For how many samples the same blocks are active, up to an end.

@@ -4,6 +4,7 @@
 //! factors included: its characteristic polynomial is the denominator.
 
 use super::hold::held;
+use super::modulators::periods_agree;
 use super::rates::{Lifted, lifted};
 use crate::error::{Code, Diagnostic, Span};
 use crate::model::complex::{Lift, lifted_system, names_of_parts, ports_as_written, realised_ratio, seen_from};
@@ -435,6 +436,7 @@ fn connect(
 ) -> Result<Assembled, NotConnected> {
     let Connecting { set, symbols, start, budget } = *how;
     let (mut poles, mut leading) = (Vec::new(), RationalFunction::one());
+    periods_agree(blocks, how)?;
     let systems = realised(blocks, how, &mut poles, &mut leading)?;
     let named = |(i, block): (usize, &BlockValues)| match wiring.is_complex {
         true => names_of_parts(state_names(model, i, block, systems[i][0].a.rows() / 2)),

@@ -86,8 +86,18 @@ pub(in crate::model) struct BlockValues {
     pub lift: Lift,
     pub dynamics: DynamicValues,
     pub discretization: Option<DiscretizationValues>,
-    /// The height of the pulses that the block commands, where it is a modulator.
-    pub amplitude: Option<RationalFunction>,
+    /// What it says of its pulses, where it is a modulator.
+    pub modulator: Option<Modulator>,
+}
+
+/// What a block says of the pulses that it commands.
+pub(in crate::model) struct Modulator {
+    /// How high they are.
+    pub amplitude: RationalFunction,
+    /// How far one begins behind another.
+    pub period: RationalFunction,
+    /// Where the period stands.
+    pub span: Span,
 }
 
 /// How a continuous block is made discrete.
@@ -220,13 +230,15 @@ impl Evaluator<'_, '_> {
                 hold.pulses = self.pulses(pulses, inputs, wiring.driven)?;
             }
         }
-        let mut amplitude = None;
-        if let Some(pwm) = &block.pwm {
-            amplitude = self.real(&pwm.amplitude);
-            for e in [&pwm.carrier, &pwm.period] {
-                self.real(e);
+        let modulator = match &block.pwm {
+            None => Some(None),
+            Some(pwm) => {
+                // All of them, so that every mistake is reported.
+                let [amplitude, _, period] = [&pwm.amplitude, &pwm.carrier, &pwm.period].map(|e| self.real(e));
+                let of = |(amplitude, period)| Modulator { amplitude, period, span: pwm.period.span };
+                amplitude.zip(period).map(of).map(Some)
             }
-        }
+        };
         Some(BlockValues {
             name: block.name.clone(),
             span: block.span,
@@ -236,7 +248,7 @@ impl Evaluator<'_, '_> {
             lift: Lift::Done,
             dynamics: dynamics?,
             discretization: discretization?,
-            amplitude,
+            modulator: modulator?,
         })
     }
 

@@ -4,9 +4,13 @@
 //! Rosenbrock's system matrix. Laplace's expansion along the rational rows shows that the greatest common divisor of their maximal minors
 //! divides this determinant. The divisor contains the zeros of a discrete controller, such as the `z + 1` of Tustin's rule.
 
+use jurist_algebra::limits::checkpoint;
 use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, Poly, RationalFunction, UniPoly};
+
+/// Products of a matrix and a column with more products of terms are not looked at.
+const MOST_TERMS: usize = 20_000;
 
 /// A row of the pencil: polynomials in `z`.
 type Row = Vec<UniPoly>;
@@ -58,6 +62,13 @@ pub(super) fn missing_degrees(a: &RationalMatrix, b: &RationalMatrix) -> usize {
         if !dot(&mut (0..n).map(|j| &b[(pivot.0, j)]), &v).is_zero() {
             return found;
         }
+        // A bound from below is enough, and long products take long: with alternating edges at ten samples they did not end.
+        let terms = |f: &RationalFunction| f.numerator().terms().len() + f.denominator().terms().len();
+        let (length, of_matrix) = (v.iter().map(terms).sum::<usize>(), a.entries().iter().map(terms).sum::<usize>());
+        if length * of_matrix > MOST_TERMS {
+            return found + 1;
+        }
+        checkpoint((length * of_matrix) as u64);
         v = (0..n).map(|i| dot(&mut (0..n).map(|j| &a[(i, j)]), &v)).collect();
     }
     0

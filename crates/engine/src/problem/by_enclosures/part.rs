@@ -1,8 +1,9 @@
 //! A part of a loop behind holds: the matrix `A + K B` and its characteristic polynomial, with a symbol for each coefficient.
 
-use super::exact_zeros::{exact_zeros, first_entry, missing_degrees};
+use super::exact_zeros::{exact_zeros, missing_degrees};
+use super::nodes::{Matrices, enclosed, exceeds_from, in_parameter};
 use super::steady_state::steady_state;
-use crate::model::{Symbols, quotient_at};
+use crate::model::{Samples, SamplesPart, Symbols, quotient_at, rank_bound};
 use crate::stability::SymbolicPolynomial;
 use jurist_algebra::ball::{Ball, BallMatrix};
 use jurist_algebra::limits::{Budget, checkpoint, until_shown};
@@ -17,12 +18,13 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// The degree in the parameter up to which polynomials are looked at.
 const MOST_POWERS: usize = 4;
 
-/// A part of the loop: the matrix `A + K B`.
+/// A part of the loop: a matrix that is a polynomial in `K`.
 #[derive(Debug)]
 pub(super) struct Part {
     symbols: Arc<Symbols>,
+    /// The matrix at `K = 0`.
     constant: RationalMatrix,
-    linear: RationalMatrix,
+    matrices: Matrices,
     /// A bound of the degree in `K`.
     pub degree: usize,
     /// The exact factor of `D(z; 0)`: polynomials of rational parts, and the roots at 1 that integrators bring.
@@ -41,12 +43,45 @@ pub(super) struct Part {
 }
 
 impl Part {
-    /// `None` where the degree is too large.
-    pub fn new(symbols: &Arc<Symbols>, constant: RationalMatrix, linear: RationalMatrix) -> Option<Part> {
+    /// The matrix `A + K B`. `None` where the degree is too large.
+    pub fn linear(symbols: &Arc<Symbols>, constant: RationalMatrix, linear: RationalMatrix) -> Option<Part> {
         let degree = rank_bound(&linear);
         if degree > MOST_POWERS {
             return None;
         }
+        let rest = steady_state(&constant, &linear, symbols).filter(|d| !d.is_zero());
+        let at_origin = dependent_rows(&constant, &linear);
+        let (zeros, missing) = match degree {
+            1 => (exact_zeros(&constant, &linear), missing_degrees(&constant, &linear)),
+            _ => (UniPoly::monomial(Integer::ONE, at_origin), 0),
+        };
+        let of = Part::of_constant(symbols, constant, Matrices::Linear(linear), degree);
+        let mut part = Part { at_origin, zeros, missing, at_rest: rest, ..of };
+        if part.degree > 0 && part.at_rest.is_some() && part.factor_at_rest(super::BITS)?.contains_zero() {
+            part.at_rest = None;
+        }
+        Some(part)
+    }
+
+    /// A part of a loop over a hyperperiod, by its matrix at `K = 0` and the matrices of its samples.
+    pub fn lifted(symbols: &Arc<Symbols>, constant: RationalMatrix, samples: &Arc<Samples>, of: &SamplesPart) -> Part {
+        let matrices = Matrices::Samples(Arc::clone(samples), of.clone());
+        let mut part = Part::of_constant(symbols, constant, matrices, of.degree);
+        let root_at_one = UniPoly::from_i64(&[-1, 1]);
+        let mut rest = part.exact.clone();
+        let known = std::iter::from_fn(|| rest.div_exact(&root_at_one).map(|next| rest = next)).count();
+        // Roots that the factors of rational parts do not have are those of the other part.
+        if let [(_, at_one)] = part.others.as_mut_slice() {
+            for _ in known..of.at_one {
+                *at_one += 1;
+                part.exact = part.exact.times(&root_at_one);
+            }
+        }
+        part
+    }
+
+    /// What is known of a part by its matrix at `K = 0`.
+    fn of_constant(symbols: &Arc<Symbols>, constant: RationalMatrix, matrices: Matrices, degree: usize) -> Part {
         let (mut exact, mut others) = (UniPoly::one(), Vec::new());
         for block in constant.decoupled_parts() {
             let own = constant.principal(&block);
@@ -61,20 +96,19 @@ impl Part {
                 }
             }
         }
-        let at_rest = steady_state(&constant, &linear, symbols).filter(|d| !d.is_zero());
-        let symbols = Arc::clone(symbols);
-        let known = Mutex::default();
-        let at_origin = dependent_rows(&constant, &linear);
-        let (zeros, missing) = match degree {
-            1 => (exact_zeros(&constant, &linear), missing_degrees(&constant, &linear)),
-            _ => (UniPoly::monomial(Integer::ONE, at_origin), 0),
-        };
-        let mut part =
-            Part { symbols, constant, linear, degree, exact, others, at_origin, zeros, missing, at_rest, known };
-        if part.degree > 0 && part.at_rest.is_some() && part.factor_at_rest(super::BITS)?.contains_zero() {
-            part.at_rest = None;
+        Part {
+            symbols: Arc::clone(symbols),
+            constant,
+            matrices,
+            degree,
+            exact,
+            others,
+            at_origin: 0,
+            zeros: UniPoly::one(),
+            missing: 0,
+            at_rest: None,
+            known: Mutex::default(),
         }
-        Some(part)
     }
 
     /// The least power of `K` in `d(K)`, with its coefficient.
@@ -96,18 +130,22 @@ impl Part {
         Some(list.iter().fold(Ball::from_integer(&lead, bits), |sum, c| sum.add(c)))
     }
 
-    /// The characteristic polynomial at a whole `K`.
-    pub fn at(&self, values: &[Ball], k: usize, bits: u64) -> Option<Vec<Ball>> {
+    /// The characteristic polynomial at `K = 0`.
+    pub fn at_zero(&self, values: &[Ball], bits: u64) -> Option<Vec<Ball>> {
+        Some(enclosed(&self.constant, values, bits)?.characteristic_polynomial(bits))
+    }
+
+    /// A power of two beyond which, and beyond whose negative, the loop is unstable; `None` where enclosures show none.
+    ///
+    /// A polynomial of degree `n` with its roots inside of the unit circle has coefficients of at most the binomials `(n over i)`.
+    pub fn unstable_beyond(&self, bits: u64) -> Option<Rational> {
+        let values = self.symbols.enclosed(bits)?;
+        let nodes = self.matrices.polynomials(&self.constant, &values, self.degree, bits)?;
         let n = self.constant.rows();
-        let entry = |m: &RationalMatrix, i: usize, j: usize| quotient_at(&m[(i, j)], values, bits);
-        let mut entries = Vec::with_capacity(n * n);
-        for i in 0..n {
-            for j in 0..n {
-                let (a, b) = (entry(&self.constant, i, j)?, entry(&self.linear, i, j)?);
-                entries.push(a.add(&b.scaled(&Integer::from(k as u64))));
-            }
-        }
-        Some(BallMatrix::from_fn(n, |i, j| entries[i * n + j].clone()).characteristic_polynomial(bits))
+        let binomial = |i: usize| (0..i).fold(Integer::ONE, |b, k| (&b * &whole(n - k)).div_exact(&whole(k + 1)));
+        let all = in_parameter(&nodes, n, bits);
+        let least = all.iter().enumerate().filter_map(|(i, c)| exceeds_from(c, &binomial(i), bits)).min()?;
+        Some(Rational::from(Integer::ONE << least))
     }
 
     /// The degree of the enclosed factor of `D(z; 0)`.
@@ -129,14 +167,11 @@ impl Part {
         let values = self.symbols.enclosed(bits)?;
         let mut out = self.other_factor(&values, bits)?;
         out.pop();
-        let nodes = (0..=self.degree).map(|k| self.at(&values, k, bits)).collect::<Option<Vec<_>>>()?;
+        let nodes = self.matrices.polynomials(&self.constant, &values, self.degree, bits)?;
         let n = self.constant.rows();
-        for weights in interpolation(self.degree).iter().skip(1) {
-            let coefficient = |k: usize| {
-                let term = |(node, w): (&Vec<Ball>, &Rational)| node[k].mul(&Ball::from_rational(w, bits));
-                nodes.iter().zip(weights).map(term).fold(Ball::zero(bits), |sum, t| sum.add(&t))
-            };
-            out.extend(quotient((0..n - self.missing).map(coefficient).collect(), &self.zeros));
+        let powers = in_parameter(&nodes, n - self.missing, bits);
+        for power in 1..=self.degree {
+            out.extend(quotient(powers.iter().map(|c| c[power].clone()).collect(), &self.zeros));
         }
         let out = Arc::new(out);
         known().insert(bits, Arc::clone(&out));
@@ -232,6 +267,10 @@ impl Part {
     }
 }
 
+fn whole(n: usize) -> Integer {
+    Integer::from(n as u64)
+}
+
 /// A coefficient of a part's polynomial.
 #[derive(Debug)]
 struct Coefficient {
@@ -252,20 +291,6 @@ impl Enclosing for Coefficient {
     fn origin(&self) -> Origin {
         Origin::Function { function: "coefficient of the characteristic polynomial".to_owned(), details: Vec::new() }
     }
-}
-
-/// A bound of the rank: 1 where all minors of order 2 are zero, else the number of rows or columns that are not zero.
-fn rank_bound(m: &RationalMatrix) -> usize {
-    let n = m.rows();
-    let rows = (0..n).filter(|&i| (0..n).any(|j| !m[(i, j)].is_zero())).count();
-    let columns = (0..n).filter(|&j| (0..n).any(|i| !m[(i, j)].is_zero())).count();
-    let bound = rows.min(columns);
-    let Some(pivot) = first_entry(m) else { return 0 };
-    // Beside a pivot that is not zero the others' minors are combinations of those with it.
-    let is_minor_zero =
-        |i: usize, j: usize| (&(&m[pivot] * &m[(i, j)]) - &(&m[(pivot.0, j)] * &m[(i, pivot.1)])).is_zero();
-    let is_one = bound > 1 && (0..n).all(|i| (0..n).all(|j| is_minor_zero(i, j)));
-    if is_one { 1 } else { bound }
 }
 
 /// The number of rational rows of `A + K B` less their rank over the rational functions of `K`.
@@ -349,25 +374,4 @@ fn quotient(mut p: Vec<Ball>, factor: &UniPoly) -> Vec<Ball> {
         p[at] = q;
     }
     p.split_off(degree)
-}
-
-/// Weights of an interpolation at `K = 0, 1, ..`, one list for each power of `K`: the values times its weights add up to its coefficient.
-pub(super) fn interpolation(degree: usize) -> Vec<Vec<Rational>> {
-    let bases: Vec<Vec<Rational>> = (0..=degree).map(|node| lagrange(node, degree)).collect();
-    (0..=degree).map(|power| bases.iter().map(|basis| basis[power].clone()).collect()).collect()
-}
-
-/// The product of `(K - m)/(node - m)` over the other whole numbers `m` up to the degree.
-fn lagrange(node: usize, degree: usize) -> Vec<Rational> {
-    let number = |m: usize| Rational::from(m as i64);
-    (0..=degree).filter(|&m| m != node).fold(vec![Rational::ONE], |basis, m| {
-        let scale = (number(node) - number(m)).recip().expect("another node");
-        let mut product = vec![Rational::ZERO; basis.len() + 1];
-        for (i, c) in basis.iter().enumerate() {
-            let c = c * &scale;
-            product[i] = &product[i] - &(&c * &number(m));
-            product[i + 1] = &product[i + 1] + &c;
-        }
-        product
-    })
 }

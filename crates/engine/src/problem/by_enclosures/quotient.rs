@@ -34,7 +34,7 @@ impl EnclosedQuotient {
         // What comes back has the sign of the feedback.
         let returned = RationalMatrix::from_fn(n, n, |i, j| &system.e[(i, column)] * &system.c[(0, j)]);
         let is_whole = (&system.a + &returned).decoupled_parts().len() == 1;
-        let part = Part::new(&symbols, system.a.clone(), returned).filter(|part| is_whole && part.degree == 1)?;
+        let part = Part::linear(&symbols, system.a.clone(), returned).filter(|part| is_whole && part.degree == 1)?;
         let p = Arc::new(part).polynomial(&Rational::ONE);
         let symbols = Arc::clone(p.fixed_symbols()?);
         let in_factor = |c: &MultiPoly| c.as_poly_in(0).map(|c| c.map_variables(|i| i.saturating_sub(1)));

@@ -5,7 +5,7 @@ use crate::model::Model;
 use crate::response::OpenLoop;
 use crate::stability::{Shape, StableSet, stable_set_of_parts};
 use jurist_algebra::number::Integer;
-use part::interpolation;
+use nodes::interpolation;
 
 /// A unity feedback loop: the controller's transfer function and that of the plant behind a zero-order hold.
 fn problem(controller: &str, plant: &str, sample_time: &str, domain: &str) -> Arc<Problem> {
@@ -50,7 +50,7 @@ fn by_enclosures(problem: &Problem) -> StableSet {
 }
 
 /// Ends with their causes, to twelve digits.
-fn ends(set: &StableSet) -> Vec<[Option<(String, String)>; 2]> {
+pub(super) fn ends(set: &StableSet) -> Vec<[Option<(String, String)>; 2]> {
     assert!(set.undecided().is_empty());
     let shown = |end: &Option<crate::stability::End>| {
         end.as_ref().map(|end| (end.value.decimal(12), format!("{} {:?}", end.causes, end.pair.is_some())))

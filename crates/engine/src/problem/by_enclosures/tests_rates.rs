@@ -1,0 +1,118 @@
+//! Loops with several rates: enclosures of the coefficients over a hyperperiod against exact polynomials.
+
+use super::tests::ends;
+use super::*;
+use crate::error::Source;
+use crate::model::Model;
+use crate::stability::{StableSet, stable_set_of_parts, symbolic_stable_set};
+
+/// A slow block before a fast one, and a plant behind a hold.
+fn cascade(slow: &str, fast: &str, plant: &str, limits: &str) -> Arc<Problem> {
+    let text = format!(
+        "time = 'discrete'\nsample_time = '1/4'\n[parameters]\nK = {{ nominal = 1, {limits} }}\n[loop]\ninputs = ['r']\n\
+         outputs = ['y']\n[[block]]\nname = 'slow'\ninput = 'r - y'\noutput = 'w'\n{slow}\n[[block]]\nname = 'fast'\n\
+         input = 'w - y'\noutput = 'u'\n{fast}\n[[block]]\nname = 'plant'\ninput = 'u'\noutput = 'y'\n{plant}\n"
+    );
+    let (model, _) = Model::from_toml(&Source::new("model.toml", text)).unwrap();
+    model.ask().free("K").problem().unwrap()
+}
+
+/// Ends of intervals with their causes.
+type Ends = Vec<[Option<(String, String)>; 2]>;
+
+/// The sets by enclosures and by exact polynomials; `None` where enclosures do not tell, so that the program asks exact polynomials.
+fn both(problem: &Problem) -> Option<[Ends; 2]> {
+    let (budget, domain) = (Budget::unlimited(), &problem.parameter().domain);
+    let own = match problem.lifted_parts("K", &budget).unwrap()? {
+        EnclosedParts::Unstable => Ok(StableSet::from_intervals(Vec::new(), Vec::new())),
+        EnclosedParts::Parts(parts) => stable_set_of_parts(&parts, domain, Shape::UnitDisc, &budget),
+    };
+    let p = problem.symbolic(&budget).unwrap().expect("not a constant");
+    let exact = symbolic_stable_set(&p, domain, Shape::UnitDisc, &budget).unwrap();
+    match own {
+        Ok(own) => Some([ends(&own), ends(&exact)]),
+        Err(stopped) if stopped.stop.is_precision() => None,
+        Err(stopped) => panic!("{stopped}"),
+    }
+}
+
+#[test]
+fn a_gain_of_the_fast_loop_has_the_set_of_the_exact_polynomial() {
+    let slow =
+        ["gain = 2\nevery = 2", "transfer = '1/(4*(z - 1))'\nevery = 3\nphase = 1", "transfer = '1/z'\nevery = 4"];
+    let fast = ["gain = 'K'", "transfer = '(K*z - K/2)/(z - 1)'", "transfer = 'K/z'"];
+    let plants = [
+        "transfer = '1/(s + 1)'\ndiscretize = 'zoh'",
+        "transfer = '1/(s*(s + 1))'\ndiscretize = 'zoh'",
+        "transfer = '1/(s - 1/2)'\ndiscretize = { method = 'zoh', delay = '1/4' }",
+        "transfer = '2/(s + 3)'\ndiscretize = { method = 'pwm', edge = 'trailing', duty = '1/3' }",
+    ];
+    let mut known = 0;
+    for (k, plant) in plants.iter().enumerate() {
+        for (i, slow) in slow.iter().enumerate() {
+            // All with each other would take long.
+            let fast = fast[(i + k) % fast.len()];
+            for limits in ["min = 0, max = 20", "min = 0", "max = 3"] {
+                let Some([own, exact]) = both(&cascade(slow, fast, plant, limits)) else { continue };
+                assert_eq!(own, exact, "{slow}, {fast}, {plant}, {limits}");
+                known += 1;
+            }
+        }
+    }
+    assert!(known >= 30, "{known} of 36");
+}
+
+/// Edges that alternate, and blocks that the parameter does not act on.
+#[test]
+fn other_forms_have_the_set_of_the_exact_polynomial() {
+    let plant = "transfer = '1/(s + 1)'\ndiscretize = 'zoh'";
+    let alternating = "transfer = '1/(s + 1)'\ndiscretize = { method = 'pwm', edge = 'alternating', duty = '1/3' }";
+    let beside = |pole: &str| {
+        format!(
+            "{plant}\n[[block]]\nname = 'beside'\ninput = 'y'\noutput = 'v'\ntransfer = '1/(z - {pole})'\nevery = 2\n"
+        )
+    };
+    for (slow, plant) in
+        [("gain = 1", alternating), ("gain = 1\nevery = 2", &beside("1/2")), ("gain = 1\nevery = 2", &beside("2"))]
+    {
+        let [own, exact] = both(&cascade(slow, "gain = 'K'", plant, "min = 0")).expect("a loop of this form");
+        assert_eq!(own, exact, "{slow}, {plant}");
+    }
+    // Not linear in a sample, and in a divisor.
+    let unknown =
+        [("gain = 'K/5'\nevery = 2", "gain = 'K'", plant), ("gain = 1\nevery = 2", "transfer = '1/(K*z - 1)'", plant)];
+    for (slow, fast, plant) in unknown {
+        let problem = cascade(slow, fast, plant, "min = 0");
+        assert!(problem.lifted_parts("K", &Budget::unlimited()).unwrap().is_none(), "{slow}, {fast}, {plant}");
+    }
+}
+
+/// Integrators that nobody reads where the parameter is 0: a root at 1 that does not show in the matrix over a hyperperiod.
+#[test]
+fn an_integral_gain_has_the_set_of_the_exact_polynomial() {
+    let plant = "transfer = '1/(s + 1)'\ndiscretize = 'zoh'";
+    for (slow, fast) in [
+        ("gain = 1\nevery = 3", "transfer = '1/2 + K/20*(z + 1)/(z - 1)'"),
+        ("transfer = '1/2 + 1/20*(z + 1)/(z - 1)'\nevery = 2", "transfer = '(1/3 + K/20*(z + 1)/(z - 1))/z'"),
+    ] {
+        let found = both(&cascade(slow, fast, plant, "min = 0"));
+        let [own, exact] = found.unwrap_or_else(|| panic!("{slow}, {fast}"));
+        assert_eq!(own, exact, "{slow}, {fast}");
+        assert!(own[0][0].as_ref().is_some_and(|(at, causes)| at == "0" && causes.contains("z=1")), "{own:?}");
+    }
+}
+
+/// Beyond that number the loop is unstable, and a tenth of it is none for a loop whose gain is that large at its limit.
+#[test]
+fn a_number_beyond_which_a_loop_is_unstable_is_one() {
+    let problem = cascade("gain = 1\nevery = 3", "gain = 'K'", "transfer = '1/(s + 1)'\ndiscretize = 'zoh'", "min = 0");
+    let Some(EnclosedParts::Parts(parts)) = problem.lifted_parts("K", &Budget::unlimited()).unwrap() else { panic!() };
+    let end = parts[0].known_unstable_beyond().expect("a number").clone();
+    let [limits, _] = both(&problem).unwrap();
+    let upper = limits[0][1].clone().expect("an end").0.parse::<f64>().unwrap();
+    assert!(end.to_f64_approximate() > upper && end.to_f64_approximate() < 1000.0 * upper, "{end} and {upper}");
+    for factor in [1, 2, 5, 100] {
+        let at = parts[0].at(&(&end * &factor.into()), Shape::UnitDisc, &Budget::unlimited()).unwrap();
+        assert!(!at.is_stable(parts[0].formal_degree()), "{factor}");
+    }
+}
