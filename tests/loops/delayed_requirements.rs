@@ -57,6 +57,21 @@ fn sets_that_are_known_by_hand() {
     }
 }
 
+/// `K exp(-s/5)/(s - 1)` is stable from K = 1 on: half of the gain is to be stable, too, from 2 on; of twice of it the upper end tells.
+#[test]
+fn an_end_at_the_frequency_zero_is_exact() {
+    let model = series("K", "exp(-0.2*s)/(s - 1)");
+    let found = set(&model, &[Requirement::gain_margin(&number("2")).unwrap()]);
+    assert!(found.undecided.is_empty() && found.intervals.len() == 1);
+    let stable = keeping(&model, &["K"]).problem().unwrap().stable_set(&Budget::unlimited()).unwrap().into_value();
+    let [lower, upper] =
+        [&found.intervals[0].lower, &found.intervals[0].upper].map(|end| end.as_ref().unwrap().value());
+    assert_eq!(lower.exact(), Some(number("2")));
+    let twice = stable.intervals()[0].upper.as_ref().unwrap().value.refined_to_digits(30).enclosure();
+    let half = upper.refined_to_digits(25).enclosure();
+    assert!(&half.0 * &number("2") <= twice.1 && twice.0 <= &half.1 * &number("2"));
+}
+
 /// On both sides of each end, and at chance.
 #[test]
 fn sets_agree_with_decisions_at_points() {

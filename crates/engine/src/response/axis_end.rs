@@ -4,13 +4,18 @@
 //! frequency and the parameter. An interval Newton step that maps a box into itself proves that the box has one zero
 //! ([Moore1966](jurist_algebra::bibliography#moore1966)), and encloses it as narrowly as is asked.
 
-use super::along_circle::{Coefficient, Function, Functions};
+use super::along_circle::Coefficient;
+use super::asked_functions::{Function, Functions};
 use super::enclosed::enclosed;
 use super::loop_functions::LoopFunctions;
 use super::on_axis::OnAxis;
+use super::requirement::Rule;
 use super::taylor_along::of_octave;
+use crate::stability::{Range, zeros_in};
 use jurist_algebra::ball::{Ball, Series, cos_sin};
+use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Enclosure, Integer, Rational};
+use jurist_algebra::poly::Domain;
 use jurist_algebra::real::Real;
 use jurist_algebra::symbols::ParametricSymbols;
 
@@ -66,6 +71,9 @@ pub(super) type Place = [[Rational; 2]; 2];
 /// Bits beside those of the box in which a zero is looked for.
 const BITS: u64 = 128;
 
+/// What an end is called where its digits are explained.
+const NAME: &str = "a value at which a margin is what is required";
+
 /// Bits that the last step loses.
 const SPARE_BITS: u64 = 48;
 
@@ -104,7 +112,84 @@ impl AxisSystem {
             return None;
         }
         let attempt = move |bits: u64| self.narrowed(first.clone(), bits);
-        Some(Some(enclosed("a value at which a margin is what is required", attempt)))
+        Some(Some(enclosed(NAME, attempt)))
+    }
+
+    /// The same of what is required at the frequency 0, where the open loop is real.
+    pub fn only_end_at_zero(mut self, side: &[Rational; 2], between: [&Rational; 2]) -> Option<Option<Real>> {
+        let bits = BITS + (&side[1] - &side[0]).denominator().bit_length();
+        let over = self.at_zero(&Ball::between(&side[0], &side[1], bits))?;
+        let mut signs = (0..over.len()).filter(|&k| over[k][0].contains_zero());
+        self.sign = signs.next().filter(|_| signs.next().is_none())?;
+        // The Newton step divides by the slope, which has no zero then.
+        let (first, is_inside) = self.step_at_zero(side, bits)?;
+        if !is_inside {
+            return None;
+        }
+        let near = self.narrowed_at_zero(first.clone(), bits)?;
+        if near.upper() < between[0] || near.lower() > between[1] {
+            return Some(None);
+        }
+        if near.lower() < between[0] || near.upper() > between[1] {
+            return None;
+        }
+        if let Some(exact) = self.exact_at_zero(between) {
+            return Some(Some(exact));
+        }
+        let attempt = move |bits: u64| self.narrowed_at_zero(first.clone(), bits);
+        Some(Some(enclosed(NAME, attempt)))
+    }
+
+    /// That end where the factor that is required is rational: `k N(0) = -D(0)` for it or its reciprocal.
+    fn exact_at_zero(&self, [lower, upper]: [&Rational; 2]) -> Option<Real> {
+        let Rule::Factors(factor) = self.functions.rule() else { return None };
+        let factor = Real::from(factor.clone()).exact()?;
+        let parts = self.functions.split(&self.functions.all)?;
+        let [d, n] = [&parts.denominator[0], &parts.numerator[0].times(parts.content)].map(|p| p.to_univariate(0));
+        let (d, n) = (d?, n?);
+        let (p, q) = (factor.numerator(), factor.denominator());
+        let both = [d.scaled(&q).plus(&n.scaled(&p)), d.scaled(&p).plus(&n.scaled(&q))];
+        let range = Range::between(Some(lower.clone()), Some(upper.clone()));
+        let mut zeros = Vec::new();
+        for f in both.iter().filter(|f| !f.is_constant()) {
+            zeros.extend(zeros_in(f, &range, &Budget::unlimited()).ok()?);
+        }
+        zeros.pop().filter(|_| zeros.is_empty()).map(Real::from)
+    }
+
+    fn narrowed_at_zero(&self, mut side: [Rational; 2], bits: u64) -> Option<Enclosure> {
+        let goal = Rational::dyadic(&Integer::ONE, bits.saturating_sub(SPARE_BITS));
+        for _ in 0..STEPS {
+            let [lower, upper] = &side;
+            if upper - lower <= goal {
+                return Some(Enclosure::new(lower.clone(), upper.clone()));
+            }
+            side = self.step_at_zero(&side, bits + BITS)?.0;
+        }
+        None
+    }
+
+    fn step_at_zero(&self, side: &[Rational; 2], bits: u64) -> Option<([Rational; 2], bool)> {
+        let middle = side[0].midpoint(&side[1]);
+        let [_, slope] = self.at_zero(&Ball::between(&side[0], &side[1], bits))?.swap_remove(self.sign);
+        let [value, _] = self.at_zero(&Ball::from_rational(&middle, bits))?.swap_remove(self.sign);
+        let by = value.div(&slope)?;
+        let (lower, upper) = (&middle - &by.upper(), &middle - &by.lower());
+        let is_inside = lower > side[0] && upper < side[1];
+        let next = [lower.max(side[0].clone()), upper.min(side[1].clone())];
+        (next[0] <= next[1]).then_some((next, is_inside))
+    }
+
+    /// The signs at the frequency 0, and their slopes.
+    fn at_zero(&self, parameter: &Ball) -> Option<Vec<[Ball; 2]>> {
+        let (functions, tau) = self.functions(parameter)?;
+        let tau = Series::new(tau.into());
+        let value = |f: &Function<Series, 3>| {
+            let [p, c, s] = f.each_ref().map(|list| &list[0]);
+            let sum = p.add(c).add(&s.mul(&tau));
+            [value(&sum).clone(), slope(&sum).clone()]
+        };
+        Some(functions.signs.iter().map(value).collect())
     }
 
     /// An enclosure of the parameter of a zero, with about so many bits; `None` where they are too few.
@@ -162,6 +247,14 @@ impl AxisSystem {
 
     /// The function of crossings and those that tell whether they are allowed.
     fn at(&self, [omega, parameter]: &[Ball; 2]) -> Option<(Option<Local>, Vec<Local>)> {
+        let (functions, tau) = self.functions(parameter)?;
+        let waves = Waves::at(&tau, omega)?;
+        let local = |f: &Function<Series, 3>| waves.local(f, omega);
+        Some((functions.crossing.as_ref().map(local), functions.signs.iter().map(local).collect()))
+    }
+
+    /// The functions over the frequency, and the dead time with its derivative.
+    fn functions(&self, parameter: &Ball) -> Option<(Functions<Series, 3>, [Ball; 2])> {
         let one = Ball::from_integer(&Integer::ONE, parameter.bits());
         let values = self.symbols.values(&[Series::linear(parameter, &one, 2)])?;
         let all: Vec<Series> = self.functions.all.iter().map(|p| self.symbols.value(p, &values)).collect();
@@ -172,9 +265,7 @@ impl AxisSystem {
         let degree = parts.denominator.len().max(parts.numerator.len()) - 1;
         let [d, n] = [parts.denominator, parts.numerator].map(|p| of_octave(p, self.octave, degree));
         let functions = Functions::of(self.functions.rule(), &OnAxis::new(&d, &n, parts.content), parts.alpha);
-        let waves = Waves::at(&tau, omega)?;
-        let local = |f: &Function<Series, 3>| waves.local(f, omega);
-        Some((functions.crossing.as_ref().map(local), functions.signs.iter().map(local).collect()))
+        Some((functions, tau))
     }
 }
 

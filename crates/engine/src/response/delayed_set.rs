@@ -15,7 +15,7 @@ use jurist_algebra::real::Real;
 use std::sync::Arc;
 
 /// Looks at parts of a stable interval at most.
-const MOST_PIECES: usize = 600;
+const MOST_PIECES: usize = 300;
 
 /// A part is halved so often at most.
 const MOST_HALVINGS: u32 = 48;

@@ -2,12 +2,16 @@
 
 use super::affine::AlongCircle;
 use super::along_axis::{AlongAxis, Turn};
-use super::along_circle::{Asked, Functions, NearlyLinear};
+use super::along_circle::{Asked, NearlyLinear};
+use super::asked_functions::Functions;
 use super::family::Quotient;
 use super::on_axis::OnAxis;
 use super::on_circle::OnCircle;
 use super::requirement::Rule;
 use super::taylor_along::of_octave;
+use crate::coverage::refusals::{BESIDE_DEAD_TIME, ONE_FACTOR};
+use crate::error::Error;
+use crate::model::Symbols;
 use crate::stability::Shape;
 use jurist_algebra::ball::{Ball, Elementary, MultiTaylorModel};
 use jurist_algebra::number::{Integer, Rational};
@@ -77,7 +81,7 @@ impl LoopFunctions {
     ) -> Option<Asked<AlongCircle>> {
         let Values { denominator, numerator, content, alpha, .. } = self.values(values)?;
         let [d, n] = on_circle([denominator, numerator]);
-        Some(Functions::of(&self.rule, &OnCircle::new(d, n, content), alpha).along(OnCircle::along))
+        Some(Asked::of(Functions::of(&self.rule, &OnCircle::new(d, n, content), alpha), OnCircle::along))
     }
 
     /// Whether the requirement is met at all points of a box, or at none, of an open loop with dead time; `octave` is that of a frequency beyond which the
@@ -105,7 +109,7 @@ impl LoopFunctions {
         (0..MOST_OCTAVES).find_map(|more| {
             let turn = Turn::new(&time.scaled(&(Integer::ONE << more)).affine());
             let functions = Functions::of(&self.rule, &products, alpha);
-            let asked = functions.along(|all| OnAxis::along(all, more, turn));
+            let asked = Asked::of(functions, |all| OnAxis::along(all, more, turn));
             asked.is_told_last().then_some((asked, octave + more as i64))
         })
     }
@@ -142,4 +146,38 @@ pub(super) fn number_asked(rule: &Rule) -> RealAlgebraic {
         Rule::Factors(factor) => factor.clone(),
         _ => RealAlgebraic::from_rational(Rational::ZERO),
     }
+}
+
+/// The dead time of the one factor of an open loop that has it, which is divided away; `None` of a loop without.
+///
+/// # Errors
+/// Refused where the dead time is elsewhere, or beside other functions.
+pub(super) fn dead_time(
+    quotient: &mut Quotient<MultiPoly>,
+    undefined: &MultiPoly,
+    symbols: &Symbols,
+) -> Result<Option<RationalFunction>, Error> {
+    let delays = symbols.delays();
+    if delays.is_empty() {
+        return Ok(None);
+    }
+    if symbols.iter().count() > delays.len() {
+        return Err(BESIDE_DEAD_TIME.diagnostic(&[]).into());
+    }
+    let mut total = RationalFunction::zero();
+    let mut factor = MultiPoly::one();
+    for (variable, time) in &delays {
+        let powers = quotient.numerator.coeffs().iter().flat_map(MultiPoly::terms).map(|(m, _)| m.exponent(*variable));
+        for _ in 0..powers.min().unwrap_or(0) {
+            total = &total + time;
+            factor = factor.times(&MultiPoly::variable(*variable));
+        }
+    }
+    quotient.numerator = quotient.numerator.map(|c| c.div_exact(&factor).expect("each term has the factor"));
+    let all = quotient.numerator.coeffs().iter().chain(quotient.denominator.coeffs()).chain([undefined]);
+    let has_delay = |p: &MultiPoly| delays.iter().any(|(variable, _)| p.degree_in(*variable) > 0);
+    if all.into_iter().any(has_delay) {
+        return Err(ONE_FACTOR.diagnostic(&[]).into());
+    }
+    Ok(Some(total))
 }

@@ -9,6 +9,7 @@ mod affine;
 mod along_axis;
 mod along_circle;
 mod asked;
+mod asked_functions;
 mod axis_end;
 mod by_gain;
 mod cells;

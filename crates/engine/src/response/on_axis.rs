@@ -1,7 +1,8 @@
 //! What requirements ask of an open loop with dead time along the imaginary axis.
 
 use super::along_axis::{AlongAxis, Turn};
-use super::along_circle::{Coefficient, Function, NearlyLinear, Products, sum_of};
+use super::along_circle::{Coefficient, NearlyLinear};
+use super::asked_functions::{Function, Products, sum_of};
 use jurist_algebra::number::Integer;
 use std::sync::Arc;
 

@@ -1,7 +1,8 @@
 //! What requirements ask of an open loop along the circle.
 
 use super::affine::{AlongCircle, Patch};
-use super::along_circle::{Along, Coefficient, Function, NearlyLinear, OnPiece, Products, sum_of};
+use super::along_circle::{Along, Coefficient, NearlyLinear, OnPiece};
+use super::asked_functions::{Function, Products, sum_of};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, UniPoly};
 

@@ -7,19 +7,18 @@
 use super::along_circle::Asked;
 use super::axis_end::AxisSystem;
 use super::family::{Quotient, nothing_comes_back};
-use super::loop_functions::{LoopFunctions, number_asked};
+use super::loop_functions::{LoopFunctions, dead_time, number_asked};
 use super::on_circle::twice_real;
 use super::requirement::{Requirement, Rule};
 use super::taylor_along::{beyond_axis, binomial, combined, combined_to, of_octave, on_ray, on_wider_disc};
-use crate::coverage::refusals::{BESIDE_DEAD_TIME, ONE_FACTOR};
 use crate::error::{Code, Diagnostic, Error};
-use crate::model::{Cut, Opened, Symbols};
+use crate::model::{Cut, Opened};
 use crate::problem::{Problem, parametric_symbols};
 use crate::stability::Shape;
 use jurist_algebra::ball::{Ball, Elementary, MultiTaylorModel, exp};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly};
 use jurist_algebra::real::Real;
 use jurist_algebra::symbols::{Definition, ParametricSymbols};
 use std::sync::Arc;
@@ -151,6 +150,11 @@ impl OverBox {
         OverBox::new(symbols, problem.shape(), Asks::Stable { coefficients, divisors }, near, budget).map(Some)
     }
 
+    /// Whether the open loop that is asked has dead time.
+    pub fn has_dead_time(&self) -> bool {
+        matches!(&self.asks, Asks::OpenLoop(functions) if functions.has_dead_time())
+    }
+
     /// What is known of all points of a closed box whose points are stable; `None` where nothing is.
     ///
     /// Cost: Taylor models of the coefficients, and values on some hundred pieces of the circle.
@@ -218,19 +222,25 @@ impl OverBox {
         let values = self.values(std::slice::from_ref(&side), bits_of(std::slice::from_ref(&side)))?;
         let values: Vec<MultiTaylorModel> = functions.all.iter().map(|p| self.symbols.value(p, &values)).collect();
         let (asked, octave) = functions.asked_on_axis(&values, self.octave)?;
-        let [[from, to]] = &asked.open_pieces()?[..] else { return None };
+        let pieces = asked.open_pieces()?;
+        let wider = |[lower, upper]: [Rational; 2]| {
+            let width = &upper - &lower;
+            [&lower - &width, upper + width]
+        };
+        let system = AxisSystem::new(&self.symbols, functions, octave);
+        let [[from, to]] = match (asked.are_ends_allowed(), &pieces[..]) {
+            ([true, true], [one]) => [one],
+            ([false, true], []) => return system.only_end_at_zero(&wider(side.clone()), [lower, upper]),
+            _ => return None,
+        };
         let two = Rational::from(2);
         if from.is_zero() || *to > two {
             return None;
         }
         // Frequencies from 0 to 1 are y/2, and a zero at an end of the box is to be inside.
-        let wider = |[lower, upper]: [Rational; 2]| {
-            let width = &upper - &lower;
-            [&lower - &width, upper + width]
-        };
         let half = |y: &Rational| y * &Rational::dyadic(&Integer::ONE, 1);
         let place = [[half(from), half(to)], side].map(wider);
-        AxisSystem::new(&self.symbols, functions, octave).only_end(&place, [lower, upper])
+        system.only_end(&place, [lower, upper])
     }
 
     /// Whether it is seen that the loop is defined at all points of a closed box; of a requirement, which is asked of stable points, nothing has to
@@ -354,40 +364,6 @@ fn open_loop(
     let parts = (&quotient, dead_time.as_ref());
     let functions = budget.enter(|| LoopFunctions::new(parts, &undefined, rule, alpha))?;
     Ok((table.with("alpha", Definition::Algebraic(number_asked(rule))), Asks::OpenLoop(functions)))
-}
-
-/// The dead time of the one factor of an open loop that has it, which is divided away; `None` of a loop without.
-///
-/// # Errors
-/// Refused where the dead time is elsewhere, or beside other functions.
-fn dead_time(
-    quotient: &mut Quotient<MultiPoly>,
-    undefined: &MultiPoly,
-    symbols: &Symbols,
-) -> Result<Option<RationalFunction>, Error> {
-    let delays = symbols.delays();
-    if delays.is_empty() {
-        return Ok(None);
-    }
-    if symbols.iter().count() > delays.len() {
-        return Err(BESIDE_DEAD_TIME.diagnostic(&[]).into());
-    }
-    let mut total = RationalFunction::zero();
-    let mut factor = MultiPoly::one();
-    for (variable, time) in &delays {
-        let powers = quotient.numerator.coeffs().iter().flat_map(MultiPoly::terms).map(|(m, _)| m.exponent(*variable));
-        for _ in 0..powers.min().unwrap_or(0) {
-            total = &total + time;
-            factor = factor.times(&MultiPoly::variable(*variable));
-        }
-    }
-    quotient.numerator = quotient.numerator.map(|c| c.div_exact(&factor).expect("each term has the factor"));
-    let all = quotient.numerator.coeffs().iter().chain(quotient.denominator.coeffs()).chain([undefined]);
-    let has_delay = |p: &MultiPoly| delays.iter().any(|(variable, _)| p.degree_in(*variable) > 0);
-    if all.into_iter().any(has_delay) {
-        return Err(ONE_FACTOR.diagnostic(&[]).into());
-    }
-    Ok(Some(total))
 }
 
 /// The total degree in the first variables.

@@ -165,6 +165,8 @@ impl RequirementBoxes {
             (OverPoints::All, _) => Ok(Some(true)),
             (OverPoints::None, _) => Ok(Some(false)),
             (OverPoints::Open { middle }, Asked::Stability(_)) => Ok(middle),
+            // Margins with dead time take long just where the look tells nothing.
+            (OverPoints::Open { .. }, Asked::Requirement { .. }) if self.over.has_dead_time() => Ok(None),
             (OverPoints::Open { .. }, Asked::Requirement { one, at }) => self.is_met(point, one, at.as_deref(), budget),
         }
     }

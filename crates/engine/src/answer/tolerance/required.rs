@@ -53,6 +53,13 @@ impl Problem {
             let boxes = RequirementBoxes::of(self, requirement, at, &asked.nominal(), budget)?;
             let boxes = boxes.ok_or_else(|| not_over_a_box(requirement, "ask 'verdict' at points"))?;
             let family = RequiredFamily::new(boxes, sides.len(), budget);
+            // A point whose margins are not told is no witness.
+            let told = |point: &[Rational]| match breaks(point) {
+                Err(Error::Stopped(stopped)) if stopped.stop.is_precision() => Ok(None),
+                told => told,
+            };
+            let found = RequiredBox::new(requirement);
+            let mut asked = BoxAsked { sides, request, most, breaks: &told, budget, found };
             asked.add(&family, sides.to_vec())?;
             return Ok(asked.found);
         }
