@@ -39,6 +39,7 @@ mod models {
 /// Whole loops in one parameter, beyond what the corpus says of them.
 mod loops {
     mod circles;
+    mod clocks;
     mod corridor;
     mod dead_time;
     mod dead_time_margins;

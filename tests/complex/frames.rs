@@ -13,6 +13,8 @@ struct Machine {
     l: f64,
     gain: f64,
     integral: f64,
+    /// From one axis into the other. With it a frame that turns the other way is no mirror image.
+    cross: f64,
     speed: f64,
     samples: usize,
     fraction: f64,
@@ -28,6 +30,7 @@ impl Machine {
             l: pick(&[0.5, 1.0, 1.5]),
             gain: pick(&[0.25, 0.5, 0.75]),
             integral: pick(&[0.0, 0.0625, 0.125]),
+            cross: pick(&[-0.25, 0.0, 0.25]),
             speed: pick(&[-0.75, -0.25, 0.125, 0.5, 1.0, 1.5]),
             samples: random.below(2),
             fraction: [0.0, 0.25, 0.5][random.below(3)],
@@ -37,11 +40,11 @@ impl Machine {
 
     /// One sample lasts one unit of time.
     fn text(&self, block: &str) -> String {
-        let Machine { r, l, gain, integral, speed, .. } = self;
+        let Machine { r, l, gain, integral, cross, speed, .. } = self;
         format!(
             "time = 'discrete'\nsample_time = 1\n[constants]\nR = {r}\nL = {l}\nI = {integral}\n[parameters]\nK = {{ nominal = {gain}, min = 0, \
              max = 3 }}\nw = {{ nominal = {speed}, min = -3, max = 3 }}\n[loop]\ninputs = ['r']\noutputs = ['i']\n[[block]]\ninput = 'r - i'\n\
-             output = 'u'\ntransfer = 'K + I/(z - 1)'\n[[block]]\ninput = 'u'\noutput = 'i'\n{block}\n"
+             output = 'u'\ntransfer = 'K + I/(z - 1) + j*({cross})'\n[[block]]\ninput = 'u'\noutput = 'i'\n{block}\n"
         )
     }
 
@@ -84,7 +87,8 @@ impl Machine {
         let mut d = times(&[-one, one], &[C::from(-phi), e]);
         (0..m).for_each(|_| d = times(&d, &[C::default(), e]));
         let held = if f > 0.0 { vec![C::from(early), e * now] } else { vec![C::from(now)] };
-        let controller = [C::from(self.integral - gain), C::from(gain)];
+        let own = C::new(gain, self.cross);
+        let controller = [C::from(self.integral) - own, own];
         let n = times(&controller, &held);
         n.iter().enumerate().for_each(|(k, c)| d[k] += turn(self.advance * speed) * c);
         while d.len() > 1 {

@@ -109,6 +109,18 @@ fn a_root_that_touches_the_circle() {
     assert!(!answer.value().contains(&0.into()));
 }
 
+/// A real factor has its roots in pairs, beside a root that comes alone.
+#[test]
+fn a_pair_of_a_real_factor() {
+    let text = "time = 'discrete'\n[parameters]\nK = 0.3\n[loop]\ncharacteristic = '(z^2 - z + K)*(z - j*K/3)'\n";
+    let found = ends(&set(text, "K", &[]), 6);
+    assert_eq!((found[0].0.as_str(), found[0].1.as_str()), ("0", "z=1"));
+    assert_eq!(found[1], ("1".to_owned(), "complex pair".to_owned(), Some("1.047198".to_owned())));
+    // The root that is alone is the first to leave.
+    let found = ends(&set(&text.replace("j*K/3", "j*K*2"), "K", &[]), 6);
+    assert_eq!(found[1], ("0.5".to_owned(), "complex root".to_owned(), Some("1.570796".to_owned())));
+}
+
 /// Counts are those of the loop's own roots.
 #[test]
 fn counts_of_roots() {

@@ -191,6 +191,7 @@ fn made_discrete(model: &Model, d: &Discretization) -> String {
     add("factor", &d.factor);
     add("exact at", &d.prewarp);
     add("dead time", &d.delay);
+    add("commands turned ahead by", &d.advance);
     text
 }
 
@@ -296,6 +297,20 @@ mod tests {
         assert_eq!(comment_at(&model, model.parameters()[0].span), "");
         let html = section(&model.ask());
         assert!(html.contains("gain # 1") && html.contains("'#' two"), "{html}");
+    }
+
+    #[test]
+    fn a_frame_and_its_angle_are_in_the_table() {
+        let text = "time = 'discrete'\nsample_time = 1\n[parameters]\nw = 1\n[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\n\
+                    name = 'motor'\ninput = 'r - y'\noutput = 'y'\ntransfer = '1/(s + 1)'\n\
+                    discretize = { method = 'zoh', frame = 'w', delay = 1, advance = '2*w' }\n";
+        let html = section(&Model::from_toml(&Source::new("m.toml", text)).unwrap().0.ask());
+        assert!(
+            html.contains("in the frame of <i>w</i>, sample time 1, dead time 1, commands turned ahead by 2"),
+            "{html}"
+        );
+        let still = text.replace("frame = 'w'", "frame = 0");
+        assert!(!section(&Model::from_toml(&Source::new("m.toml", still)).unwrap().0.ask()).contains("in the frame"));
     }
 
     #[test]

@@ -3,11 +3,11 @@
 use super::discretization::{Edges, Method};
 use super::expectation::Expectation;
 use super::shipping::Shipping;
-use super::text::Expression;
+use super::text::{Expression, Node};
 use super::tolerance::Tolerance;
 use super::tuning::Tuning;
 use crate::error::{Source, Span};
-use jurist_algebra::number::Rational;
+use jurist_algebra::number::{Rational, parse_number, to_decimal};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -341,22 +341,40 @@ pub struct Discretization {
 }
 
 impl Discretization {
-    /// The method in words, with what a modulator's pulses are: `PWM, trailing edge, duty 1/2`.
+    /// The method in words, with what a modulator's pulses are, `PWM, trailing edge, duty 0.41`, and the frame in which a held block stands:
+    /// `zero-order hold in the frame of omega_e`.
     ///
     /// ```
     /// use jurist_engine::error::Source;
     /// use jurist_engine::model::{Form, Model};
     /// let text = "time = 'discrete'\nsample_time = 1\n[parameters]\nK = 1\n[loop]\n[[block]]\ninput = '-K*y'\noutput = 'y'\n\
-    ///     transfer = '1/s'\ndiscretize = { method = 'pwm', edge = 'trailing', duty = 0.5 }\n";
-    /// let (model, _) = Model::from_toml(&Source::new("loop.toml", text)).unwrap();
-    /// let Form::Blocks(diagram) = model.form() else { panic!() };
-    /// assert_eq!(diagram.blocks[0].discretization.as_ref().unwrap().words(), "PWM, trailing edge, duty 1/2");
+    ///     transfer = '1/s'\ndiscretize = { method = 'pwm', edge = 'trailing', duty = 0.41 }\n";
+    /// let words = |text: &str| {
+    ///     let (model, _) = Model::from_toml(&Source::new("loop.toml", text)).unwrap();
+    ///     let Form::Blocks(diagram) = model.form() else { panic!() };
+    ///     diagram.blocks[0].discretization.as_ref().unwrap().words()
+    /// };
+    /// assert_eq!(words(text), "PWM, trailing edge, duty 0.41");
+    /// assert_eq!(words(&text.replace("0.41", "'K/3'")), "PWM, trailing edge, duty K/3");
+    /// let turning = text.replace("method = 'pwm', edge = 'trailing', duty = 0.41", "method = 'zoh', frame = 'K'");
+    /// assert_eq!(words(&turning), "zero-order hold in the frame of K");
     /// ```
     pub fn words(&self) -> String {
-        let Some(pulses) = &self.pulses else { return self.method.words.to_owned() };
+        let method = self.method.words;
+        let Some(pulses) = &self.pulses else {
+            let turns =
+                self.frame.as_ref().filter(|speed| !matches!(&speed.node, Node::Number(zero) if zero.is_zero()));
+            return turns.map_or(method.to_owned(), |speed| format!("{method} in the frame of {speed}"));
+        };
+        // A number as a decimal where it is a short one.
+        let decimal = |duty: &Expression| match &duty.node {
+            Node::Number(value) => Some(to_decimal(value, 15)).filter(|d| parse_number(d).as_ref() == Ok(value)),
+            _ => None,
+        };
+        let text = |duty: &Expression| decimal(duty).unwrap_or_else(|| duty.to_string());
         let mut edges: Vec<&str> = pulses.edges.iter().map(|edges| edges.map_or("held", |edges| edges.words)).collect();
         edges.dedup();
-        let mut duties: Vec<String> = pulses.duties.iter().map(ToString::to_string).collect();
+        let mut duties: Vec<String> = pulses.duties.iter().map(text).collect();
         duties.dedup();
         format!("PWM, {}, duty {}", edges.join("; "), duties.join("; "))
     }
