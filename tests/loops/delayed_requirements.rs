@@ -70,6 +70,13 @@ fn an_end_at_the_frequency_zero_is_exact() {
     let twice = stable.intervals()[0].upper.as_ref().unwrap().value.refined_to_digits(30).enclosure();
     let half = upper.refined_to_digits(25).enclosure();
     assert!(&half.0 * &number("2") <= twice.1 && twice.0 <= &half.1 * &number("2"));
+    // At frequency 0 the distance to -1 is K - 1, and it is the least one there.
+    let found = set(&model, &[Requirement::modulus_margin(number("1/2")).unwrap()]);
+    let RequiredEnd::Requirement { value, closed, .. } = found.intervals[0].lower.as_ref().unwrap() else {
+        panic!("stability")
+    };
+    assert!(found.undecided.is_empty() && *closed);
+    assert_eq!(value.exact(), Some(number("3/2")));
 }
 
 /// On both sides of each end, and at chance.

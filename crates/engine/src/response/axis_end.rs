@@ -140,15 +140,65 @@ impl AxisSystem {
         Some(Some(enclosed(NAME, attempt)))
     }
 
-    /// That end where the factor that is required is rational: `k N(0) = -D(0)` for it or its reciprocal.
+    /// The same of a distance to a circle that is least at the frequency 0 among those up to another one.
+    pub fn only_least_at_zero(
+        self,
+        last: &Rational,
+        side: &[Rational; 2],
+        between: [&Rational; 2],
+    ) -> Option<Option<Real>> {
+        let is_distance = matches!(self.functions.rule(), Rule::Circle(_));
+        (is_distance && self.rises(last, side)?).then(|| self.only_end_at_zero(side, between)).flatten()
+    }
+
+    /// Whether the distance rises with the frequency, from 0 to this one: its derivative by the square of the frequency is positive.
+    fn rises(&self, last: &Rational, side: &[Rational; 2]) -> Option<bool> {
+        let bits = BITS + (&side[1] - &side[0]).denominator().bit_length();
+        let (functions, [tau, _]) = self.functions(&Ball::between(&side[0], &side[1], bits))?;
+        let square = Ball::between(&Rational::ZERO, &(last * last), bits);
+        let one = Ball::from_integer(&Integer::ONE, bits);
+        let angle = tau.mul(&Ball::between(&Rational::ZERO, last, bits));
+        // cos x is from 1 - x^2/2 to 1, and sin(x)/x from 1 - x^2/6.
+        let below = |n: u64| one.sub(&angle.square().divided_by(n)).union(&one);
+        let (cosine, quotient) = (below(2), below(6).mul(&tau));
+        // The derivatives of cos(tau u) and sin(tau u)/u by u^2 are -tau/2 sin(tau u)/u, and not beyond tau^3/6.
+        let cosine_by = tau.mul(&quotient).divided_by(2).neg();
+        let cube = tau.mul(&tau.square()).divided_by(6);
+        let quotient_by = cube.neg().union(&cube);
+        let [p, c, s] = functions.signs.first()?;
+        let even = |list: &[Series]| -> [Ball; 2] {
+            let all: Vec<&Ball> = list.iter().step_by(2).map(value).collect();
+            let zero = || Ball::zero(bits);
+            all.iter().rev().fold([zero(), zero()], |[a, b], x| [a.mul(&square).add(x), b.mul(&square).add(&a)])
+        };
+        if [p, c, s].iter().any(|list| list.iter().skip(1).step_by(2).any(|x| !Coefficient::is_zero(x))) {
+            return None;
+        }
+        let [[_, p], [c, c_by], [s, s_by]] = [p, c, s].map(|list| even(list));
+        let slope = p.add(&c_by.mul(&cosine)).add(&c.mul(&cosine_by));
+        let slope = slope.add(&s_by.mul(&quotient)).add(&s.mul(&quotient_by));
+        Some(slope.sign().is_some_and(|sign| sign.is_gt()))
+    }
+
+    /// That end where what is required is rational. Of a factor `k N(0) = -D(0)` for it or its reciprocal; of a circle `q |D + N| = p |u D + v N|` at 0.
     fn exact_at_zero(&self, [lower, upper]: [&Rational; 2]) -> Option<Real> {
-        let Rule::Factors(factor) = self.functions.rule() else { return None };
-        let factor = Real::from(factor.clone()).exact()?;
         let parts = self.functions.split(&self.functions.all)?;
         let [d, n] = [&parts.denominator[0], &parts.numerator[0].times(parts.content)].map(|p| p.to_univariate(0));
         let (d, n) = (d?, n?);
-        let (p, q) = (factor.numerator(), factor.denominator());
-        let both = [d.scaled(&q).plus(&n.scaled(&p)), d.scaled(&p).plus(&n.scaled(&q))];
+        let sum = |a: &Integer, b: &Integer| d.scaled(a).plus(&n.scaled(b));
+        let both = match self.functions.rule() {
+            Rule::Factors(factor) => {
+                let factor = Real::from(factor.clone()).exact()?;
+                let (p, q) = (factor.numerator(), factor.denominator());
+                [sum(&q, &p), sum(&p, &q)]
+            }
+            Rule::Circle(circle) => {
+                let [u, v] = circle.combined().map(Integer::from);
+                let (p, q) = (circle.least().numerator(), circle.least().denominator());
+                [&p, &-&p].map(|p| sum(&(&q + &(p * &u)), &(&q + &(p * &v))))
+            }
+            _ => return None,
+        };
         let range = Range::between(Some(lower.clone()), Some(upper.clone()));
         let mut zeros = Vec::new();
         for f in both.iter().filter(|f| !f.is_constant()) {

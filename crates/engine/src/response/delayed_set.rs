@@ -144,8 +144,12 @@ impl DelayedSet<'_> {
         budget.step("requirements for intervals of the parameter");
         let mut open: Vec<OpenPart> = Vec::new();
         let look = |Octaves(part): &mut Octaves, tally: Tally| {
-            budget.advance(tally.looks() as u64, MOST_PIECES as u64);
+            budget.advance(tally.looks().min(MOST_PIECES) as u64, MOST_PIECES as u64);
             let [lower, upper] = &part.sides[0];
+            if tally.looks() >= MOST_PIECES {
+                open.push(OpenPart { lower: lower.clone(), upper: upper.clone(), end: None });
+                return Ok(Look::Decided(()));
+            }
             let told = self.certain(lower, upper)?;
             if told.is_some() {
                 return Ok(Look::<(), ()>::Decided(()));
@@ -157,7 +161,7 @@ impl DelayedSet<'_> {
                     found => found.flatten(),
                 },
             };
-            if end.is_none() && tally.looks() < MOST_PIECES && part.halvings[0] < MOST_HALVINGS {
+            if end.is_none() && part.halvings[0] < MOST_HALVINGS {
                 return Ok(Look::Cut(0));
             }
             open.push(OpenPart { lower: lower.clone(), upper: upper.clone(), end });
@@ -204,10 +208,25 @@ impl DelayedSet<'_> {
 
     /// The names of what is not met at a stable value.
     fn unmet(&self, value: &Rational) -> Result<Vec<&'static str>, Error> {
-        let name = self.problem.free()[0].name.clone();
-        let question = self.problem.model().ask().set_all(self.problem.set().to_vec()).set(name, value.clone());
-        let met = question.problem()?.requirements_met(self.requirements, self.at, self.budget)?;
-        Ok(met.iter().filter(|found| !found.met).map(|found| found.requirement.name()).collect())
+        let side = [[value.clone(), value.clone()]];
+        let mut unmet = Vec::new();
+        for (boxes, requirement) in self.boxes.iter().zip(self.requirements) {
+            let is_met = match boxes.look(&side, self.budget)? {
+                OverPoints::All => true,
+                OverPoints::None => false,
+                OverPoints::Open { .. } => {
+                    let name = self.problem.free()[0].name.clone();
+                    let question = self.problem.model().ask().set_all(self.problem.set().to_vec());
+                    let problem = question.set(name, value.clone()).problem()?;
+                    let met = problem.requirements_met(std::slice::from_ref(requirement), self.at, self.budget)?;
+                    met.iter().all(|found| found.met)
+                }
+            };
+            if !is_met {
+                unmet.push(requirement.name());
+            }
+        }
+        Ok(unmet)
     }
 
     /// Whether at an end beyond which these are not met they are met yet: a gain margin asks for stability at its own ends too.

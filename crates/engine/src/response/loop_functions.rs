@@ -93,11 +93,15 @@ impl LoopFunctions {
 
     /// The octave of a frequency beyond which the open loop is small enough in a box, from a known one on; `None` where there is none.
     pub fn octave_from(&self, values: &[MultiTaylorModel], octave: i64) -> Option<i64> {
-        self.asked_on_axis(values, octave).map(|(_, octave)| octave)
+        self.asked_up_to(values, octave, MOST_AT_FIRST).map(|(_, octave)| octave)
     }
 
     /// What is asked along the axis, and the octave of the frequency up to which it is asked in full.
     pub fn asked_on_axis(&self, values: &[MultiTaylorModel], octave: i64) -> Option<(Asked<AlongAxis>, i64)> {
+        self.asked_up_to(values, octave, MOST_OCTAVES)
+    }
+
+    fn asked_up_to(&self, values: &[MultiTaylorModel], octave: i64, most: u64) -> Option<(Asked<AlongAxis>, i64)> {
         let Values { denominator, numerator, content, alpha, dead_time, .. } = self.values(values)?;
         let [above, below] = dead_time?;
         let time = above.div(below)?;
@@ -106,7 +110,7 @@ impl LoopFunctions {
         let unit = Ball::from_integer(&Integer::ONE, time.bits()).shifted(octave);
         let time = time.mul(&time.constant(&unit));
         let products = OnAxis::new(&d, &n, content);
-        (0..MOST_OCTAVES).find_map(|more| {
+        (0..most).find_map(|more| {
             let turn = Turn::new(&time.scaled(&(Integer::ONE << more)).affine());
             let functions = Functions::of(&self.rule, &products, alpha);
             let asked = Asked::of(functions, |all| OnAxis::along(all, more, turn));
@@ -136,8 +140,9 @@ impl LoopFunctions {
     }
 }
 
-/// The frequency beyond which nothing turns that matters is raised by so many octaves at most.
-const MOST_OCTAVES: u64 = 32;
+/// The frequency beyond which nothing turns that matters is raised by so many octaves at most: at the first point, and from there.
+const MOST_AT_FIRST: u64 = 40;
+const MOST_OCTAVES: u64 = 12;
 
 /// The number that a rule asks for; zero where that is part of the rule.
 pub(super) fn number_asked(rule: &Rule) -> RealAlgebraic {

@@ -229,12 +229,16 @@ impl OverBox {
         };
         let system = AxisSystem::new(&self.symbols, functions, octave);
         let [[from, to]] = match (asked.are_ends_allowed(), &pieces[..]) {
+            ([true, true], [[from, to]]) if from.is_zero() => {
+                let last = to * &Rational::dyadic(&Integer::ONE, 1);
+                return system.only_least_at_zero(&last, &wider(side), [lower, upper]);
+            }
             ([true, true], [one]) => [one],
-            ([false, true], []) => return system.only_end_at_zero(&wider(side.clone()), [lower, upper]),
+            ([false, true], []) => return system.only_end_at_zero(&wider(side), [lower, upper]),
             _ => return None,
         };
         let two = Rational::from(2);
-        if from.is_zero() || *to > two {
+        if *to > two {
             return None;
         }
         // Frequencies from 0 to 1 are y/2, and a zero at an end of the box is to be inside.
