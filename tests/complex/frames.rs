@@ -151,3 +151,25 @@ fn limits_are_those_of_the_transfer_function_written_out() {
     }
     assert!(ends > 20 && moving > 8, "{ends} ends, {moving} of them speeds");
 }
+
+/// A command that is turned by two right angles more has the other sign: both are functions of one angle, whether the turn is written or the sign.
+#[test]
+fn a_command_turned_by_right_angles_more_has_another_sign() {
+    let text = |gain: &str, more: &str| {
+        format!(
+            "time = 'discrete'\nsample_time = 'T'\n[parameters]\nK = 1\nw = -7\nT = 0.1\n[loop]\ninputs = ['r']\noutputs = ['i']\n[[block]]\n\
+             input = 'r - i'\noutput = 'u'\ntransfer = '{gain}'\n[[block]]\ninput = 'u'\noutput = 'i'\ntransfer = '1/(s + 2)'\n\
+             discretize = {{ method = 'zoh', frame = 'w', delay = 'T/2', advance = 'w*T{more}' }}\n"
+        )
+    };
+    let ends = |gain: &str, more: &str| {
+        let set = read(&text(gain, more)).ask().free("K").problem().unwrap().stable_set(&Budget::unlimited()).unwrap();
+        let all = set.value().intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten();
+        all.map(|end| end.value.decimal(20)).collect::<Vec<String>>()
+    };
+    let known = ends("-K", "");
+    assert!(!known.is_empty());
+    assert_eq!(ends("K", " + pi"), known);
+    assert_eq!(ends("K", " - 3*pi"), known);
+    assert_eq!(ends("j*K", " + pi/2"), known);
+}

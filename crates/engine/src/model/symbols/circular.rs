@@ -41,6 +41,12 @@ impl Symbols {
     pub(super) fn circular(&mut self, function: Function, x: RationalFunction) -> Option<RationalFunction> {
         let (sine, cosine) = match self.multiple_of_pi(&x) {
             Some(turns) => self.at_multiple_of_pi(&turns)?,
+            None if let Some((quarters, rest)) = self.beside_right_angles(&x) => {
+                // Two symbols for one angle and the same one turned would not be known to belong together.
+                let sine = self.circular(Function::Sin, rest.clone())?;
+                let cosine = self.circular(Function::Cos, rest)?;
+                turned_by(quarters, (sine, cosine))
+            }
             None if self.moves(&x) => {
                 // A tangent would leave the line where the angle passes a right one.
                 let circle = [1.into(), RationalFunction::zero(), 1.into()].to_vec();
@@ -119,12 +125,33 @@ impl Symbols {
                 half_angle(&t)?
             }
         };
-        Some(match quadrant {
-            0 => (sine, cosine),
-            1 => (cosine, -sine),
-            2 => (-sine, -cosine),
-            _ => (-cosine, sine),
-        })
+        Some(turned_by(quadrant, (sine, cosine)))
+    }
+
+    /// `x` as a number of right angles, not a multiple of four of them, and what is left.
+    fn beside_right_angles(&self, x: &RationalFunction) -> Option<(i64, RationalFunction)> {
+        let at = self.table.iter().position(|s| s.definition() == Some(&Definition::Pi))?;
+        let pi = RationalFunction::variable(self.kept.len() + at);
+        let coefficients = x.numerator().as_poly_in(self.kept.len() + at).into_coeffs();
+        let [_, slope] = &coefficients[..] else { return None };
+        let slope = RationalFunction::new(slope.clone(), x.denominator().clone())?.as_constant()?;
+        let quarters = &slope * &Rational::from(2);
+        let rest = x - &(&pi * &RationalFunction::from(slope));
+        let quarters = quarters.is_integer().then(|| quarters.floor())?;
+        Some((quarters.div_mod_floor(&Integer::from(4)).1.to_i64()?, rest))
+    }
+}
+
+/// Sine and cosine of an angle and so many right ones, from 0 to 3.
+fn turned_by(
+    quarters: i64,
+    (sine, cosine): (RationalFunction, RationalFunction),
+) -> (RationalFunction, RationalFunction) {
+    match quarters {
+        0 => (sine, cosine),
+        1 => (cosine, -sine),
+        2 => (-sine, -cosine),
+        _ => (-cosine, sine),
     }
 }
 
