@@ -323,3 +323,17 @@ fn a_requirement_over_a_sample_time_ends_where_there_is_no_loop() {
     assert!(factor.lower < end && &end - &factor.lower < number("1/100"), "{}", factor.lower);
     assert!(answer.value().decision.is_stable());
 }
+
+/// A gain and a dead time: the factor is told to a part in ten thousand, with a point at which the margin is less.
+#[test]
+fn a_gain_and_a_dead_time_shrink_to_where_a_margin_ends() {
+    let model = example("dead-time-pi");
+    for (name, text, least) in [("phase_margin", "40", "1.2"), ("modulus_margin", "0.5", "0.44")] {
+        let request = ToleranceRequest::new(["K_c", "theta"].map(|name| (name, "10%".parse().unwrap())));
+        let answer = asked(&model, &request.require([requirement(&model, name, text)], None));
+        let factor = answer.value().factor.as_ref().unwrap();
+        let upper = factor.upper.as_ref().unwrap();
+        assert!(factor.lower > number(least) && *upper < &factor.lower * &number("1.0002"), "{} {upper}", factor.lower);
+        assert!(factor.witness.is_some(), "{name}");
+    }
+}

@@ -150,9 +150,10 @@ impl OverBox {
         OverBox::new(symbols, problem.shape(), Asks::Stable { coefficients, divisors }, near, budget).map(Some)
     }
 
-    /// Whether the open loop that is asked has dead time.
-    pub fn has_dead_time(&self) -> bool {
-        matches!(&self.asks, Asks::OpenLoop(functions) if functions.has_dead_time())
+    /// Whether a distance to a circle is asked of an open loop with dead time.
+    pub fn is_distance_with_dead_time(&self) -> bool {
+        let Asks::OpenLoop(functions) = &self.asks else { return false };
+        functions.has_dead_time() && matches!(functions.rule(), Rule::Circle(_))
     }
 
     /// What is known of all points of a closed box whose points are stable; `None` where nothing is.

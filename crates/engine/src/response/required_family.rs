@@ -43,8 +43,13 @@ impl<'a> RequiredFamily<'a> {
 
     /// Whether a point is seen to meet the requirement. A budget that runs out is noticed by who asks next.
     fn meets(&self, point: &[Rational]) -> bool {
+        self.told(point) == Some(true)
+    }
+
+    /// Whether a point meets the requirement, where that is seen.
+    fn told(&self, point: &[Rational]) -> Option<bool> {
         checkpoint(WORK);
-        matches!(self.boxes.meets(point, self.budget), Ok(Some(true)))
+        self.boxes.meets(point, self.budget).ok().flatten()
     }
 }
 
@@ -103,7 +108,7 @@ impl Family for RequiredFamily<'_> {
                 OverPoints::Open { .. } => {}
             }
             let is_last = tally.cells() >= most;
-            if (is_last || tally.halved.is_multiple_of(TESTED_EVERY)) && !self.meets(&middle()) {
+            if (is_last || tally.halved.is_multiple_of(TESTED_EVERY)) && self.told(&middle()) == Some(false) {
                 return Ok(Look::Open(Outcome::Refuted(middle())));
             }
             let is_wide = |i: &usize| part.sides[*i][0] < part.sides[*i][1] && part.halvings[*i] < MOST_HALVINGS;

@@ -73,6 +73,9 @@ enum Asked {
 /// So often 1 is halved, or the loop's own frequency: regions that are wider by this are asked where the region of stability itself tells nothing.
 const HALVINGS: [u32; 6] = [0, 2, 4, 6, 8, 10];
 
+/// Work for the least distance to a circle at one point of a loop with dead time: a few of the usual ones.
+const DISTANCE_WORK: u64 = 3_000_000;
+
 /// In so many places between the region of stability and a root it is asked whether the count of roots beyond is the same in a box.
 const OTHERS: u64 = 3;
 
@@ -165,8 +168,14 @@ impl RequirementBoxes {
             (OverPoints::All, _) => Ok(Some(true)),
             (OverPoints::None, _) => Ok(Some(false)),
             (OverPoints::Open { middle }, Asked::Stability(_)) => Ok(middle),
-            // Margins with dead time take long just where the look tells nothing.
-            (OverPoints::Open { .. }, Asked::Requirement { .. }) if self.over.has_dead_time() => Ok(None),
+            (OverPoints::Open { .. }, Asked::Requirement { one, at }) if self.over.is_distance_with_dead_time() => {
+                // Near to a touch it takes long, and may not be told.
+                let part = budget.clone().within_work(DISTANCE_WORK);
+                match self.is_met(point, one, at.as_deref(), &part) {
+                    Err(_) if budget.check().is_ok() => Ok(None),
+                    told => told,
+                }
+            }
             (OverPoints::Open { .. }, Asked::Requirement { one, at }) => self.is_met(point, one, at.as_deref(), budget),
         }
     }
