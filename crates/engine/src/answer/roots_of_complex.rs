@@ -1,5 +1,6 @@
-//! The roots of a loop with complex coefficients. `D = g h` with the greatest factor `g` that has real coefficients. The roots of `g` come in
-//! pairs as ever. Those of `h conj(h)` come in pairs of which one is a root of `h`: it has none that is real, and none beside its conjugate.
+//! The roots of a loop with complex coefficients. `D = g h` with the greatest factor `g` that has real coefficients. The roots of `g` are real or
+//! conjugate pairs. No root of `h` is real, and no two roots of `h` are conjugate. So each conjugate pair of roots of `h conj(h)` contains exactly one
+//! root of `h`.
 
 use super::roots::discs;
 use crate::error::Error;

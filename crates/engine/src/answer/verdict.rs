@@ -106,7 +106,7 @@ impl PointVerdict {
         PointVerdict { verdict, undefined: None, degree, count: None, infinite: 0, delayed, drifts: false }
     }
 
-    /// The verdict on a complex loop, of which each root has been counted with its conjugate.
+    /// Halves all counts of a complex loop, in which each root was counted together with its conjugate.
     pub(crate) fn without_conjugates_if(self, is_complex: bool) -> PointVerdict {
         if !is_complex {
             return self;

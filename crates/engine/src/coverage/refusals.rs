@@ -70,7 +70,7 @@ const AT_A_POINT: &str = "ask 'verdict' with a value for every parameter";
 const OTHER_CERTIFICATES: &str = "known: loops behind a hold, or with prewarp, at times that are rational numbers, the dead time of a loop with one, a gain beside a fixed one; the answer is printed without it";
 const CERTIFIED_MAPS: &str = "exact maps have one where the loop is rational, the bound of its region a number, and stability all that is asked; with constants that are not rational maps by boxes have one: --method boxes";
 
-/// The refusal of what is not known of loops with complex coefficients.
+/// Refuses a question that the program cannot answer for a loop with complex coefficients.
 pub(crate) static COMPLEX: Refusal = Refusal::new(
     Code::Complex,
     "this cannot be asked of a loop with complex coefficients",

@@ -1,4 +1,5 @@
-//! The characteristic polynomial of a loop that may be complex, and the refusal of what is not known of such loops.
+//! Computes the characteristic polynomial of a loop whose coefficients may be complex, and refuses the questions that the program cannot answer for
+//! such loops.
 
 use super::closed_loop::{Answer, ClosedLoop, Evaluated, add_pole, merged, poles_in, substituted};
 use super::complex::ComplexPolynomial;

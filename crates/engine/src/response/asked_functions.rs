@@ -54,11 +54,7 @@ impl<C: Coefficient, const N: usize> Functions<C, N> {
     }
 
     fn without_upright(rule: &Rule, products: &impl Products<C, N>, alpha: &C) -> Functions<C, N> {
-        let sum = |p: &Function<C, N>, q: &Function<C, N>| -> Function<C, N> {
-            std::array::from_fn(|i| sum_of(&p[i], &q[i]))
-        };
         let times = |p: &Function<C, N>, c: &C| p.each_ref().map(|p| p.iter().map(|x| x.times(c)).collect());
-        let scaled = |p: &Function<C, N>, c: &Integer| p.each_ref().map(|p| p.iter().map(|x| x.scaled(c)).collect());
         match rule {
             Rule::Factors(_) => {
                 // 2 |D|^2 + k 2 Re(N conj D) at both ends of the factors.
@@ -111,10 +107,6 @@ impl<C: Coefficient, const N: usize> Functions<C, N> {
     fn beside(mut self, rule: &Rule, products: &impl Products<C, N>) -> Functions<C, N> {
         if let (true, Some(real), Some(most)) = (products.has_integrator(), products.real(), upright(rule)) {
             let imaginary = products.imaginary();
-            let scaled = |p: &Function<C, N>, c: &Integer| {
-                p.each_ref().map(|p| p.iter().map(|x| x.scaled(c)).collect::<Vec<C>>())
-            };
-            let sum = |p: &Function<C, N>, q: &Function<C, N>| std::array::from_fn(|i| sum_of(&p[i], &q[i]));
             let (wide, below) = (scaled(&imaginary, &most.numerator()), most.denominator());
             let both = [below.clone(), -below].map(|c| sum(&wide, &scaled(&real, &c)));
             self.upright = Functions::new(None, both.into(), Allows::Positive).signs;
@@ -149,6 +141,16 @@ fn upright(rule: &Rule) -> Option<Rational> {
 
 /// Bits of the number that is asked for.
 const UPRIGHT_BITS: u64 = 32;
+
+/// The sum of two functions.
+pub(super) fn sum<C: Coefficient, const N: usize>(f: &Function<C, N>, g: &Function<C, N>) -> Function<C, N> {
+    std::array::from_fn(|i| sum_of(&f[i], &g[i]))
+}
+
+/// A function times an integer.
+pub(super) fn scaled<C: Coefficient, const N: usize>(f: &Function<C, N>, by: &Integer) -> Function<C, N> {
+    f.each_ref().map(|p| p.iter().map(|c| c.scaled(by)).collect())
+}
 
 /// The sum of two polynomials.
 pub(super) fn sum_of<C: Coefficient>(p: &[C], q: &[C]) -> Vec<C> {

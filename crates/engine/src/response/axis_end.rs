@@ -63,6 +63,8 @@ pub(super) struct AxisSystem {
     octave: i64,
     /// Which of the signs reaches zero.
     sign: usize,
+    /// Whether it does so at the frequency 0, which does not move then.
+    is_at_zero: bool,
 }
 
 /// Ends of the frequency and of the parameter.
@@ -83,61 +85,48 @@ const STEPS: usize = 64;
 impl AxisSystem {
     /// Of the functions of a loop with dead time, in units of a frequency.
     pub fn new(symbols: &ParametricSymbols, functions: &LoopFunctions, octave: i64) -> AxisSystem {
-        AxisSystem { symbols: symbols.clone(), functions: functions.clone(), octave, sign: 0 }
+        AxisSystem { symbols: symbols.clone(), functions: functions.clone(), octave, sign: 0, is_at_zero: false }
     }
 
     /// The only value of the parameter in a box at which what is required changes, if it is the only one: on the box, crossings move along the
     /// frequency without turning back, and the edge of what is allowed comes nearer all the time, or goes away. The inner one is `None` where that value
     /// does not lie between two that are given.
     pub fn only_end(mut self, place: &Place, between: [&Rational; 2]) -> Option<Option<Real>> {
-        let bits = BITS + place.iter().map(|[lower, upper]| (upper - lower).denominator().bit_length()).max()?;
+        let bits = bits_in(place);
         let balls = place.each_ref().map(|[lower, upper]| Ball::between(lower, upper, bits));
-        let all = self.at(&balls)?;
-        let crosses = |f: &Local| f.own[0].contains_zero();
-        let mut signs = (0..all.1.len()).filter(|&k| crosses(&all.1[k]));
-        self.sign = signs.next().filter(|_| signs.next().is_none())?;
-        let is_steady = match &all.0 {
+        let (crossing, signs) = self.at(&balls)?;
+        self.sign = only_zero(signs.iter().map(|f| &f.own[0]))?;
+        let is_steady = match &crossing {
             Some(crossing) => !crossing.own[1].contains_zero(),
-            None => !all.1[self.sign].by_parameter[0].contains_zero(),
+            None => !signs[self.sign].by_parameter[0].contains_zero(),
         };
-        let (first, is_inside) = self.step(place, bits)?;
-        if !is_steady || !is_inside {
-            return None;
-        }
-        let near = self.narrowed(first.clone(), bits)?;
-        if near.upper() < between[0] || near.lower() > between[1] {
-            return Some(None);
-        }
-        if near.lower() < between[0] || near.upper() > between[1] {
-            return None;
-        }
-        let attempt = move |bits: u64| self.narrowed(first.clone(), bits);
-        Some(Some(enclosed(NAME, attempt)))
+        is_steady.then(|| self.found_in(place, between)).flatten()
     }
 
     /// The same of what is required at the frequency 0, where the open loop is real.
     pub fn only_end_at_zero(mut self, side: &[Rational; 2], between: [&Rational; 2]) -> Option<Option<Real>> {
-        let bits = BITS + (&side[1] - &side[0]).denominator().bit_length();
-        let over = self.at_zero(&Ball::between(&side[0], &side[1], bits))?;
-        let mut signs = (0..over.len()).filter(|&k| over[k][0].contains_zero());
-        self.sign = signs.next().filter(|_| signs.next().is_none())?;
+        let place = [[Rational::ZERO, Rational::ZERO], side.clone()];
+        let signs = self.at_zero(&Ball::between(&side[0], &side[1], bits_in(&place)))?;
+        self.sign = only_zero(signs.iter().map(|[value, _]| value))?;
+        self.is_at_zero = true;
         // The Newton step divides by the slope, which has no zero then.
-        let (first, is_inside) = self.step_at_zero(side, bits)?;
-        if !is_inside {
-            return None;
-        }
-        let near = self.narrowed_at_zero(first.clone(), bits)?;
+        self.found_in(&place, between)
+    }
+
+    /// The zero in a box that has one at most, where a step proves that there is one.
+    fn found_in(self, place: &Place, between: [&Rational; 2]) -> Option<Option<Real>> {
+        let bits = bits_in(place);
+        let (first, is_inside) = self.step(place, bits)?;
+        let near = self.narrowed(first.clone(), bits).filter(|_| is_inside)?;
         if near.upper() < between[0] || near.lower() > between[1] {
             return Some(None);
         }
         if near.lower() < between[0] || near.upper() > between[1] {
             return None;
         }
-        if let Some(exact) = self.exact_at_zero(between) {
-            return Some(Some(exact));
-        }
-        let attempt = move |bits: u64| self.narrowed_at_zero(first.clone(), bits);
-        Some(Some(enclosed(NAME, attempt)))
+        let exact = if self.is_at_zero { self.exact_at_zero(between) } else { None };
+        let attempt = move |bits: u64| self.narrowed(first.clone(), bits);
+        Some(Some(exact.unwrap_or_else(|| enclosed(NAME, attempt))))
     }
 
     /// The same of a distance to a circle that is least at the frequency 0 among those up to another one.
@@ -153,7 +142,7 @@ impl AxisSystem {
 
     /// Whether the distance rises with the frequency, from 0 to this one: its derivative by the square of the frequency is positive.
     fn rises(&self, last: &Rational, side: &[Rational; 2]) -> Option<bool> {
-        let bits = BITS + (&side[1] - &side[0]).denominator().bit_length();
+        let bits = bits_in(&[[Rational::ZERO, last.clone()], side.clone()]);
         let (functions, [tau, _]) = self.functions(&Ball::between(&side[0], &side[1], bits))?;
         let square = Ball::between(&Rational::ZERO, &(last * last), bits);
         let one = Ball::from_integer(&Integer::ONE, bits);
@@ -207,29 +196,6 @@ impl AxisSystem {
         zeros.pop().filter(|_| zeros.is_empty()).map(Real::from)
     }
 
-    fn narrowed_at_zero(&self, mut side: [Rational; 2], bits: u64) -> Option<Enclosure> {
-        let goal = Rational::dyadic(&Integer::ONE, bits.saturating_sub(SPARE_BITS));
-        for _ in 0..STEPS {
-            let [lower, upper] = &side;
-            if upper - lower <= goal {
-                return Some(Enclosure::new(lower.clone(), upper.clone()));
-            }
-            side = self.step_at_zero(&side, bits + BITS)?.0;
-        }
-        None
-    }
-
-    fn step_at_zero(&self, side: &[Rational; 2], bits: u64) -> Option<([Rational; 2], bool)> {
-        let middle = side[0].midpoint(&side[1]);
-        let [_, slope] = self.at_zero(&Ball::between(&side[0], &side[1], bits))?.swap_remove(self.sign);
-        let [value, _] = self.at_zero(&Ball::from_rational(&middle, bits))?.swap_remove(self.sign);
-        let by = value.div(&slope)?;
-        let (lower, upper) = (&middle - &by.upper(), &middle - &by.lower());
-        let is_inside = lower > side[0] && upper < side[1];
-        let next = [lower.max(side[0].clone()), upper.min(side[1].clone())];
-        (next[0] <= next[1]).then_some((next, is_inside))
-    }
-
     /// The signs at the frequency 0, and their slopes.
     fn at_zero(&self, parameter: &Ball) -> Option<Vec<[Ball; 2]>> {
         let (functions, tau) = self.functions(parameter)?;
@@ -259,14 +225,10 @@ impl AxisSystem {
     fn step(&self, place: &Place, bits: u64) -> Option<(Place, bool)> {
         let over = place.each_ref().map(|[lower, upper]| Ball::between(lower, upper, bits));
         let middles = place.each_ref().map(|[lower, upper]| lower.midpoint(upper));
-        let at = middles.each_ref().map(|x| Ball::from_rational(x, bits));
-        let [[_, a, b], [_, c, d]] = self.system(&over)?;
-        let [[f, ..], [g, ..]] = self.system(&at)?;
-        let determinant = a.mul(&d).sub(&b.mul(&c));
-        let moves = [d.mul(&f).sub(&b.mul(&g)).div(&determinant)?, a.mul(&g).sub(&c.mul(&f)).div(&determinant)?];
+        let moves = self.moves(&over, &middles.each_ref().map(|x| Ball::from_rational(x, bits)))?;
         let mut is_inside = true;
         let mut next = place.clone();
-        for ((side, by), middle) in next.iter_mut().zip(&moves).zip(&middles) {
+        for ((side, by), middle) in next.iter_mut().zip(&moves).zip(&middles).skip(usize::from(self.is_at_zero)) {
             let (lower, upper) = (middle - &by.upper(), middle - &by.lower());
             is_inside &= lower > side[0] && upper < side[1];
             *side = [lower.max(side[0].clone()), upper.min(side[1].clone())];
@@ -275,6 +237,19 @@ impl AxisSystem {
             }
         }
         Some((next, is_inside))
+    }
+
+    /// How far the middle of a box is from the zero, in the frequency and in the parameter: the values there over the slopes in the box.
+    fn moves(&self, over: &[Ball; 2], at: &[Ball; 2]) -> Option<[Ball; 2]> {
+        if self.is_at_zero {
+            let [_, slope] = self.at_zero(&over[1])?.swap_remove(self.sign);
+            let [value, _] = self.at_zero(&at[1])?.swap_remove(self.sign);
+            return Some([Ball::zero(value.bits()), value.div(&slope)?]);
+        }
+        let [[_, a, b], [_, c, d]] = self.system(over)?;
+        let [[f, ..], [g, ..]] = self.system(at)?;
+        let determinant = a.mul(&d).sub(&b.mul(&c));
+        Some([d.mul(&f).sub(&b.mul(&g)).div(&determinant)?, a.mul(&g).sub(&c.mul(&f)).div(&determinant)?])
     }
 
     /// Both functions with their derivatives by the frequency and by the parameter.
@@ -317,6 +292,17 @@ impl AxisSystem {
         let functions = Functions::of(self.functions.rule(), &OnAxis::new(&d, &n, parts.content), parts.alpha);
         Some((functions, tau))
     }
+}
+
+/// The bits with which a zero in a box is looked for.
+fn bits_in(place: &Place) -> u64 {
+    BITS + place.iter().map(|[lower, upper]| (upper - lower).denominator().bit_length()).max().unwrap_or(0)
+}
+
+/// The number of the only enclosure that contains zero.
+fn only_zero<'b>(values: impl Iterator<Item = &'b Ball>) -> Option<usize> {
+    let mut zeros = values.enumerate().filter(|(_, value)| value.contains_zero()).map(|(k, _)| k);
+    zeros.next().filter(|_| zeros.next().is_none())
 }
 
 /// `cos(tau omega)`, `sin(tau omega)/omega` and their derivatives by the parameter.

@@ -1,9 +1,10 @@
 //! For which values of one parameter a loop with dead time meets requirements on margins.
 
 use super::cells::{beyond, inside_of, outward, parts_beside, required_parts};
+use super::over_symbols::{left_open, where_changed};
 use super::requirement::{Requirement, Rule};
 use super::requirement_boxes::{OverPoints, RequirementBoxes};
-use super::{RequiredEnd, RequiredSet, over_symbols::left_open};
+use super::{RequiredEnd, RequiredSet};
 use crate::coverage::refusals::DELAY_AT_POINTS;
 use crate::error::Error;
 use crate::problem::Problem;
@@ -73,6 +74,7 @@ impl Problem {
 }
 
 impl DelayedSet<'_> {
+    /// The parts of a stable interval in which all requirements are met.
     fn within(&self, interval: &StableInterval, found: &mut RequiredSet) -> Result<(), Error> {
         let nominal = self.problem.free()[0].nominal.as_ref();
         let (lower, upper) = (outward(&interval.lower, true), outward(&interval.upper, false));
@@ -119,9 +121,9 @@ impl DelayedSet<'_> {
         })
     }
 
+    /// A part in which it is not told where a requirement begins or ceases to be met.
     fn bracket(&self, lower: Option<Rational>, upper: Option<Rational>) -> UndecidedBracket {
-        let names: Vec<&str> = self.requirements.iter().map(Requirement::name).collect();
-        UndecidedBracket::new(lower, upper, format!("where {} begins or ceases to be met", names.join(" or ")))
+        UndecidedBracket::new(lower, upper, where_changed(self.requirements))
     }
 
     /// Whether all requirements are met by all values of a closed interval, or not all by any.

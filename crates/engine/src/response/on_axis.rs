@@ -2,7 +2,7 @@
 
 use super::along_axis::{AlongAxis, Turn};
 use super::along_circle::{Coefficient, NearlyLinear};
-use super::asked_functions::{Function, Products, sum_of};
+use super::asked_functions::{Function, Products, scaled, sum};
 use jurist_algebra::number::Integer;
 use std::sync::Arc;
 
@@ -81,11 +81,9 @@ impl<C: Coefficient> Products<C, 3> for OnAxis<C> {
     }
 
     fn combined(&self, u: &Integer, v: &Integer) -> Function<C, 3> {
-        let scaled = |f: Function<C, 3>, c: &Integer| f.map(|p| p.iter().map(|x| x.scaled(c)).collect::<Vec<C>>());
         let [below, above] = self.moduli();
-        let both = [scaled(below, &(u * u)), scaled(above, &(v * v)), scaled(self.twice_real(), &(&(u * v) << 1))];
-        let [first, second, third] = both;
-        std::array::from_fn(|i| sum_of(&sum_of(&first[i], &second[i]), &third[i]))
+        let squares = sum(&scaled(&below, &(u * u)), &scaled(&above, &(v * v)));
+        sum(&squares, &scaled(&self.twice_real(), &(&(u * v) << 1)))
     }
 
     fn has_integrator(&self) -> bool {

@@ -349,9 +349,14 @@ impl<'a> SymbolicFamily<'a> {
 
 /// A part of an interval as a bracket that stays undecided.
 pub(super) fn left_open(interval: &StableInterval, requirements: &[Requirement]) -> UndecidedBracket {
-    let names: Vec<&str> = requirements.iter().map(Requirement::name).collect();
-    let why = format!("where {} begins or ceases to be met", names.join(" or "));
+    let why = where_changed(requirements);
     UndecidedBracket::new(outward(&interval.lower, true), outward(&interval.upper, false), why)
+}
+
+/// What may happen in such a bracket.
+pub(super) fn where_changed(requirements: &[Requirement]) -> String {
+    let names: Vec<&str> = requirements.iter().map(Requirement::name).collect();
+    format!("where {} begins or ceases to be met", names.join(" or "))
 }
 
 /// Resultants of long open loops take minutes and much memory: after so much work what pieces of the interval leave open stays a bracket.

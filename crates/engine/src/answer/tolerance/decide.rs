@@ -387,7 +387,7 @@ fn refuse_beside_requirements(request: &ToleranceRequest) -> Result<(), Error> {
         _ if !request.factor => "a box alone, without its factor,",
         _ => return Ok(()),
     };
-    let help = "with requirements the largest factor is what is known: ask without '--only', '--limit' and '--volume', or leave out the requirements";
+    let help = "of a box with requirements the program finds the largest factor: leave out '--only', '--limit' and '--volume', or the requirements";
     let message = format!("{what} is not decided with requirements on margins, damping or settling");
     Err(Diagnostic::error(Code::Require, message).help(help).into())
 }
