@@ -116,3 +116,19 @@ fn a_number_beyond_which_a_loop_is_unstable_is_one() {
         assert!(!at.is_stable(parts[0].formal_degree()), "{factor}");
     }
 }
+
+/// The gain stands at two inputs of the plant: in each sample it is in two rows that no combination makes one.
+#[test]
+fn a_gain_at_two_inputs_has_the_set_of_the_exact_polynomial() {
+    let text = "time = 'discrete'\nsample_time = '1/4'\n[parameters]\nK = { nominal = 1, min = 0 }\n[loop]\ninputs = ['r']\noutputs = ['y']\n\
+        [[block]]\nname = 'slow'\ninput = 'r - y'\noutput = 'w'\ngain = 2\nevery = 2\n\
+        [[block]]\nname = 'first'\ninput = 'w - x'\noutput = 'u'\ngain = 'K'\n\
+        [[block]]\nname = 'second'\ninput = 'x - y'\noutput = 'v'\ngain = 'K'\n\
+        [[block]]\nname = 'plant'\ninput = ['u', 'v']\noutput = ['x', 'y']\nA = [[-1, '1/2'], [1, -2]]\nB = [[1, 0], [0, 1]]\n\
+        discretize = 'zoh'\n";
+    let (model, _) = Model::from_toml(&Source::new("model.toml", text)).unwrap();
+    let problem = model.ask().free("K").problem().unwrap();
+    let [own, exact] = both(&problem).expect("a loop of this form");
+    assert_eq!(own, exact);
+    assert_eq!(own.len(), 1);
+}
