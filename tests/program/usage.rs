@@ -336,7 +336,7 @@ fn refusals_say_what_to_do() {
     assert!(refused(&["-q", "verdict"]).contains("options stand behind their command: 'jurist verdict --quiet ...'"));
     // A box alone was what had been asked.
     let tolerance = refused(&["tolerance", "--only", "--phase-margin", "45deg", "--tol", "K_pwm=10%"]);
-    assert!(tolerance.contains("ask without '--only'") && !tolerance.contains("ask for the box alone"), "{tolerance}");
+    assert!(tolerance.contains("leave out '--only'") && !tolerance.contains("ask for the box alone"), "{tolerance}");
     for command in ["nyquist", "bode", "margins"] {
         let found = refused(&[command, "2*s + 1"]);
         assert!(found.contains("has no parameter that is a gain: write one"), "{command}: {found}");
