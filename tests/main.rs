@@ -45,6 +45,7 @@ mod loops {
     mod dead_time_margins;
     mod delayed_requirements;
     mod drive;
+    mod events_oracle;
     mod examples;
     mod held_margins;
     mod held_pictures;
@@ -54,6 +55,7 @@ mod loops {
     mod margins;
     mod paper;
     mod peaks;
+    mod pulsed_plant;
     mod pwm;
     mod pwm_oracle;
     pub(crate) mod rates;

@@ -165,10 +165,10 @@ impl Symbols {
         let working = bits + GUARD_BITS;
         let mut table = Values::new();
         for symbol in &self.table {
-            // Something has to stand in the place of what is no function; no function depends on it.
+            // Something that costs nothing has to stand in the place of what is no function; no function depends on it.
             let own = match &symbol.meaning {
                 Meaning::Constant(definition) => definition.clone(),
-                Meaning::Flow { .. } | Meaning::Value(_) => Definition::Pi,
+                Meaning::Flow { .. } | Meaning::Value(_) => Definition::exponential(0),
                 Meaning::Delay(_) => return None,
             };
             table.push(&symbol.name, own);
