@@ -5,8 +5,11 @@
 //! coefficients. `D(z; 0)` is the product of the polynomials of the parts that `A` decouples into. Parts that are rational, and the
 //! roots at 1 that integrators bring, are exact factors: so `D(1; 0) = 0` is an identity where the loop drifts without feedback.
 
+mod assembled;
+mod at_one;
 mod exact_zeros;
 mod nodes;
+mod origin;
 mod part;
 mod quotient;
 mod steady_state;
@@ -74,21 +77,19 @@ impl Problem {
 }
 
 impl Problem {
-    /// The same of a loop with several rates in which the parameter acts at several samples: the map over a hyperperiod at as many whole values
-    /// of the parameter as the degree asks for, each by products of matrices of numbers. `None` where it acts once, or the degree is large.
+    /// The same of a loop with several rates: the map over a hyperperiod at as many whole values
+    /// of the parameter as the degree asks for, each by products of matrices of numbers. `None` where the degree is large.
     fn lifted_parts(&self, name: &str, budget: &Budget) -> Result<Option<EnclosedParts>, Error> {
         let Some(samples) = self.model().samples_in(name, self.set(), budget)? else { return Ok(None) };
         let degree = samples.parts.iter().map(|part| part.degree).max().unwrap_or(0);
-        // Where the parameter acts once, the matrix over a hyperperiod is linear in it; but a root at 1 does not show in it.
-        let acts_once = degree < 2 && samples.parts.iter().all(|part| part.degree == 0 || part.at_one == 0);
-        if acts_once || degree > MOST_LIFTED_POWERS || !samples.symbols.has_flows() {
+        if degree > MOST_LIFTED_POWERS || !samples.symbols.has_flows() {
             return Ok(None);
         }
         budget.step("coefficients by enclosures");
         // What is exact is read off the loop without the parameter.
         let given: Vec<_> = self.set().iter().cloned().chain([(name.to_owned(), Rational::ZERO)]).collect();
         match budget.enter(|| self.model().closed_loop_in_numbers(&[], &given, budget))? {
-            Ok(Some(at_zero)) => Ok(budget.enter(|| EnclosedParts::lifted(samples, at_zero))?),
+            Ok(Some(at_zero)) => Ok(budget.enter(|| EnclosedParts::lifted(samples, at_zero, budget))??),
             Err(stopped @ Error::Stopped(_)) => Err(stopped),
             Ok(None) | Err(_) => Ok(None),
         }
@@ -130,29 +131,40 @@ impl EnclosedParts {
 
 impl EnclosedParts {
     /// From the samples, and the loop over a hyperperiod at `K = 0`. `None` where a divisor may be zero.
-    fn lifted(samples: Samples, at_zero: InNumbers) -> Option<EnclosedParts> {
-        let values = at_zero.symbols.enclosed(BITS)?;
+    fn lifted(samples: Samples, at_zero: InNumbers, budget: &Budget) -> Result<Option<EnclosedParts>, Exhausted> {
         let ClosedLoop { a, poles, .. } = &at_zero.closed_loop;
-        are_nonzero(poles.iter().chain(a.entries().iter().map(RationalFunction::denominator)), 0, &values)?;
+        let divisors = poles.iter().chain(a.entries().iter().map(RationalFunction::denominator));
         let in_samples = samples.patterns.iter().flatten().flat_map(RationalMatrix::entries);
-        are_nonzero(in_samples.map(RationalFunction::denominator), 0, &samples.symbols.enclosed(BITS)?)?;
+        let in_samples = in_samples.map(RationalFunction::denominator);
+        let [values, of_samples] = [&at_zero.symbols, &samples.symbols].map(|symbols| symbols.enclosed(BITS));
+        let (Some(values), Some(of_samples)) = (values, of_samples) else { return Ok(None) };
+        if are_nonzero(divisors, 0, &values).and(are_nonzero(in_samples, 0, &of_samples)).is_none() {
+            return Ok(None);
+        }
         let (symbols, samples) = (Arc::new(at_zero.symbols), Arc::new(samples));
         let mut found = Vec::new();
         for of in &samples.parts {
-            let part = Part::lifted(&symbols, a.principal(&of.states), &samples, of);
+            let part = Part::lifted(&symbols, a.principal(&of.states), &samples, of, budget)?;
             if part.degree > 0 {
-                let end = part.unstable_beyond(BITS)?;
+                let Some(end) = part.unstable_beyond(BITS) else { return Ok(None) };
                 found.push(Arc::new(part).polynomial(&Rational::ONE).unstable_beyond(end));
-            } else if !is_stable(&part, &values, &Rational::ONE)? {
-                return Some(EnclosedParts::Unstable);
+                continue;
+            }
+            match is_stable(&part, &values, &Rational::ONE) {
+                Some(true) => {}
+                Some(false) => return Ok(Some(EnclosedParts::Unstable)),
+                None => return Ok(None),
             }
         }
-        Some(EnclosedParts::Parts(found))
+        Ok(Some(EnclosedParts::Parts(found)))
     }
 }
 
 /// Whether a part without the parameter is stable; `None` where that does not show.
 fn is_stable(part: &Part, values: &[Ball], radius: &Rational) -> Option<bool> {
+    if part.has_root_at_one() && *radius <= Rational::ONE {
+        return Some(false);
+    }
     let polynomial = in_disc(part.at_zero(values, BITS)?, radius);
     let count = EnclosedLoop::of(&polynomial, Shape::UnitDisc)?.count;
     Some(count.inside + 1 == polynomial.len())

@@ -11,6 +11,7 @@ use crate::model::evaluate::symbolic::{Values, Wiring};
 use crate::model::evaluate::work::count_work;
 use crate::model::symbols::{Symbols, beside};
 use jurist_algebra::matrix::RationalMatrix;
+use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{MultiPoly, RationalFunction};
 
 /// A loop with several rates by the matrices of its samples, which are `A + K B` in a kept name `K`.
@@ -93,26 +94,34 @@ fn parts(patterns: &[[RationalMatrix; 2]], runs: &[(usize, u64)], places: &[Opti
         false => RationalFunction::zero(),
     });
     let part = |at_sample: Vec<usize>| {
-        let ranks: Vec<usize> = patterns.iter().map(|[_, b]| rank_bound(&b.principal(&at_sample))).collect();
+        let ranks: Vec<usize> = patterns.iter().map(|[_, b]| rank_of(&b.principal(&at_sample))).collect();
         let kept: Vec<usize> = (0..at_sample.len()).filter(|&k| places[at_sample[k]].is_some()).collect();
         SamplesPart {
             states: kept.iter().filter_map(|&k| places[at_sample[k]]).collect(),
             kept,
             degree: runs.iter().map(|(pattern, length)| ranks[*pattern] * *length as usize).sum(),
-            at_one: resting(patterns, &at_sample),
+            at_one: resting(patterns, &at_sample, &Rational::ZERO),
             at_sample,
         }
     };
     action.decoupled_parts().into_iter().map(part).filter(|part| !part.states.is_empty()).collect()
 }
 
-/// How many independent states stay what they are in all samples where `K` is 0, such as that of an integrator nobody reads; or how many
+impl Samples {
+    /// How many roots of a part are 1 at a value of `K`, at least: so many of its states stay what they are in all samples.
+    pub fn resting(&self, of: &SamplesPart, value: &Rational) -> usize {
+        resting(&self.patterns, &of.at_sample, value)
+    }
+}
+
+/// How many independent states stay what they are in all samples at a value of `K`, such as at 0 that of an integrator nobody reads; or how many
 /// combinations of states do, such as that of an integrator nothing drives.
-fn resting(patterns: &[[RationalMatrix; 2]], at_sample: &[usize]) -> usize {
+fn resting(patterns: &[[RationalMatrix; 2]], at_sample: &[usize], value: &Rational) -> usize {
     let n = at_sample.len();
     let moved = |transposed: bool| {
-        let rows = patterns.iter().flat_map(|[a, _]| {
-            let own = a.principal(at_sample);
+        let rows = patterns.iter().flat_map(|[a, b]| {
+            let (a, b) = (a.principal(at_sample), b.principal(at_sample));
+            let own = if value.is_zero() { a } else { &a + &b.scaled(&RationalFunction::from(value.clone())) };
             let entry = move |i: usize, j: usize| if transposed { own[(j, i)].clone() } else { own[(i, j)].clone() };
             let less_one =
                 move |i: usize, j: usize| if i == j { &entry(i, j) - &RationalFunction::one() } else { entry(i, j) };
@@ -121,6 +130,11 @@ fn resting(patterns: &[[RationalMatrix; 2]], at_sample: &[usize]) -> usize {
         n - rank(rows.collect(), n)
     };
     moved(false).max(moved(true))
+}
+
+fn rank_of(m: &RationalMatrix) -> usize {
+    let n = m.rows();
+    rank((0..n).map(|i| (0..n).map(|j| m[(i, j)].clone()).collect()).collect(), n)
 }
 
 /// The rank of a matrix by Gaussian elimination.

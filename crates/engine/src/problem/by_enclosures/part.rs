@@ -1,17 +1,16 @@
 //! A part of a loop behind holds: the matrix `A + K B` and its characteristic polynomial, with a symbol for each coefficient.
 
+use super::at_one::zeros_at_one;
 use super::exact_zeros::{exact_zeros, missing_degrees};
 use super::nodes::{Matrices, enclosed, exceeds_from, in_parameter};
+use super::origin::{dependent_rows, roots_at_origin};
 use super::steady_state::steady_state;
 use crate::model::{Samples, SamplesPart, Symbols, quotient_at, rank_bound};
-use crate::stability::SymbolicPolynomial;
 use jurist_algebra::ball::{Ball, BallMatrix};
-use jurist_algebra::limits::{Budget, checkpoint, until_shown};
+use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::matrix::RationalMatrix;
-use jurist_algebra::number::{Enclosure, Integer, Rational};
-use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
-use jurist_algebra::real::{Enclosing, Origin, Transcendental};
-use jurist_algebra::symbols::{Definition, EnclosedNumber, Symbols as Values};
+use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::{Domain, RationalFunction, UniPoly};
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -23,22 +22,22 @@ const MOST_POWERS: usize = 4;
 pub(super) struct Part {
     symbols: Arc<Symbols>,
     /// The matrix at `K = 0`.
-    constant: RationalMatrix,
+    pub(super) constant: RationalMatrix,
     matrices: Matrices,
     /// A bound of the degree in `K`.
     pub degree: usize,
     /// The exact factor of `D(z; 0)`: polynomials of rational parts, and the roots at 1 that integrators bring.
-    exact: UniPoly,
+    pub(super) exact: UniPoly,
     /// The other parts of `A`, each with the number of its roots at 1, which are in the exact factor.
     others: Vec<(Vec<usize>, usize)>,
     /// A lower bound of the number of roots that are 0 for every `K`, from rational rows that are linearly dependent.
-    at_origin: usize,
+    pub(super) at_origin: usize,
     /// The exact factor of `N_p(z)`, the coefficient of each power `K^p` in `D(z; K)`.
-    zeros: UniPoly,
+    pub(super) zeros: UniPoly,
     /// `n - 1` less the degree of `N_p`.
     missing: usize,
-    /// `d(K)` with `D(1; K) = c d(K)` for a number `c` other than 0, where that is known.
-    at_rest: Option<UniPoly>,
+    /// A factor `d(K)` of `D(1; K)` that is known, and a bound of the degree of the other one, which is not zero.
+    pub(super) at_rest: Option<(UniPoly, usize)>,
     known: Mutex<BTreeMap<u64, Arc<Vec<Ball>>>>,
 }
 
@@ -56,7 +55,7 @@ impl Part {
             _ => (UniPoly::monomial(Integer::ONE, at_origin), 0),
         };
         let of = Part::of_constant(symbols, constant, Matrices::Linear(linear), degree);
-        let mut part = Part { at_origin, zeros, missing, at_rest: rest, ..of };
+        let mut part = Part { at_origin, zeros, missing, at_rest: rest.map(|d| (d, 0)), ..of };
         if part.degree > 0 && part.at_rest.is_some() && part.factor_at_rest(super::BITS)?.contains_zero() {
             part.at_rest = None;
         }
@@ -64,7 +63,16 @@ impl Part {
     }
 
     /// A part of a loop over a hyperperiod, by its matrix at `K = 0` and the matrices of its samples.
-    pub fn lifted(symbols: &Arc<Symbols>, constant: RationalMatrix, samples: &Arc<Samples>, of: &SamplesPart) -> Part {
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub fn lifted(
+        symbols: &Arc<Symbols>,
+        constant: RationalMatrix,
+        samples: &Arc<Samples>,
+        of: &SamplesPart,
+        budget: &Budget,
+    ) -> Result<Part, Exhausted> {
         let matrices = Matrices::Samples(Arc::clone(samples), of.clone());
         let mut part = Part::of_constant(symbols, constant, matrices, of.degree);
         let root_at_one = UniPoly::from_i64(&[-1, 1]);
@@ -77,7 +85,36 @@ impl Part {
                 part.exact = part.exact.times(&root_at_one);
             }
         }
-        part
+        if part.degree > 0 {
+            part.at_origin = roots_at_origin(samples, of);
+            part.zeros = UniPoly::monomial(Integer::ONE, part.at_origin);
+            part.at_rest = part.known_at_one(samples, of, budget)?;
+        }
+        Ok(part)
+    }
+
+    /// The known factor of `D(1; K)` of a loop over its hyperperiod, and the degree of the other one.
+    fn known_at_one(
+        &self,
+        samples: &Samples,
+        of: &SamplesPart,
+        budget: &Budget,
+    ) -> Result<Option<(UniPoly, usize)>, Exhausted> {
+        let Some(sums) = self.at_one(super::BITS) else { return Ok(None) };
+        let known = zeros_at_one(&sums, samples, of, budget)?;
+        let at_zero = of.at_one.max(usize::from(self.has_root_at_one()));
+        let known = known.times(&UniPoly::monomial(Integer::ONE, at_zero));
+        let others = self.degree.checked_sub(known.degree().unwrap_or(0));
+        Ok(others.filter(|_| !known.is_constant()).map(|others| (known, others)))
+    }
+
+    /// The coefficients of `D(1; K)`.
+    fn at_one(&self, bits: u64) -> Option<Vec<Ball>> {
+        let values = self.symbols.enclosed(bits)?;
+        let nodes = self.matrices.polynomials(&self.constant, &values, self.degree, bits)?;
+        let rows = in_parameter(&nodes, self.constant.rows() + 1, bits);
+        let sum = |power: usize| rows.iter().fold(Ball::zero(bits), |sum, row| sum.add(&row[power]));
+        Some((0..=self.degree).map(sum).collect())
     }
 
     /// What is known of a part by its matrix at `K = 0`.
@@ -112,8 +149,8 @@ impl Part {
     }
 
     /// The least power of `K` in `d(K)`, with its coefficient.
-    fn lowest_at_rest(&self) -> (usize, Integer) {
-        let d = self.at_rest.as_ref().map(UniPoly::coeffs).unwrap_or_default();
+    pub(super) fn lowest_at_rest(&self) -> (usize, Integer) {
+        let d = self.at_rest.as_ref().map(|(d, _)| d.coeffs()).unwrap_or_default();
         d.iter().cloned().enumerate().find(|(_, c)| !c.is_zero()).unwrap_or((0, Integer::ONE))
     }
 
@@ -128,6 +165,11 @@ impl Part {
         };
         let lead = if self.lowest_at_rest().0 == 0 { Integer::ONE } else { Integer::ZERO };
         Some(list.iter().fold(Ball::from_integer(&lead, bits), |sum, c| sum.add(c)))
+    }
+
+    /// Whether 1 is known to be a root at `K = 0`.
+    pub fn has_root_at_one(&self) -> bool {
+        self.exact.eval(&Integer::ONE).is_zero()
     }
 
     /// The characteristic polynomial at `K = 0`.
@@ -149,17 +191,17 @@ impl Part {
     }
 
     /// The degree of the enclosed factor of `D(z; 0)`.
-    fn others_degree(&self) -> usize {
+    pub(super) fn others_degree(&self) -> usize {
         self.constant.rows() - self.exact.degree().unwrap_or(0)
     }
 
     /// The number of coefficients of the enclosed factor of `N_p`.
-    fn beside(&self) -> usize {
+    pub(super) fn beside(&self) -> usize {
         self.constant.rows() - self.zeros.degree().unwrap_or(0) - self.missing
     }
 
     /// The coefficients of the enclosed factor of `D(z; 0)` without the leading 1, then those of the enclosed factor of each `N_p`.
-    fn coefficients(&self, bits: u64) -> Option<Arc<Vec<Ball>>> {
+    pub(super) fn coefficients(&self, bits: u64) -> Option<Arc<Vec<Ball>>> {
         let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(found) = known().get(&bits) {
             return Some(Arc::clone(found));
@@ -198,135 +240,10 @@ impl Part {
         }
         Some(product)
     }
-
-    /// `D(r z; K)` with a symbol for each coefficient, without denominators.
-    pub fn polynomial(self: Arc<Self>, radius: &Rational) -> SymbolicPolynomial {
-        let n = self.constant.rows();
-        let others = self.others_degree();
-        let mut table = Values::new();
-        let m = self.beside();
-        for index in 0..others + self.degree * m {
-            let (power, k) = match index.checked_sub(others) {
-                None => (0, index),
-                Some(beyond) => (beyond / m + 1, beyond % m),
-            };
-            let words = match power {
-                0 => format!("coefficient {k} of the part of D(z; 0) that is no exact factor"),
-                _ => format!("coefficient {k} of the factor of D(z; K) beside K^{power} that is not exact"),
-            };
-            let value = Transcendental::new(Coefficient { of: Arc::clone(&self), index });
-            table.insert(format!("c{index}"), Definition::Enclosed(EnclosedNumber { words, value }));
-        }
-        // K is variable 0, a symbol's number one more than its place in the table.
-        let variable = |index: usize| MultiPoly::variable(index + 1);
-        let whole = |c: &Integer| MultiPoly::constant(c.clone());
-        let in_exact = self.exact.coeffs().iter().take_while(|c| c.is_zero()).count();
-        let at_origin = self.at_origin.saturating_sub(in_exact).min(others);
-        let other: Vec<MultiPoly> = std::iter::repeat_n(MultiPoly::zero(), at_origin)
-            .chain((at_origin..others).map(variable))
-            .chain([MultiPoly::one()])
-            .collect();
-        let exact = |p: &UniPoly| Poly::new(p.coeffs().iter().map(whole).collect::<Vec<_>>());
-        let at_zero = exact(&self.exact).times(&Poly::new(other));
-        let lead = self.exact.leading().cloned().unwrap_or(Integer::ONE);
-        let beside = |power: usize, k: usize| variable(others + (power - 1) * m + k).scaled_by(&lead);
-        // Where this is 0 nothing depends on K at z = 1.
-        let zeros_at_one = self.zeros.eval(&Integer::ONE);
-        let at_rest = self.at_rest.as_ref().filter(|_| radius.is_one() && !zeros_at_one.is_zero());
-        let (lowest, lowest_coefficient) = self.lowest_at_rest();
-        let scale = at_rest.map_or(Integer::ONE, |_| &lowest_coefficient * &zeros_at_one);
-        let power_of = |base: Integer, exponent: usize| (0..exponent).fold(Integer::ONE, |p, _| &p * &base);
-        let sum = |list: &mut dyn Iterator<Item = MultiPoly>| list.fold(MultiPoly::zero(), |sum, c| sum.plus(&c));
-        let factor = |power: usize, k: usize| match at_rest {
-            // Chosen so that the value at z = 1 is c d(K).
-            Some(d) if k == 0 => {
-                let whole = match lowest {
-                    0 => sum(&mut at_zero.coeffs().iter().cloned()),
-                    _ => sum(&mut (0..m).map(|k| beside(lowest, k))).scaled_by(&zeros_at_one),
-                };
-                let others = sum(&mut (1..m).map(|k| beside(power, k).scaled_by(&scale)));
-                whole.scaled_by(&d.coeff(power)).minus(&others)
-            }
-            _ => beside(power, k).scaled_by(&scale),
-        };
-        let powers: Vec<Poly<MultiPoly>> = (0..=self.degree)
-            .map(|power| match power {
-                0 => at_zero.map(|c| c.scaled_by(&scale)),
-                _ => exact(&self.zeros).times(&Poly::new((0..m).map(|k| factor(power, k)).collect())),
-            })
-            .collect();
-        let in_powers = |(power, p): (usize, &Poly<MultiPoly>), k: usize| {
-            (0..power).fold(p.coeff(k), |c, _| c.times(&MultiPoly::variable(0)))
-        };
-        let coefficient = |k: usize| {
-            sum(&mut powers.iter().enumerate().map(|p| in_powers(p, k)))
-                .scaled_by(&(power_of(radius.numerator(), k) * power_of(radius.denominator(), n - k)))
-        };
-        let polynomial = Poly::new((0..=n).map(coefficient).collect::<Vec<_>>());
-        SymbolicPolynomial::from_parts(&Arc::new(table), polynomial, MultiPoly::one(), n, vec![MultiPoly::one()])
-    }
 }
 
 fn whole(n: usize) -> Integer {
     Integer::from(n as u64)
-}
-
-/// A coefficient of a part's polynomial.
-#[derive(Debug)]
-struct Coefficient {
-    of: Arc<Part>,
-    index: usize,
-}
-
-impl Enclosing for Coefficient {
-    fn enclose(&self, bits: u64, _known: Option<&Enclosure>) -> Enclosure {
-        let width = Rational::dyadic(&Integer::ONE, bits);
-        until_shown((bits + 64).next_power_of_two(), |working| {
-            checkpoint(working);
-            let found = self.of.coefficients(working)?[self.index].to_enclosure();
-            (found.upper() - found.lower() <= width).then_some(found)
-        })
-    }
-
-    fn origin(&self) -> Origin {
-        Origin::Function { function: "coefficient of the characteristic polynomial".to_owned(), details: Vec::new() }
-    }
-}
-
-/// The number of rational rows of `A + K B` less their rank over the rational functions of `K`.
-///
-/// A minor of `m` rows has at most the degree `m` in `K`, so a minor that is zero at `m + 1` values is zero for every `K`. The greatest rank
-/// at `m + 1` values is the rank over the functions.
-fn dependent_rows(constant: &RationalMatrix, linear: &RationalMatrix) -> usize {
-    let n = constant.rows();
-    let numbers = |m: &RationalMatrix, i: usize| (0..n).map(|j| m[(i, j)].as_constant()).collect::<Option<Vec<_>>>();
-    let rows: Vec<_> = (0..n).filter_map(|i| numbers(constant, i).zip(numbers(linear, i))).collect();
-    let at = |k: usize| {
-        let k = Rational::from(k as i64);
-        rows.iter().map(|(a, b)| a.iter().zip(b).map(|(a, b)| a + &(b * &k)).collect()).collect()
-    };
-    let rank_there = (0..=rows.len()).map(|k| rank(at(k))).max().unwrap_or(0);
-    rows.len() - rank_there
-}
-
-/// The rank of a matrix by Gaussian elimination.
-fn rank(mut rows: Vec<Vec<Rational>>) -> usize {
-    let columns = rows.first().map_or(0, Vec::len);
-    let mut found = 0;
-    for column in 0..columns {
-        let Some(pivot) = (found..rows.len()).find(|&i| !rows[i][column].is_zero()) else { continue };
-        rows.swap(found, pivot);
-        let (above, below) = rows.split_at_mut(found + 1);
-        let pivot = &above[found];
-        for row in below {
-            let factor = row[column].checked_div(&pivot[column]).expect("a pivot is not zero");
-            for (entry, p) in row.iter_mut().zip(pivot) {
-                *entry = &*entry - &(&factor * p);
-            }
-        }
-        found += 1;
-    }
-    found
 }
 
 /// The characteristic polynomial of a matrix of rational numbers, up to a factor; `None` for another matrix.

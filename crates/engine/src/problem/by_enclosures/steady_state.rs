@@ -19,12 +19,18 @@ use std::collections::{BTreeMap, BTreeSet};
 type Linear = [Rational; 2];
 
 /// The coefficients of one symbol in a row of the matrix.
-type Form = Vec<Linear>;
+pub(super) type Form = Vec<Linear>;
 
 /// A polynomial `d(K)` with `D(1; K) = c d(K)` for a number `c`, which may be 0; `None` where the matrix is not of this form.
 ///
 /// Cost: a determinant of polynomials in `K`.
 pub(super) fn steady_state(constant: &RationalMatrix, linear: &RationalMatrix, symbols: &Symbols) -> Option<UniPoly> {
+    determinant(&at_rest(constant, linear, symbols)?)
+}
+
+/// Rows that are zero for the states at rest: `I - A(K)` less a factor from the left that is regular for the other states. `None` where the matrix
+/// is not of the form above.
+pub(super) fn at_rest(constant: &RationalMatrix, linear: &RationalMatrix, symbols: &Symbols) -> Option<Vec<Form>> {
     let n = constant.rows();
     let terms = (0..n).map(|i| Terms::of(constant, linear, i, symbols)).collect::<Option<Vec<Terms>>>()?;
     let balances: Vec<Form> = terms.iter().enumerate().filter_map(|(i, terms)| terms.balance(i)).collect();
@@ -54,7 +60,7 @@ pub(super) fn steady_state(constant: &RationalMatrix, linear: &RationalMatrix, s
             }
         }
     }
-    determinant(&at_rest)
+    Some(at_rest)
 }
 
 /// A row of the matrix: the part without symbols, and the coefficients of the entries of an exponential by their column.

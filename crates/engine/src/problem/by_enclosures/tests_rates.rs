@@ -132,3 +132,39 @@ fn a_gain_at_two_inputs_has_the_set_of_the_exact_polynomial() {
     assert_eq!(own, exact);
     assert_eq!(own.len(), 1);
 }
+
+/// At `K = -1` a fast controller is driven by `(1 + K) y = 0`: where it integrates, or the plant does, a root is 1 there.
+#[test]
+fn a_loop_that_rests_at_a_gain_other_than_zero_has_the_set_of_the_exact_polynomial() {
+    let lag = "transfer = '1/(s + 1)'\ndiscretize = 'zoh'";
+    let integrator = "transfer = '1/(s*(s + 1))'\ndiscretize = { method = 'zoh', delay = '3/32' }";
+    let pulsed = "transfer = '1/(s + 1)'\ndiscretize = { method = 'pwm', edge = 'leading', duty = '1/3' }";
+    for (slow, fast, plant) in [
+        ("gain = 'K'\nevery = 2\nphase = 1", "transfer = '1/4*(z - 1/2)/(z - 1)'", lag),
+        ("gain = 'K'\nevery = 2", "gain = '1/4'", integrator),
+        ("gain = 'K'\nevery = 2", "transfer = '1/4*(z - 1/2)/(z - 1)'", pulsed),
+    ] {
+        let found = both(&cascade(slow, fast, plant, "max = 40"));
+        let [own, exact] = found.unwrap_or_else(|| panic!("{slow}, {fast}, {plant}"));
+        assert_eq!(own, exact, "{slow}, {fast}, {plant}");
+        let lower = own[0][0].as_ref().expect("an end");
+        assert!(lower.0 == "-1" && lower.1.contains("z=1"), "{own:?}");
+    }
+}
+
+/// A register of the dead time has the value that the slow block holds: a combination of states is zero, and so is a root.
+#[test]
+fn roots_at_the_origin_of_loops_with_registers_are_known() {
+    let plant = "transfer = '1/(s + 1)'\ndiscretize = { method = 'zoh', delay = '13/32' }";
+    for slow in ["gain = 'K'\nevery = 2", "gain = 'K'\nevery = 4", "transfer = 'K/z'\nevery = 4"] {
+        let problem = cascade(slow, "gain = '1/4'\nevery = 2", plant, "max = 40");
+        let budget = Budget::unlimited();
+        let at_origin = |p: &SymbolicPolynomial| p.polynomial().coeffs().iter().take_while(|c| c.is_zero()).count();
+        let Some(EnclosedParts::Parts(parts)) = problem.lifted_parts("K", &budget).unwrap() else { panic!("{slow}") };
+        let exact = at_origin(&problem.symbolic(&budget).unwrap().expect("not a constant"));
+        assert!(exact > 0, "{slow}");
+        assert_eq!(parts.iter().map(at_origin).sum::<usize>(), exact, "{slow}");
+        let [own, exact] = both(&problem).unwrap_or_else(|| panic!("{slow}"));
+        assert_eq!(own, exact, "{slow}");
+    }
+}
