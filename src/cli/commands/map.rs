@@ -5,7 +5,7 @@ use super::map_boxes::{self, MethodOptions};
 use super::{Context, Runs, decided};
 use crate::certified_boxes::certify_boxes;
 use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, RegionOptions, RunOptions};
-use crate::cli::assignments::{AxisRequest, axis};
+use crate::cli::assignments::{AxisRequest, axis, in_line};
 use crate::cli::destinations::Files;
 use crate::cli::input::{known_name, load, question};
 use crate::cli::output::{ending, note, unknown_ending, write_answer};
@@ -21,8 +21,9 @@ use jurist_drive::published_limits;
 use jurist_engine::answer::{Answer, BoxRequest, Map, MapMethod, MapOrBoxes};
 use jurist_engine::coverage::Asked;
 use jurist_engine::error::{Code, Diagnostic, Error as EngineError};
+use jurist_engine::model::Model;
 use jurist_engine::problem::{DECAY, Problem, RADIUS};
-use jurist_engine::response::Requirements;
+use jurist_engine::response::{AllOf, MapForAll, Requirements};
 use jurist_engine::show::{documents, map_boxes_text, map_text};
 use std::ffi::OsString;
 use std::path::Path;
@@ -52,6 +53,9 @@ pub(in crate::cli) struct Options {
     /// A third parameter: the map at each of N values from LO to HI, both included
     #[arg(short = 'z', value_name = "NAME=LO..HI:N", allow_hyphen_values = true)]
     pub z: Option<String>,
+    /// The points that are good for all values of another name in a range, both ends included; by boxes (can be given again)
+    #[arg(long = "for-all", value_name = "NAME=LO..HI", conflicts_with_all = ["z", "certificate"])]
+    pub for_all: Vec<String>,
     /// Draws x on a logarithmic axis [default: for positive ranges of two decades and more]
     #[arg(long, conflicts_with = "linear_x")]
     pub log_x: bool,
@@ -104,6 +108,27 @@ impl Runs for Options {
     }
 }
 
+/// The values of other names for all of which something is asked.
+fn ranges(texts: &[String], model: &Model, context: &Context) -> Result<Vec<AllOf>, Error> {
+    let mut all: Vec<AllOf> = Vec::new();
+    for text in texts {
+        let request = axis(context.line, "--for-all", text)?;
+        known_name(context, model, &request.name, request.name_span)?;
+        let wrong = |message: String, label: &str| {
+            let error = Diagnostic::error(Code::OptionValue, message).at(request.name_span, label);
+            in_line(context.line, vec![error.help("for example '--for-all L=0..5e-3', both ends included")])
+        };
+        if all.iter().any(|known| known.name == request.name) {
+            return Err(wrong(format!("'{}' is given two ranges", request.name), "a second range").into());
+        }
+        let (Some(least), Some(greatest)) = (&request.lower, &request.upper) else {
+            return Err(wrong("'--for-all' expects NAME=LO..HI".to_owned(), "its range needs two ends").into());
+        };
+        all.extend(AllOf::new(&request.name, least.clone(), greatest.clone()));
+    }
+    Ok(all)
+}
+
 /// Answers on standard output or in a file.
 fn run(options: &Options, context: &Context) -> Outcome {
     let picture = picture_of(options)?;
@@ -131,6 +156,11 @@ fn run(options: &Options, context: &Context) -> Outcome {
     let (asked, question) = options.require.asked_each(&model, question, &options.region, context)?;
     refuse_proofs(&asked, options.certificate.is_some())?;
     let boxes = options.method.request(&requests, context)?;
+    if !options.for_all.is_empty() {
+        let all = ranges(&options.for_all, &model, context)?;
+        let asked = MapForAll::new(all).with_requirements(asked.list, asked.at);
+        return map_boxes::for_all(&asked, question, (&boxes, options.method.method()), &options.output, context);
+    }
     let mut method = options.method.method();
     let problem = question.plane_problem()?;
     if options.certificate.is_some() {

@@ -1,6 +1,6 @@
 //! Options of `jurist map` that choose the method, and its answer by boxes.
 
-use super::Context;
+use super::{Context, decided};
 use crate::certified_boxes::{CertifiedBoxes, judge};
 use crate::cli::arguments::OutputOptions;
 use crate::cli::assignments::{AxisRequest, in_line, plain_number};
@@ -15,7 +15,8 @@ use jurist_draw::figures::map::boxes_figure;
 use jurist_draw::page::map_boxes_page;
 use jurist_engine::answer::{Answer, BoxRequest, MapBoxes, MapMethod};
 use jurist_engine::error::{Code, Diagnostic, Error as EngineError};
-use jurist_engine::problem::Problem;
+use jurist_engine::problem::{Problem, Question};
+use jurist_engine::response::MapForAll;
 use jurist_engine::stability::Range;
 use jurist_engine::stability::plane::boxes::Window;
 use std::path::Path;
@@ -110,6 +111,26 @@ pub(super) fn window_note(found: &Answer<MapBoxes>, request: &BoxRequest) -> Opt
     let options: Vec<String> = open.map(|((axis, _), option)| format!("{option} {}=LO..HI", axis.name)).collect();
     let text = "note: the boxes are around the nominal point; what they cover is chosen by";
     (!options.is_empty()).then(|| format!("{text} '{}'", options.join(" ")))
+}
+
+/// The map for all values of other names.
+pub(super) fn for_all(
+    asked: &MapForAll,
+    question: Question,
+    (request, method): (&BoxRequest, MapMethod),
+    output: &OutputOptions,
+    context: &Context,
+) -> Outcome {
+    if method == MapMethod::Exact {
+        let error = Diagnostic::error(Code::Usage, "a map for all values of other names is made of boxes");
+        return Err(error.help("leave out '--method exact'").into());
+    }
+    let found = match decided(asked.boxes(question, request, &context.budget))? {
+        Ok(found) => found,
+        Err(stopped) => return Ok(context.say_undecided(&stopped)),
+    };
+    context.warn(None, found.problem().warnings());
+    answer(&found, output, context)
 }
 
 /// Width and height of the picture.

@@ -4,7 +4,7 @@ use super::{Answer, Map};
 use crate::coverage::{Asked, CoefficientRing};
 use crate::error::Error;
 use crate::problem::Problem;
-use crate::response::{RequiredBoxes, Requirement};
+use crate::response::{AllOf, RequiredBoxes, Requirement};
 use crate::stability::Range;
 use crate::stability::plane::boxes::{BoxMap, Window, stability_boxes};
 use jurist_algebra::limits::{Budget, Exhausted, Stop};
@@ -109,6 +109,9 @@ pub struct MapBoxes {
     pub no_exact_map: Option<Exhausted>,
     /// The stable boxes by whether requirements are met, where that was asked.
     pub required: Option<RequiredBoxes>,
+    /// Names for all of whose values in these ranges it holds what is said of the boxes: a box that is not stable has, for each of its points,
+    /// values for which the loop is not.
+    pub for_all: Vec<AllOf>,
 }
 
 /// A map by either method.
@@ -208,10 +211,7 @@ impl Problem {
             }
             let ring = CoefficientRing::of(self.algebra_over_symbols(budget)?.symbols());
             let is_exact = Asked::ExactMap.over(ring).is_answered();
-            let window = match ring {
-                CoefficientRing::Rational => window_of(self, request),
-                _ => window_around(self, request, budget),
-            };
+            let window = self.window_over(ring, request, budget);
             // A rational loop that is undefined everywhere needs no boxes.
             let has_boxes = window.is_ok() && (ring != CoefficientRing::Rational || self.plane(budget)?.is_some());
             let mut no_exact_map = None;
@@ -237,7 +237,8 @@ impl Problem {
                     }
                 }
             }
-            let value = MapBoxes { goal: request.undecided.clone(), boxes, no_exact_map, required: None };
+            let value =
+                MapBoxes { goal: request.undecided.clone(), boxes, no_exact_map, required: None, for_all: Vec::new() };
             Ok(MapOrBoxes::Boxes(Box::new(Answer::new(Arc::clone(self), value))))
         })?
     }
@@ -273,10 +274,7 @@ impl Problem {
         }
         let ring = self.coefficient_ring(budget)?;
         let has_exact = Asked::ExactMap.over(ring).is_answered();
-        let has_boxes = match ring {
-            CoefficientRing::Rational => window_of(self, request).is_ok(),
-            _ => window_around(self, request, budget).is_ok(),
-        };
+        let has_boxes = self.window_over(ring, request, budget).is_ok();
         let is_short = match ring {
             CoefficientRing::Constants => {
                 self.plane_over_symbols(budget)?.map_or(0, |p| p.size(self.shape())) <= MOST_TERMS_WITH_REQUIREMENTS
@@ -291,6 +289,18 @@ impl Problem {
             (false, true) => by(MapMethod::Boxes, budget),
             (_, false) if has_exact => by(MapMethod::Exact, budget),
             (_, false) => by(MapMethod::Boxes, budget),
+        }
+    }
+
+    /// What boxes are to cover: of a loop that has an exact map no end is chosen.
+    pub(crate) fn window(&self, request: &BoxRequest, budget: &Budget) -> Result<Window, Error> {
+        budget.enter(|| self.window_over(self.coefficient_ring(budget)?, request, budget))?
+    }
+
+    fn window_over(&self, ring: CoefficientRing, request: &BoxRequest, budget: &Budget) -> Result<Window, Error> {
+        match ring {
+            CoefficientRing::Rational => window_of(self, request),
+            _ => window_around(self, request, budget),
         }
     }
 

@@ -159,7 +159,7 @@ fn middle(window: &Window) -> Vec<Rational> {
 }
 
 impl RequiredBoxes {
-    fn new(requirements: &[Requirement], at: Option<&str>, found: Refined<Option<usize>>) -> RequiredBoxes {
+    pub(super) fn new(requirements: &[Requirement], at: Option<&str>, found: Refined<Option<usize>>) -> RequiredBoxes {
         let decided =
             found.decided.into_iter().map(|(window, unmet)| RequiredBox { window, met: Some(unmet.is_none()), unmet });
         let open = found.undecided.into_iter().map(|window| RequiredBox { window, met: None, unmet: None });

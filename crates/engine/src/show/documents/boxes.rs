@@ -49,6 +49,29 @@ pub struct SubdividedWindow {
     /// The stable boxes by whether requirements are met; left out where nothing is required.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub required: Option<RequiredInBoxes>,
+    /// Other names, for all of whose values it holds what is said of the boxes; left out where there are none. For each point of a box that is
+    /// not stable then there are values for which the loop is not.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub for_all: Vec<AllValues>,
+}
+
+/// A name and the closed range of its values.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct AllValues {
+    /// The name.
+    pub name: String,
+    /// The least value.
+    pub lower: Exact,
+    /// The greatest value.
+    pub upper: Exact,
+}
+
+impl From<&response::AllOf> for AllValues {
+    fn from(all: &response::AllOf) -> Self {
+        let [lower, upper] = all.range.each_ref().map(Exact::from);
+        AllValues { name: all.name.clone(), lower, upper }
+    }
 }
 
 /// Where requirements are met: the stable boxes, cut further.
@@ -191,8 +214,8 @@ impl From<&boxes::PlaneBox> for PlaneBox {
 impl MapBoxes {
     /// The document, also of an answer that the budget did not allow.
     pub fn new(problem: &Problem, answer: Result<&answer::MapBoxes, &Exhausted>) -> Self {
-        let known =
-            |answer::MapBoxes { goal, boxes: map, no_exact_map, required }: &answer::MapBoxes| SubdividedWindow {
+        let known = |answer::MapBoxes { goal, boxes: map, no_exact_map, required, for_all }: &answer::MapBoxes| {
+            SubdividedWindow {
                 window: (&map.window).into(),
                 goal: goal.into(),
                 curves: map.curves.iter().map(|curve| Curve::new(curve, &variables(problem))).collect(),
@@ -206,7 +229,9 @@ impl MapBoxes {
                 stopped: map.stopped.as_ref().map(ToString::to_string),
                 no_exact_map: no_exact_map.as_ref().map(Exhausted::to_string),
                 required: required.as_ref().map(RequiredInBoxes::from),
-            };
+                for_all: for_all.iter().map(AllValues::from).collect(),
+            }
+        };
         MapBoxes { schema: MapBoxesName::V1, question: MapQuestion::new(problem), answer: Answered::of(answer, known) }
     }
 }

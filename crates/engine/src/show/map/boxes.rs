@@ -5,8 +5,8 @@ use super::super::region::goal_or_stable;
 use super::text::axis_text;
 use crate::answer::{Answer, MapBoxes};
 use crate::problem::Problem;
-use crate::response::RequiredBoxes;
-use crate::stability::plane::boxes::{BoxMap, BoxVerdict, Window};
+use crate::response::{AllOf, RequiredBoxes};
+use crate::stability::plane::boxes::{BoxVerdict, Window};
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::{Rational, to_decimal};
 
@@ -24,7 +24,7 @@ pub fn map_boxes_text(problem: &Problem, answer: Result<&MapBoxes, &Exhausted>, 
     match answer {
         Err(stopped) => out.push_str(&format!("{}\n", undecided_text(stopped))),
         Ok(answer) => {
-            boxes_text(&mut out, &answer.boxes, &goal_or_stable(problem), [&x.name, &y.name], digits);
+            boxes_text(&mut out, answer, &goal_or_stable(problem), [&x.name, &y.name], digits);
             if let Some(found) = &answer.required {
                 required_text(&mut out, found, &answer.boxes.window, [&x.name, &y.name], digits);
             }
@@ -36,12 +36,22 @@ pub fn map_boxes_text(problem: &Problem, answer: Result<&MapBoxes, &Exhausted>, 
     out
 }
 
-fn boxes_text(out: &mut String, map: &BoxMap, goal: &str, names: [&str; 2], digits: usize) {
+fn boxes_text(out: &mut String, answer: &MapBoxes, goal: &str, names: [&str; 2], digits: usize) {
+    let map = &answer.boxes;
     let window = &map.window;
     out.push_str(&format!("{}, {}\n", span(names[0], &window.x, digits), span(names[1], &window.y, digits)));
+    if !answer.for_all.is_empty() {
+        let closed = |all: &AllOf| {
+            let [least, greatest] = all.range.each_ref().map(|x| to_decimal(x, digits));
+            format!("{} from {least} to {greatest}", all.name)
+        };
+        let all: Vec<String> = answer.for_all.iter().map(closed).collect();
+        out.push_str(&format!("    for all {}\n", all.join(", ")));
+    }
+    let unstable = if answer.for_all.is_empty() { "unstable" } else { "not for all" };
     for (name, area, wanted) in [
         (goal, &map.areas.stable, BoxVerdict::Stable.name()),
-        ("unstable", &map.areas.unstable, "unstable"),
+        (unstable, &map.areas.unstable, "unstable"),
         ("undecided", &map.areas.undecided, "undecided"),
     ] {
         let count = map.boxes.iter().filter(|b| b.verdict.name() == wanted).count();

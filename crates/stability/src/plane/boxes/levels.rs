@@ -21,15 +21,6 @@ const MOST_HALVINGS: u32 = 80;
 /// A box that is not decided with what is known of it, and the axis along which it is to be halved; none before it was looked at.
 type Undecided<K> = ((Place, K), Option<usize>);
 
-/// What a look at a box notes for its halves.
-struct Note<T>(Option<Arc<T>>);
-
-impl<T> Halves for Note<T> {
-    fn halves(self, _axis: usize) -> [Note<T>; 2] {
-        [Note(self.0.clone()), self]
-    }
-}
-
 /// Cuts a window into boxes until the share of the undecided area is at most `goal` (0 to 1). `look` is told what the look at the box that
 /// was halved noted.
 pub(crate) fn subdivided<T: Send + Sync>(
@@ -38,14 +29,44 @@ pub(crate) fn subdivided<T: Send + Sync>(
     budget: &Budget,
     look: impl Fn(&Place, Option<&T>) -> Result<(Seen, Option<T>), Exhausted> + Sync,
 ) -> BoxMap {
-    budget.step("subdividing the window");
-    let whole = vec![(Place::whole(), Note(None))];
-    let found = by_levels(whole, goal, MOST_UNDECIDED, budget, |place, note: &mut Note<T>| {
-        let (seen, noted) = look(place, note.0.as_deref())?;
-        note.0 = noted.map(Arc::new);
+    boxes_of(window, goal, None, budget, |place, note: &mut Option<Arc<T>>| {
+        let (seen, noted) = look(place, note.as_deref())?;
+        *note = noted.map(Arc::new);
         Ok(seen)
-    });
-    found.into_map(window)
+    })
+}
+
+/// Cuts a window into boxes until the share of the undecided area is at most `goal` (0 to 1). `look` has what the look at the box that was
+/// halved left of what it was told itself, at first `known`.
+///
+/// Cost: that of the looks at about `1/h` boxes of side `h` along each boundary.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_stability::plane::boxes::{BoxVerdict, Seen, Window, boxes_of};
+/// // The unit square, stable below 1/4 and not above.
+/// let [zero, quarter, one]: [jurist_algebra::number::Rational; 3] = ["0", "1/4", "1"].map(|x| x.parse().unwrap());
+/// let whole = Window { x: [zero.clone(), one.clone()], y: [zero, one] };
+/// let map = boxes_of(&whole, &"1/8".parse().unwrap(), (), &Budget::unlimited(), |place, ()| {
+///     let b = place.window(&whole);
+///     Ok(match (b.y[1] <= quarter, b.y[0] >= quarter) {
+///         (true, _) => Seen::Decided(BoxVerdict::Stable),
+///         (_, true) => Seen::Decided(BoxVerdict::Unstable { outside: None }),
+///         _ => Seen::Cut(1),
+///     })
+/// });
+/// assert_eq!(map.areas.stable, quarter);
+/// ```
+pub fn boxes_of<K: Clone + Send + Sync>(
+    window: &Window,
+    goal: &Rational,
+    known: K,
+    budget: &Budget,
+    look: impl Fn(&Place, &mut K) -> Result<Seen, Exhausted> + Sync,
+) -> BoxMap {
+    budget.step("subdividing the window");
+    let whole = vec![(Place::whole(), Kept(known))];
+    by_levels(whole, goal, MOST_UNDECIDED, budget, |place, known| look(place, &mut known.0)).into_map(window)
 }
 
 /// No more boxes are undecided at a time.

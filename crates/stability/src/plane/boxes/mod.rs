@@ -12,7 +12,7 @@ use jurist_algebra::number::Rational;
 
 pub use by_curves::stability_boxes;
 pub(crate) use levels::subdivided;
-pub use levels::{Refined, Seen, refined};
+pub use levels::{Refined, Seen, boxes_of, refined};
 pub use place::Place;
 
 /// A bounded rectangle of two parameters.

@@ -1,0 +1,244 @@
+//! A map of two parameters for all values of others in given ranges: a point belongs to it where the loop is stable, or meets what is required, for
+//! every one of these values.
+//!
+//! A box of the plane is proved where parts that cover the ranges are, each together with the box. It is refuted where one part is refuted as a
+//! whole, such as a single value of each of the others. The parts that are proved of a box are so of its halves, which look at the rest.
+
+use super::required_boxes::RequiredBoxes;
+use super::requirement::Requirement;
+use super::requirement_boxes::{OverPoints, RequirementBoxes};
+use crate::answer::{Answer, BoxRequest, MapBoxes};
+use crate::coverage::refusals::{FOR_ALL_WITH_DEAD_TIME, NOT_IN_A_PLANE};
+use crate::error::{Code, Diagnostic, Error};
+use crate::problem::{Problem, Question};
+use crate::stability::Range;
+use crate::stability::plane::boxes::{BoxVerdict, Place, Window, boxes_of, refined};
+use crate::stability::subdivision::{BoxPart, Halves, Look};
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::Rational;
+use std::sync::Arc;
+
+/// More names than this have no ranges: each has two ends that are looked at with those of the others.
+pub const MOST_RANGES: usize = 4;
+
+/// The ranges are halved so much oftener than the sides of a box, each.
+const FINER: u32 = 3;
+
+/// A box with more open parts is halved first.
+const MOST_PARTS: usize = 512;
+
+/// Of the time, the part that stability may take where requirements follow.
+const STABILITY: (u32, u32) = (1, 2);
+
+/// A name and the closed range of its values, for all of which something is to hold.
+///
+/// ```
+/// use jurist_engine::response::AllOf;
+/// let all = AllOf::new("L", 0.into(), 1.into()).unwrap();
+/// assert_eq!((all.name.as_str(), &all.range[1]), ("L", &1.into()));
+/// assert!(AllOf::new("L", 1.into(), 1.into()).is_none());
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct AllOf {
+    /// The name.
+    pub name: String,
+    /// The least and the greatest value.
+    pub range: [Rational; 2],
+}
+
+impl AllOf {
+    /// `None` where the least value is not below the greatest.
+    pub fn new(name: impl Into<String>, least: Rational, greatest: Rational) -> Option<AllOf> {
+        (least < greatest).then(|| AllOf { name: name.into(), range: [least, greatest] })
+    }
+}
+
+/// What is to hold for all values of some names.
+#[derive(Clone, Debug, Default)]
+#[non_exhaustive]
+pub struct MapForAll {
+    /// The names with their ranges.
+    pub all: Vec<AllOf>,
+    /// What is required beside stability.
+    pub requirements: Vec<Requirement>,
+    /// Where margins are taken.
+    pub at: Option<String>,
+}
+
+impl MapForAll {
+    /// Stability for all values of these names.
+    pub fn new(all: Vec<AllOf>) -> MapForAll {
+        MapForAll { all, requirements: Vec::new(), at: None }
+    }
+
+    /// Requirements as well, margins being taken at a cut.
+    pub fn with_requirements(self, requirements: Vec<Requirement>, at: Option<String>) -> MapForAll {
+        MapForAll { requirements, at, ..self }
+    }
+
+    /// The boxes of a window of the two free names of a question.
+    ///
+    /// Cost: that of a look at each of about `1/h` boxes of side `h` along each boundary, times the parts of the ranges that are not decided with
+    /// larger boxes.
+    ///
+    /// # Errors
+    /// [`Error::Refused`] for a loop with dead time or complex coefficients, for a window without ends, for ranges outside of what the model allows, and for
+    /// requirements that boxes do not decide; [`Error::Stopped`] when the budget runs out before anything was cut.
+    ///
+    /// ```
+    /// use jurist_algebra::limits::Budget;
+    /// use jurist_engine::answer::BoxRequest;
+    /// use jurist_engine::error::Source;
+    /// use jurist_engine::model::Model;
+    /// use jurist_engine::response::{AllOf, MapForAll};
+    /// use jurist_engine::stability::Range;
+    /// // s^2 + a s + b - c is stable where a > 0 and b > c.
+    /// let text = "time = 'continuous'\nparameters = { a = 1, b = 2, c = 0 }\nloop.characteristic = 's^2 + a*s + b - c'\n";
+    /// let (model, _) = Model::from_toml(&Source::new("loop.toml", text))?;
+    /// let side = Range::between(Some((-1).into()), Some(3.into()));
+    /// let request = BoxRequest::new([side.clone(), side], "1/20".parse()?);
+    /// let for_all = MapForAll::new(vec![AllOf::new("c", 0.into(), 1.into()).unwrap()]);
+    /// let map = for_all.boxes(model.ask().free("a").free("b"), &request, &Budget::unlimited())?;
+    /// // For every c up to 1: b > 1, so that the area is 3 times 2.
+    /// let areas = &map.value().boxes.areas;
+    /// assert!(areas.stable <= 6.into() && &areas.stable + &areas.undecided >= 6.into());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn boxes(&self, question: Question, request: &BoxRequest, budget: &Budget) -> Result<Answer<MapBoxes>, Error> {
+        let plane = question.clone().plane_problem()?;
+        plane.refuse_complex(budget)?;
+        let together = self.together(question)?;
+        let window = plane.window(request, budget)?;
+        let mut near: Vec<Rational> = [&window.x, &window.y].map(|[low, high]| low.midpoint(high)).into();
+        near.extend(self.all.iter().map(|all| all.range[0].midpoint(&all.range[1])));
+        budget.step("coefficients over the window and the ranges");
+        let stability = RequirementBoxes::of_stability(&together, &near, budget)?;
+        let stability = [stability.ok_or_else(|| FOR_ALL_WITH_DEAD_TIME.diagnostic(&[]))?];
+        let requirement = |r: &Requirement| {
+            let found = RequirementBoxes::of(&together, r, self.at.as_deref(), &near, budget)?;
+            found.ok_or_else(|| NOT_IN_A_PLANE.diagnostic(&[("name", r.name()), ("help", NOT_IN_BOXES)]).into())
+        };
+        let requirements = self.requirements.iter().map(requirement).collect::<Result<Vec<_>, Error>>()?;
+        let part = if requirements.is_empty() { budget.clone() } else { budget.share(STABILITY.0, STABILITY.1) };
+        let first = self.parts(&stability);
+        let boxes = boxes_of(&window, &request.undecided, first, &part, |place, open| {
+            let seen = self.look(&stability, (place, &window), open, &part)?;
+            Ok(match seen {
+                Look::Decided(None) => Look::Decided(BoxVerdict::Stable),
+                Look::Decided(Some(_)) => Look::Decided(BoxVerdict::Unstable { outside: None }),
+                Look::Cut(axis) => Look::Cut(axis),
+                Look::Open(never) => match never {},
+            })
+        });
+        let stable = boxes.boxes.iter().filter(|b| b.verdict == BoxVerdict::Stable).map(|b| b.window.clone());
+        let required = (!requirements.is_empty()).then(|| {
+            budget.step("requirements in the stable boxes");
+            let stable: Vec<Window> = stable.collect();
+            let first = self.parts(&requirements);
+            let found = refined(&window, &stable, first, &request.undecided, budget, |place, open| {
+                self.look(&requirements, (place, &window), open, budget)
+            });
+            RequiredBoxes::new(&self.requirements, self.at.as_deref(), found)
+        });
+        let value = MapBoxes {
+            goal: request.undecided.clone(),
+            boxes,
+            no_exact_map: None,
+            required,
+            for_all: self.all.clone(),
+        };
+        Ok(Answer::new(plane, value))
+    }
+
+    /// The question in which all names are free.
+    fn together(&self, question: Question) -> Result<Arc<Problem>, Error> {
+        if self.all.len() > MOST_RANGES {
+            let message = format!("'for all' takes up to {MOST_RANGES} names");
+            return Err(Diagnostic::error(Code::Usage, message).help("give the others values, with '--set'").into());
+        }
+        let free = |question: Question, all: &AllOf| question.free(&all.name);
+        let problem = self.all.iter().fold(question, free).problem()?;
+        for all in &self.all {
+            let own = problem.free().iter().find(|free| free.name == all.name).expect("it is free");
+            let Range { lower, upper } = &own.domain;
+            let is_outside = lower.as_ref().is_some_and(|end| all.range[0] < *end)
+                || upper.as_ref().is_some_and(|end| all.range[1] > *end);
+            if is_outside {
+                let message = format!("the range of '{}' reaches beyond its domain", all.name);
+                return Err(Diagnostic::error(Code::EmptyDomain, message)
+                    .help("a range for all values lies in the domain that the model declares")
+                    .into());
+            }
+        }
+        Ok(problem)
+    }
+
+    /// The parts that a whole window is looked at with: the corners of the ranges, then all of them.
+    fn parts(&self, tests: &[RequirementBoxes]) -> Vec<OpenPart> {
+        let corners = (0..1usize << self.all.len()).map(|corner| {
+            let side = |(k, all): (usize, &AllOf)| {
+                let end = &all.range[corner >> k & 1];
+                [end.clone(), end.clone()]
+            };
+            self.all.iter().enumerate().map(side).collect::<Vec<_>>()
+        });
+        let whole = self.all.iter().map(|all| all.range.clone()).collect();
+        let parts: Vec<BoxPart> = corners.chain([whole]).map(BoxPart::whole).collect();
+        let of = |test: usize| parts.iter().cloned().map(move |part| OpenPart { test, part });
+        (0..tests.len()).flat_map(of).collect()
+    }
+
+    /// Whether a box is decided: the number of a test that it does not pass for some values, or none where it passes all for all values. What is decided
+    /// leaves the list.
+    fn look(
+        &self,
+        tests: &[RequirementBoxes],
+        (place, window): (&Place, &Window),
+        open: &mut Vec<OpenPart>,
+        budget: &Budget,
+    ) -> Result<Look<Option<usize>, std::convert::Infallible>, Exhausted> {
+        let Window { x, y } = place.window(window);
+        let most = place.halvings[0].max(place.halvings[1]) + FINER;
+        let (mut waiting, mut rest) = (std::mem::take(open), Vec::new());
+        waiting.reverse();
+        while let Some(OpenPart { test, part }) = waiting.pop() {
+            budget.check()?;
+            let sides: Vec<[Rational; 2]> = [x.clone(), y.clone()].into_iter().chain(part.sides.clone()).collect();
+            match tests[test].look(&sides, budget)? {
+                OverPoints::All => continue,
+                OverPoints::None => return Ok(Look::Decided(Some(test))),
+                OverPoints::Open { .. } => {}
+            }
+            let is_wide = |axis: &usize| part.sides[*axis][0] < part.sides[*axis][1] && part.halvings[*axis] < most;
+            let axis = (0..part.sides.len()).filter(is_wide).min_by_key(|&axis| part.halvings[axis]);
+            let Some(axis) = axis.filter(|_| waiting.len() + rest.len() < MOST_PARTS) else {
+                rest.push(OpenPart { test, part });
+                continue;
+            };
+            let pinned = part.sides.iter().map(|[low, high]| [low.midpoint(high), low.midpoint(high)]);
+            let pinned: Vec<[Rational; 2]> = [x.clone(), y.clone()].into_iter().chain(pinned).collect();
+            match tests[test].look(&pinned, budget)? {
+                OverPoints::None => return Ok(Look::Decided(Some(test))),
+                // With single values the box is open as well: it is the one to be halved.
+                OverPoints::Open { .. } => rest.push(OpenPart { test, part }),
+                OverPoints::All => {
+                    let [low, high] = part.halves(axis);
+                    waiting.extend([high, low].map(|part| OpenPart { test, part }));
+                }
+            }
+        }
+        *open = rest;
+        Ok(if open.is_empty() { Look::Decided(None) } else { Look::Cut(place.wider()) })
+    }
+}
+
+const NOT_IN_BOXES: &str = "ask 'verdict' with a value for every parameter, or 'tolerance' for a box around one point";
+
+/// A part of the ranges of which something is not decided, together with a box.
+#[derive(Clone, Debug)]
+struct OpenPart {
+    /// The number of the test.
+    test: usize,
+    part: BoxPart,
+}
