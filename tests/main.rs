@@ -92,6 +92,7 @@ mod maps {
     mod cases;
     mod delayed_required;
     mod extents;
+    mod for_all;
     mod held;
     mod laws;
     mod methods;

@@ -154,11 +154,6 @@ pub(crate) static MARGINS_IN_ONE: Refusal = Refusal::new(
 );
 pub(crate) static DELAY_AT_POINTS: Refusal =
     Refusal::new(Code::Require, "a delay margin is decided at points only, not as a set of a parameter", AT_A_POINT);
-pub(crate) static FOR_ALL_WITH_DEAD_TIME: Refusal = Refusal::new(
-    Code::DeadTime,
-    "a map for all values of other names is not known of loops with dead time",
-    "'tolerance' proves a box around one point, and '-z NAME=LO..HI:N' draws the map at N values",
-);
 pub(crate) static NOT_IN_A_PLANE: Refusal =
     Refusal::new(Code::Require, "the requirement {name} is not decided for two parameters", "{help}");
 pub(crate) static NOT_OVER_A_BOX: Refusal =

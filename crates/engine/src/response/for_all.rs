@@ -8,7 +8,7 @@ use super::required_boxes::RequiredBoxes;
 use super::requirement::Requirement;
 use super::requirement_boxes::{OverPoints, RequirementBoxes};
 use crate::answer::{Answer, BoxRequest, MapBoxes};
-use crate::coverage::refusals::{FOR_ALL_WITH_DEAD_TIME, NOT_IN_A_PLANE};
+use crate::coverage::refusals::NOT_IN_A_PLANE;
 use crate::error::{Code, Diagnostic, Error};
 use crate::problem::{Problem, Question};
 use crate::stability::Range;
@@ -83,7 +83,7 @@ impl MapForAll {
     /// larger boxes.
     ///
     /// # Errors
-    /// [`Error::Refused`] for a loop with dead time or complex coefficients, for a window without ends, for ranges outside of what the model allows, and for
+    /// [`Error::Refused`] for a loop with complex coefficients, for a window without ends, for ranges outside of what the model allows, and for
     /// requirements that boxes do not decide; [`Error::Stopped`] when the budget runs out before anything was cut.
     ///
     /// ```
@@ -114,7 +114,8 @@ impl MapForAll {
         near.extend(self.all.iter().map(|all| all.range[0].midpoint(&all.range[1])));
         budget.step("coefficients over the window and the ranges");
         let stability = RequirementBoxes::of_stability(&together, &near, budget)?;
-        let stability = [stability.ok_or_else(|| FOR_ALL_WITH_DEAD_TIME.diagnostic(&[]))?];
+        let stability =
+            [stability.ok_or_else(|| Error::Undefined("the loop has no characteristic function".to_owned()))?];
         let requirement = |r: &Requirement| {
             let found = RequirementBoxes::of(&together, r, self.at.as_deref(), &near, budget)?;
             found.ok_or_else(|| NOT_IN_A_PLANE.diagnostic(&[("name", r.name()), ("help", NOT_IN_BOXES)]).into())
@@ -205,7 +206,7 @@ impl MapForAll {
         while let Some(OpenPart { test, part }) = waiting.pop() {
             budget.check()?;
             let sides: Vec<[Rational; 2]> = [x.clone(), y.clone()].into_iter().chain(part.sides.clone()).collect();
-            match tests[test].look(&sides, budget)? {
+            match tests[test].short_look(&sides, budget)? {
                 OverPoints::All => continue,
                 OverPoints::None => return Ok(Look::Decided(Some(test))),
                 OverPoints::Open { .. } => {}
@@ -218,7 +219,7 @@ impl MapForAll {
             };
             let pinned = part.sides.iter().map(|[low, high]| [low.midpoint(high), low.midpoint(high)]);
             let pinned: Vec<[Rational; 2]> = [x.clone(), y.clone()].into_iter().chain(pinned).collect();
-            match tests[test].look(&pinned, budget)? {
+            match tests[test].short_look(&pinned, budget)? {
                 OverPoints::None => return Ok(Look::Decided(Some(test))),
                 // With single values the box is open as well: it is the one to be halved.
                 OverPoints::Open { .. } => rest.push(OpenPart { test, part }),

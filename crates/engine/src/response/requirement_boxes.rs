@@ -5,7 +5,7 @@ use super::requirement::Requirement;
 use crate::answer::Verdict;
 use crate::error::Error;
 use crate::problem::{Bound, Problem, Question, Region};
-use crate::stability::boxes::BoxPolynomial;
+use crate::stability::boxes::{BoxPolynomial, DelayedFunction, Family, MovingPolynomial, corners};
 use crate::stability::{AtPoint, RootCount, Shape, count_roots};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
@@ -37,7 +37,8 @@ use std::sync::Arc;
 /// ```
 pub struct RequirementBoxes {
     problem: Arc<Problem>,
-    over: OverBox,
+    /// `None` where stability of a loop with dead time is asked.
+    over: Option<OverBox>,
     asked: Asked,
 }
 
@@ -62,12 +63,17 @@ pub enum OverPoints {
 
 /// What is asked.
 enum Asked {
-    /// With the polynomial of a loop that is rational.
-    Stability(Option<BoxPolynomial>),
-    Requirement {
-        one: Requirement,
-        at: Option<String>,
-    },
+    Stability(LoopFamily),
+    Requirement { one: Requirement, at: Option<String> },
+}
+
+/// A loop as the family that proves boxes of it.
+enum LoopFamily {
+    Rational(Box<BoxPolynomial>),
+    Moving(Box<MovingPolynomial>),
+    Delayed(Box<DelayedFunction>),
+    /// A loop with constants that are not rational.
+    Constants,
 }
 
 /// So often 1 is halved, or the loop's own frequency: regions that are wider by this are asked where the region of stability itself tells nothing.
@@ -78,6 +84,12 @@ const DISTANCE_WORK: u64 = 3_000_000;
 
 /// In so many places between the region of stability and a root it is asked whether the count of roots beyond is the same in a box.
 const OTHERS: u64 = 3;
+
+/// So many corners of a box are looked at before a proof is tried.
+const MOST_CORNERS: usize = 16;
+
+/// Cells of frequency and parameters after which a box of a rational loop is rather halved.
+const CELLS: usize = 96;
 
 impl RequirementBoxes {
     /// Of a requirement, margins being taken at a cut; `near` is a point that tells how fast the loop is. `None` for a requirement that is not asked of
@@ -96,33 +108,41 @@ impl RequirementBoxes {
     ) -> Result<Option<RequirementBoxes>, Error> {
         let over = OverBox::of(problem, requirement, at, near, budget)?;
         let asked = Asked::Requirement { one: requirement.clone(), at: at.map(str::to_owned) };
-        Ok(over.map(|over| RequirementBoxes { problem: Arc::clone(problem), over, asked }))
+        Ok(over.map(|over| RequirementBoxes { problem: Arc::clone(problem), over: Some(over), asked }))
     }
 
-    /// Of stability, in the region of the problem. `None` for a loop with dead time.
+    /// Of stability, in the region of the problem. `None` for a loop that is undefined everywhere.
     ///
     /// Cost: that of [`Problem::algebra_over_symbols`].
     ///
     /// # Errors
-    /// As [`Problem::algebra_over_symbols`].
+    /// As [`Problem::algebra_over_symbols`]; `E-dead-time` for dead times that boxes do not treat.
     pub fn of_stability(
         problem: &Arc<Problem>,
         near: &[Rational],
         budget: &Budget,
     ) -> Result<Option<RequirementBoxes>, Error> {
-        let Some(over) = OverBox::of_stability(problem, near, budget)? else { return Ok(None) };
         let algebra = problem.algebra_over_symbols(budget)?;
-        let rational = algebra.polynomial().filter(|_| algebra.symbols().is_empty());
-        let polynomial = rational.map(|d| budget.enter(|| BoxPolynomial::over(d, near.len(), problem.shape())));
-        let asked = Asked::Stability(polynomial.transpose()?);
-        Ok(Some(RequirementBoxes { problem: Arc::clone(problem), over, asked }))
+        let Some(d) = algebra.polynomial() else { return Ok(None) };
+        let over = OverBox::of_stability(problem, near, budget)?;
+        let family = if over.is_none() {
+            let Some(family) = problem.delayed_family(near, budget)? else { return Ok(None) };
+            LoopFamily::Delayed(Box::new(family))
+        } else if algebra.symbols().is_empty() {
+            let family = budget.enter(|| BoxPolynomial::over(d, near.len(), problem.shape()))?;
+            LoopFamily::Rational(Box::new(family))
+        } else {
+            let family = problem.moving_family(budget)?;
+            family.map_or(LoopFamily::Constants, |family| LoopFamily::Moving(Box::new(family)))
+        };
+        Ok(Some(RequirementBoxes { problem: Arc::clone(problem), over, asked: Asked::Stability(family) }))
     }
 
     /// What is known of all points of a closed box without a look at any point; `None` where nothing is.
     ///
     /// Cost: Taylor models of the coefficients, and values on some hundred pieces of the circle.
     pub fn certain(&self, sides: &[[Rational; 2]]) -> Option<Certain> {
-        self.over.certain(sides)
+        self.over.as_ref()?.certain(sides)
     }
 
     /// Whether all stable points of a closed box meet the requirement, or no stable point does; of stability, whether all points are stable, or none is.
@@ -138,12 +158,20 @@ impl RequirementBoxes {
             Some(false) => OverPoints::None,
             None => OverPoints::Open { middle: None },
         };
-        Ok(match (budget.enter(|| self.over.certain(sides))?, &self.asked) {
+        let known = match (self.by_family(sides, budget)?, &self.asked) {
+            (Some(OverPoints::Open { .. }), Asked::Stability(LoopFamily::Delayed(_))) => {
+                return Ok(OverPoints::Open { middle: self.is_stable(&middle(), None, budget)? });
+            }
+            (Some(OverPoints::Open { .. }), _) => None,
+            (Some(told), _) => return Ok(told),
+            (None, _) => budget.enter(|| self.certain(sides))?,
+        };
+        Ok(match (known, &self.asked) {
             (Some(Certain::Met), _) => OverPoints::All,
             (Some(Certain::Unmet), _) => OverPoints::None,
             (Some(Certain::Same), Asked::Stability(_)) => match self.is_stable(&middle(), None, budget)? {
                 // No root crosses; that the loop is defined at all points is more.
-                Some(true) if !budget.enter(|| self.over.is_defined(sides))? => OverPoints::Open { middle: Some(true) },
+                Some(true) if !budget.enter(|| self.is_defined(sides))? => OverPoints::Open { middle: Some(true) },
                 told => all_or_none(told),
             },
             (Some(Certain::Same), Asked::Requirement { one, at }) => {
@@ -161,6 +189,60 @@ impl RequirementBoxes {
         })
     }
 
+    fn is_defined(&self, sides: &[[Rational; 2]]) -> bool {
+        self.over.as_ref().is_some_and(|over| over.is_defined(sides))
+    }
+
+    /// The same with less work: an open box is not asked for more.
+    ///
+    /// # Errors
+    /// When the budget runs out.
+    pub(crate) fn short_look(&self, sides: &[[Rational; 2]], budget: &Budget) -> Result<OverPoints, Exhausted> {
+        match self.by_family(sides, budget)? {
+            Some(told) => Ok(told),
+            None => self.look(sides, budget),
+        }
+    }
+
+    /// What the family of loops proves of the stability of a box; `None` where there is none, or a requirement is asked.
+    fn by_family(&self, sides: &[[Rational; 2]], budget: &Budget) -> Result<Option<OverPoints>, Exhausted> {
+        let Asked::Stability(family) = &self.asked else { return Ok(None) };
+        Ok(Some(match family {
+            LoopFamily::Rational(family) => self.same_count(family.as_ref(), sides, budget)?,
+            LoopFamily::Moving(family) => self.same_count(family.as_ref(), sides, budget)?,
+            LoopFamily::Delayed(family) => self.same_count(family.as_ref(), sides, budget)?,
+            LoopFamily::Constants => return Ok(None),
+        }))
+    }
+
+    /// Whether all points of a box are stable, or none is, where no root crosses in it.
+    fn same_count(
+        &self,
+        family: &impl Family,
+        sides: &[[Rational; 2]],
+        budget: &Budget,
+    ) -> Result<OverPoints, Exhausted> {
+        let open = OverPoints::Open { middle: None };
+        let middle: Vec<Rational> = sides.iter().map(|[low, high]| low.midpoint(high)).collect();
+        let Some((signs, scale)) = budget.enter(|| family.signs_at(&middle))? else { return Ok(open) };
+        let differs = || {
+            let is_stable = family.is_stable_at(&middle);
+            corners(sides).take(MOST_CORNERS).any(|corner| family.is_stable_at(&corner) != is_stable)
+        };
+        // Where a boundary is in the box, a corner often tells at once.
+        if budget.enter(differs)? {
+            return Ok(open);
+        }
+        if !budget.enter(|| family.has_no_crossing(sides, (&signs, scale), CELLS, budget))?? {
+            return Ok(open);
+        }
+        Ok(match self.is_stable(&middle, None, budget)? {
+            Some(true) => OverPoints::All,
+            Some(false) => OverPoints::None,
+            None => open,
+        })
+    }
+
     /// Whether a stable point meets what is asked, by the look where that tells, else by the exact decision; `None` where that is not told.
     pub(crate) fn meets(&self, point: &[Rational], budget: &Budget) -> Result<Option<bool>, Exhausted> {
         let sides: Vec<[Rational; 2]> = point.iter().map(|x| [x.clone(), x.clone()]).collect();
@@ -168,7 +250,7 @@ impl RequirementBoxes {
             (OverPoints::All, _) => Ok(Some(true)),
             (OverPoints::None, _) => Ok(Some(false)),
             (OverPoints::Open { middle }, Asked::Stability(_)) => Ok(middle),
-            (OverPoints::Open { .. }, Asked::Requirement { one, at }) if self.over.is_distance_with_dead_time() => {
+            (OverPoints::Open { .. }, Asked::Requirement { one, at }) if self.is_distance_with_dead_time() => {
                 // Near to a touch it takes long, and may not be told.
                 let part = budget.clone().within_work(DISTANCE_WORK);
                 match self.is_met(point, one, at.as_deref(), &part) {
@@ -183,7 +265,11 @@ impl RequirementBoxes {
     /// Of a requirement on a loop with dead time and one parameter, the only value in a short interval at which it begins or ceases to be met, or that
     /// there is none; `None` where neither is seen.
     pub(crate) fn only_end(&self, side: &[Rational; 2]) -> Option<Option<Real>> {
-        self.over.only_end(side)
+        self.over.as_ref()?.only_end(side)
+    }
+
+    fn is_distance_with_dead_time(&self) -> bool {
+        self.over.as_ref().is_some_and(OverBox::is_distance_with_dead_time)
     }
 
     /// Whether each point of a box, the middle of which is not stable, has a root outside of a region that is wider than that of stability.
@@ -206,11 +292,12 @@ impl RequirementBoxes {
         // Between the region and the root. Another root may lie just there: halves of the box are asked somewhere else.
         let bits: u64 = sides.iter().map(|[low, high]| (high - low).denominator().bit_length()).sum();
         let halvings = halvings + 1 + (bits % OTHERS) as u32;
-        Ok(budget.enter(|| self.over.certain_beyond(sides, Some(halvings)))? == Some(Certain::Same))
+        let certain = || self.over.as_ref()?.certain_beyond(sides, Some(halvings));
+        Ok(budget.enter(certain)? == Some(Certain::Same))
     }
 
     fn wider(&self, halvings: u32) -> Option<Region> {
-        let by = self.over.wider(halvings);
+        let by = self.over.as_ref()?.wider(halvings);
         match self.problem.region() {
             Region::HalfPlane(Bound::Number(decay)) => Some(Region::half_plane(decay - &by)),
             Region::Disc(Bound::Number(radius)) => Region::disc(radius + &(radius * &by)).ok(),
@@ -227,7 +314,7 @@ impl RequirementBoxes {
 
     /// Whether all roots of a point lie in the region of stability, or in one that is wider; `None` where that is not told.
     fn is_stable(&self, point: &[Rational], wider: Option<u32>, budget: &Budget) -> Result<Option<bool>, Exhausted> {
-        if let Asked::Stability(Some(polynomial)) = &self.asked {
+        if let Asked::Stability(LoopFamily::Rational(polynomial)) = &self.asked {
             return budget.enter(|| self.is_stable_there(polynomial, point, wider));
         }
         let region = match (&self.asked, wider) {
@@ -249,7 +336,7 @@ impl RequirementBoxes {
         let shape = self.problem.shape();
         let AtPoint::Defined { count, infinite: 0 } = polynomial.at(point) else { return None };
         let Some(halvings) = wider else { return told_by(&count) };
-        let by = self.over.wider(halvings);
+        let by = self.over.as_ref()?.wider(halvings);
         let p = Poly::new(polynomial.coefficients_in_region().iter().map(|c| c.eval(point)).collect());
         let moved = match shape {
             Shape::LeftHalfPlane => p.taylor_shift(&by),

@@ -222,7 +222,17 @@ impl Family for DelayedFunction {
         cells: usize,
         budget: &Budget,
     ) -> Result<Outcome, Exhausted> {
-        self.proved(sides, (reference, scale), cells, budget)
+        self.proved(sides, (reference, scale), (cells, true), budget)
+    }
+
+    fn has_no_crossing(
+        &self,
+        sides: &[[Rational; 2]],
+        known: (&[Sign], i64),
+        cells: usize,
+        budget: &Budget,
+    ) -> Result<bool, Exhausted> {
+        Ok(matches!(self.proved(sides, known, (cells, false), budget)?, Outcome::Stable(_)))
     }
 }
 

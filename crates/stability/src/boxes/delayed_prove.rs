@@ -61,12 +61,13 @@ struct Part {
 type Pair = [MultiTaylorModel; 2];
 
 impl DelayedFunction {
-    /// Decides one box with at most so many parts.
+    /// Decides one box with at most so many parts. Points that are not stable are looked for where `refutes` says that stability is to be proved, not
+    /// only that no root crosses.
     pub(super) fn proved(
         &self,
         whole: &[[Rational; 2]],
         (reference, scale): (&[Sign], i64),
-        cells: usize,
+        (cells, refutes): (usize, bool),
         budget: &Budget,
     ) -> Result<Outcome, Exhausted> {
         for (f, &sign) in self.certain.iter().zip(reference) {
@@ -81,7 +82,8 @@ impl DelayedFunction {
             }
         }
         // A corner is looked at in no time, and is where the limit often is.
-        if let Some(corner) = corners(whole).find_map(|point| self.refuted(point, reference)) {
+        let reference = refutes.then_some(reference);
+        if let Some(corner) = corners(whole).find_map(|point| self.refuted(point, reference?)) {
             return Ok(corner);
         }
         match self.bounded(whole, budget)? {
@@ -122,7 +124,7 @@ impl DelayedFunction {
         &self,
         parts: Vec<BoxPart>,
         whole: &[[Rational; 2]],
-        (reference, scale): (&[Sign], i64),
+        (reference, scale): (Option<&[Sign]>, i64),
         most: usize,
         budget: &Budget,
     ) -> Result<Outcome, Exhausted> {
@@ -137,7 +139,7 @@ impl DelayedFunction {
                 Err(cell) => parameters(cell),
             };
             let mut points = [simplest_point(&last), middle(&last)].into_iter().chain(corners(&last));
-            let lost = if part.is_vague { None } else { points.find_map(|point| self.refuted(point, reference)) };
+            let lost = if part.is_vague { None } else { points.find_map(|point| self.refuted(point, reference?)) };
             drop(points);
             if let Some(outcome) = lost {
                 return Ok(Look::Open(outcome));

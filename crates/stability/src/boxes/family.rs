@@ -68,6 +68,18 @@ pub trait Family {
         cells: usize,
         budget: &Budget,
     ) -> Result<Outcome, Exhausted>;
+
+    /// Whether it is proved that no root crosses the boundary in a box, with at most so many cells: then all its points have as many roots outside. The
+    /// point of the signs may be stable or not.
+    fn has_no_crossing(
+        &self,
+        sides: &[[Rational; 2]],
+        known: (&[Sign], i64),
+        cells: usize,
+        budget: &Budget,
+    ) -> Result<bool, Exhausted> {
+        Ok(matches!(self.prove(sides, known, cells, budget)?, Outcome::Stable(_)))
+    }
 }
 
 /// How what vanishes at a crossing depends on the parameters.

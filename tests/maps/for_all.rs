@@ -1,0 +1,185 @@
+//! Maps of two parameters for all values of others, against the exact set of the other one at points.
+
+use crate::helpers::model::{example_text, keeping, load, read};
+use crate::helpers::number::{number, ratio};
+use crate::helpers::program::{jurist, jurist_with_input};
+use crate::helpers::random::Random;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_engine::answer::{Answer, BoxRequest, MapBoxes, Verdict};
+use jurist_engine::model::Model;
+use jurist_engine::response::{AllOf, MapForAll, Requirement};
+use jurist_engine::stability::plane::boxes::{BoxVerdict, Window};
+use jurist_engine::stability::{Range, StableSet};
+
+fn boxes(
+    model: &Model,
+    [x, y]: [(&str, [&str; 2]); 2],
+    (name, [least, greatest]): (&str, [&str; 2]),
+    undecided: &str,
+    requirements: &[Requirement],
+) -> Answer<MapBoxes> {
+    let range = |[lower, upper]: [&str; 2]| Range::between(Some(number(lower)), Some(number(upper)));
+    let request = BoxRequest::new([range(x.1), range(y.1)], number(undecided));
+    let all = AllOf::new(name, number(least), number(greatest)).expect("a range");
+    let at = (!requirements.is_empty()).then(|| "u".to_owned());
+    let asked = MapForAll::new(vec![all]).with_requirements(requirements.to_vec(), at);
+    asked.boxes(keeping(model, &[x.0, y.0]), &request, &Budget::unlimited()).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// Whether a set holds a closed range: one of its intervals does, no end lies on the range.
+fn holds(set: &StableSet, [least, greatest]: [&str; 2]) -> bool {
+    let (least, greatest) = (number(least), number(greatest));
+    set.intervals().iter().any(|interval| {
+        let below = interval.lower.as_ref().is_none_or(|end| end.value.compare_rational(&least).is_lt());
+        below && interval.upper.as_ref().is_none_or(|end| end.value.compare_rational(&greatest).is_gt())
+    })
+}
+
+fn inside(b: &Window, random: &mut Random) -> [Rational; 2] {
+    [&b.x, &b.y].map(|[low, high]| low + &(&(high - low) * &ratio(1 + random.below(998) as i64, 1000)))
+}
+
+/// Points of decided boxes against what is known of points; how many of either kind were looked at.
+fn agrees(found: &Answer<MapBoxes>, random: &mut Random, is_good: impl Fn(&[Rational; 2]) -> bool) -> [usize; 2] {
+    let map = &found.value().boxes;
+    assert!(map.stopped.is_none(), "{:?}", map.stopped);
+    let decided: Vec<_> = map.boxes.iter().filter(|b| b.verdict != BoxVerdict::Undecided).collect();
+    let mut seen = [0, 0];
+    for _ in 0..12.min(decided.len()) {
+        let b = decided[random.below(decided.len())];
+        let point = inside(&b.window, random);
+        let is_stable = b.verdict == BoxVerdict::Stable;
+        assert_eq!(is_good(&point), is_stable, "{point:?} in {b:?}\n{}", found.problem().model().source().text);
+        seen[usize::from(is_stable)] += 1;
+    }
+    seen
+}
+
+/// `FOR_ALL_CASES=300` asks for so many.
+#[test]
+fn points_of_decided_boxes_agree_with_the_set_of_the_third_name() {
+    let cases = std::env::var("FOR_ALL_CASES").ok().and_then(|text| text.parse().ok()).unwrap_or(6);
+    let (mut random, mut seen) = (Random::new(37), [0, 0]);
+    for case in 0..cases {
+        let mut number = |bound: usize| random.below(2 * bound + 1) as i64 - bound as i64;
+        let (time, variable) = if case % 2 == 0 { ("continuous", "s") } else { ("discrete", "z") };
+        let order = 2 + case % 2;
+        let scale = if time == "discrete" { 12 } else { 4 };
+        let terms: Vec<String> = (0..order)
+            .map(|k| {
+                let [c, x, y, l, both] = [number(8), number(3), number(3), number(3), number(2)];
+                let shift = if time == "continuous" { 4 } else { 0 };
+                format!("({c} + {shift} + ({x})*x + ({y})*y + ({l})*L + ({both})*x*L)/{scale}*{variable}^{k}")
+            })
+            .collect();
+        let text = format!(
+            "time = '{time}'\nparameters = {{ x = 0, y = 0, L = 0 }}\nloop.characteristic = '{variable}^{order} + {}'\n",
+            terms.join(" + ")
+        );
+        let (side, all, model) = (["-1", "1"], ["-1/3", "1/2"], read(&text));
+        let found = boxes(&model, [("x", side), ("y", side)], ("L", all), "0.3", &[]);
+        let [bad, good] = agrees(&found, &mut random, |[x, y]| {
+            let wide = Range::between(Some((-2).into()), Some(2.into()));
+            let question = model.ask().set("x", x.clone()).set("y", y.clone()).free("L").domain("L", wide);
+            holds(question.stable_set(&Budget::unlimited()).unwrap().value(), all)
+        });
+        seen = [seen[0] + bad, seen[1] + good];
+    }
+    println!("{cases} loops, {seen:?} points");
+    assert!(seen.iter().all(|n| *n > cases), "{seen:?}");
+}
+
+/// A constant of the plant, inside of functions, varies while a gain and the sample time are looked for.
+#[test]
+fn a_constant_of_a_plant_behind_a_hold_may_be_the_third_name() {
+    let model = load(&example_text("dc-servo"));
+    let axes = [("K", ["1", "150"]), ("T", ["0.001", "0.008"])];
+    let found = boxes(&model, axes, ("T_m", ["0.02", "0.05"]), "0.3", &[]);
+    let [bad, good] = agrees(&found, &mut Random::new(5), |[gain, time]| {
+        (0..=6).all(|k| {
+            let constant = number("0.02") + number("0.005") * Rational::from(k);
+            let question = model.ask().set("K", gain.clone()).set("T", time.clone()).set("T_m", constant);
+            question.verdict(&Budget::unlimited()).unwrap().value().verdict == Verdict::Stable
+        })
+    });
+    assert!(bad > 0 && good > 0, "{bad} {good}");
+}
+
+/// `|1 + L|` is least at `z = -1`, where it is `1 - a b K/2`: for every `b` up to 2 it is half at least where `a K <= 1/2`.
+#[test]
+fn a_requirement_for_all_values_is_that_of_the_worst_one() {
+    let model = read(
+        "time = 'discrete'\n[parameters]\nK = 1\na = 1\nb = 1\n[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\nname = 'c'\n\
+         input = 'r - y'\noutput = 'u'\ngain = 'K'\n[[block]]\nname = 'p'\ninput = 'u'\noutput = 'y'\ntransfer = 'a*b/(z - 1)'\n",
+    );
+    let margin = Requirement::modulus_margin("1/2".parse().unwrap()).unwrap();
+    let axes = [("K", ["0", "2"]), ("a", ["0", "1"])];
+    let found = boxes(&model, axes, ("b", ["1/2", "2"]), "0.05", &[margin]);
+    let areas = &found.value().required.as_ref().unwrap().areas;
+    // Below the hyperbola a K = 1/2 the area is 1/2 + ln(4)/2.
+    let area = number("1.19314718");
+    let boxes = &found.value().boxes.areas;
+    assert!(areas.met < area && &areas.met + &areas.undecided + &boxes.undecided > area, "{areas:?}");
+    // Stable where a b K < 2 for all b: a K < 1.
+    let area = number("1.69314718");
+    assert!(boxes.stable < area && &boxes.stable + &boxes.undecided > area, "{boxes:?}");
+}
+
+/// Two names at once: `s + x - b c` for all `b` and `c` from -1 to 2 is stable where `x > 4`.
+#[test]
+fn several_names_vary_together() {
+    let text =
+        "time = 'continuous'\nparameters = { x = 5, y = 1, b = 0, c = 0 }\nloop.characteristic = 's + x - b*c'\n";
+    let arguments =
+        ["map", "-", "-x", "x=0..8", "-y", "y=0..1", "--for-all", "b=-1..2", "--for-all", "c=-1..2", "--json"];
+    let run = jurist_with_input(&arguments, text.as_bytes());
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let found: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
+    assert_eq!(found["for_all"][1]["name"], "c");
+    let stable = found["areas"]["stable"].as_str().unwrap().parse::<Rational>().unwrap();
+    assert!(stable <= 4.into() && stable > number("3.9"), "{stable}");
+    let shown = jurist_with_input(&arguments[..arguments.len() - 1], text.as_bytes()).stdout;
+    assert!(shown.contains("for all b from -1 to 2, c from -1 to 2") && shown.contains("not for all: "), "{shown}");
+}
+
+#[test]
+fn mistakes_are_shown_where_they_stand() {
+    let drive = |arguments: &[&str]| {
+        let run = jurist(&[&["map", "-x", "K_pwm=1..600", "-y", "T=5e-5..2e-4"], arguments].concat());
+        assert_eq!(run.status, 2, "{arguments:?}: {}", run.stdout);
+        run.stderr
+    };
+    for (arguments, what) in [
+        (&["--for-all", "L_a"][..], "expects NAME=LO..HI"),
+        (&["--for-all", "L_a=1..2", "--for-all", "L_a=1..3"], "two ranges"),
+        (&["--for-all", "L_a=2..1"], "is empty"),
+        (&["--for-all", "L_b=1..2"], "L_b"),
+        (&["--for-all", "L_a=1..2", "--method", "exact"], "made of boxes"),
+        (&["--for-all", "K_pwm=1..2"], "K_pwm"),
+    ] {
+        let said = drive(arguments);
+        assert!(said.contains(what), "{arguments:?}: {said}");
+    }
+}
+
+/// `s + K L exp(-tau s)`, for all gains `L` of the plant.
+#[test]
+fn loops_with_dead_time_have_such_maps() {
+    let text =
+        "time = 'continuous'\nparameters = { K = 1, tau = 1, L = 1 }\nloop.characteristic = 's + K*L*exp(-tau*s)'\n";
+    let axes = [("K", ["1/10", "3/2"]), ("tau", ["1/10", "2"])];
+    let found = boxes(&read(text), axes, ("L", ["1/2", "2"]), "0.05", &[]);
+    let map = &found.value().boxes;
+    // Stable where K L tau < pi/2 for all L: K tau < pi/4.
+    let limit = number("0.78539816339744830961");
+    for b in &map.boxes {
+        let [low, high] = [0, 1].map(|end| &b.window.x[end] * &b.window.y[end]);
+        match b.verdict {
+            BoxVerdict::Stable => assert!(high < limit, "{b:?}"),
+            BoxVerdict::Unstable { .. } => assert!(low > limit, "{b:?}"),
+            BoxVerdict::Undecided => {}
+        }
+    }
+    assert!(map.stopped.is_none() && map.areas.stable.sign().is_gt() && map.areas.unstable.sign().is_gt());
+}
