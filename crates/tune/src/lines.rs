@@ -152,7 +152,8 @@ impl<'a> Lines<'a> {
         Ok(problem.requirements_met(&list, self.at(), self.budget)?.iter().all(|found| found.met))
     }
 
-    /// Whether boxes of gains are searched: of three gains or more, and of two behind a hold where the map takes minutes.
+    /// Whether boxes of gains are searched: of three gains or more, and of two behind a hold where the map takes minutes, and of
+    /// two with dead time, where there is none.
     pub fn are_boxes_asked(&self) -> Result<bool, Error> {
         if self.asked.gains.len() != 2 || self.asked.by_boxes {
             return Ok(self.asked.gains.len() > 1);
@@ -163,7 +164,7 @@ impl<'a> Lines<'a> {
             return Ok(false);
         }
         let ring = self.problem()?.coefficient_ring(self.budget)?;
-        Ok(matches!(ring, CoefficientRing::Constants | CoefficientRing::Functions))
+        Ok(matches!(ring, CoefficientRing::Constants | CoefficientRing::Functions | CoefficientRing::DeadTime))
     }
 
     /// Where margins are taken.
