@@ -180,6 +180,22 @@ fn two_gains_behind_a_hold() {
     case.sample(60, |point| assert!(point[1] < proved, "{point:?}"));
 }
 
+/// A PI controller with a lag and a dead time: on the curve of 45 degrees, computed in floating point, the largest integral gain is 1.5786935 (at
+/// `k = 1.47`).
+#[test]
+fn two_gains_with_dead_time() {
+    let text = "time = 'continuous'\n[parameters]\nk = 0.5\nki = 0.2\n[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\ninput = 'r - y'\n\
+        output = 'u'\ntransfer = 'k + ki/s'\n[[block]]\ninput = 'u'\noutput = 'y'\ntransfer = 'exp(-s/2)/(s + 1)'\n";
+    let options = ["--free", "k", "--free", "ki", "--bound", "k=0.05..3", "--bound", "ki=0.02..2", "--gap", "0.2"];
+    let (status, found) = tune(text, &[&options[..], &["--objective", "max ki", "--phase-margin", "45 deg"]].concat());
+    assert_eq!((status, &found["feasible"]), (0, &true.into()), "{found}");
+    let [least, proved] = [&found["found"]["value"], &found["proved"]].map(|text| number(text.as_str().unwrap()));
+    assert!(
+        least <= number("1.57869356") && number("1.57869355") <= proved && proved < &least * &ratio(5, 4),
+        "{found}"
+    );
+}
+
 #[test]
 fn specifications_that_cannot_be_met() {
     let bounds = ["--bound", "kp=0.1..1", "--bound", "ki=0.1..1", "--bound", "kd=0.1..1.5"];
