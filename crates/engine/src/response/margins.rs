@@ -232,7 +232,7 @@ impl Margins {
     pub fn delay_seconds(&self, bits: u64) -> Option<Enclosure> {
         match (&self.stable.as_ref()?.delay, &self.held_delay) {
             (DelayMargin::Zero, _) => Some(Enclosure::from_rational(Rational::ZERO)),
-            (DelayMargin::DeadTime(i), _) => self.crossings.gain[*i].delay(self.open_loop.shape(), bits),
+            (DelayMargin::DeadTime(i), _) => self.crossings.gain[*i].delay(self.open_loop.frequencies(), bits),
             (_, Some(held)) => held.seconds(bits),
             _ => None,
         }
@@ -240,7 +240,7 @@ impl Margins {
 
     /// A frequency with the loop's sample time; `None` in the limit of high frequencies.
     pub fn frequency(&self, place: &Place, bits: u64) -> Option<Frequency> {
-        place.frequency(self.open_loop.shape(), self.open_loop.sample_time(), bits)
+        place.frequency(self.open_loop.frequencies(), self.open_loop.sample_time(), bits)
     }
 }
 
@@ -284,8 +284,7 @@ impl StableMargins {
 impl GainMargin {
     pub(super) fn of(open_loop: &OpenLoop, budget: &Budget) -> Result<Self, Exhausted> {
         let set = with_parts!(open_loop, parts => {
-            let Parts { ground, denominator, numerator, poles, shape, .. } = parts;
-            ground.stable_factors(denominator, numerator, poles, *shape, budget)?
+            parts.ground.stable_factors(&parts.in_factor(), &parts.poles, parts.shape, budget)?
         });
         Ok(GainMargin::of_set(set))
     }
@@ -339,7 +338,7 @@ impl PhaseMargin {
             return Ok(PhaseMargin::Angle { tangent: None, place: None });
         }
         let (above, below) = (&r.sum_squared, &r.difference_squared);
-        let least = extreme_over(&parts.ground, above, below, parts.shape, Ordering::Less, budget)?;
+        let least = extreme_over(&parts.ground, above, below, parts.frequencies(), Ordering::Less, budget)?;
         let square = least.value().expect("not infinite everywhere").number(budget)?;
         let tangent = Some(Box::new(square_root(&square, budget)?));
         Ok(PhaseMargin::Angle { tangent, place: least.place().cloned() })
@@ -350,7 +349,7 @@ impl PhaseMargin {
 fn modulus_extreme(open_loop: &OpenLoop, budget: &Budget) -> Result<Extreme, Exhausted> {
     with_parts!(open_loop, parts => {
         let r = &parts.reduced;
-        extreme_over(&parts.ground, &r.sum_squared, &r.denominator_squared, parts.shape, Ordering::Less, budget)
+        extreme_over(&parts.ground, &r.sum_squared, &r.denominator_squared, parts.frequencies(), Ordering::Less, budget)
     })
 }
 
@@ -358,6 +357,6 @@ fn modulus_extreme(open_loop: &OpenLoop, budget: &Budget) -> Result<Extreme, Exh
 fn complementary_extreme(open_loop: &OpenLoop, budget: &Budget) -> Result<Extreme, Exhausted> {
     with_parts!(open_loop, parts => {
         let r = &parts.reduced;
-        extreme_over(&parts.ground, &r.numerator_squared, &r.sum_squared, parts.shape, Ordering::Greater, budget)
+        extreme_over(&parts.ground, &r.numerator_squared, &r.sum_squared, parts.frequencies(), Ordering::Greater, budget)
     })
 }

@@ -4,10 +4,10 @@ use super::crossings::Crossings;
 use super::extreme::{Extreme, extreme_over};
 use super::margins::{GainMargin, Margins, PhaseMargin, StableMargins};
 use super::open_loop::{OpenLoop, with_parts};
-use super::place::modulus_squared;
 use super::requirement::{Circle, Found, Requirement, Rule};
 use super::value::{Value, square_root};
 use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::Integer;
 use jurist_algebra::poly::{Domain, RealAlgebraic, UniPoly};
 use jurist_algebra::real::Real;
 use std::cmp::Ordering;
@@ -118,11 +118,11 @@ impl Requirement {
 fn circle_extreme(open_loop: &OpenLoop, circle: &Circle, budget: &Budget) -> Result<Option<Extreme>, Exhausted> {
     with_parts!(open_loop, parts => {
         let r = &parts.reduced;
-        let combined = circle.combination(&r.denominator, &r.numerator);
-        let below = modulus_squared(&combined, r.degree, parts.shape);
+        let [u, v] = circle.combined().map(Integer::from);
+        let below = r.combined_squared(&u, &v);
         if below.is_zero() {
             return Ok(None);
         }
-        extreme_over(&parts.ground, &r.sum_squared, &below, parts.shape, Ordering::Less, budget).map(Some)
+        extreme_over(&parts.ground, &r.sum_squared, &below, r.frequencies, Ordering::Less, budget).map(Some)
     })
 }

@@ -4,7 +4,6 @@ use super::Extreme;
 use super::extreme::extreme_over;
 use super::ground::Ground;
 use super::open_loop::{Over, Parts};
-use super::place::modulus_squared;
 use super::value::square_root;
 use crate::answer::{Answer, Frequency, PointVerdict, Verdict};
 use crate::coverage::refusals::FEEDBACK;
@@ -13,7 +12,7 @@ use crate::problem::{Problem, Question};
 use crate::stability::Shape;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::{Domain, Poly, RationalFunction};
+use jurist_algebra::poly::RationalFunction;
 use jurist_algebra::real::Real;
 use std::cmp::Ordering;
 use std::sync::Arc;
@@ -68,12 +67,8 @@ impl Norm {
 impl PeakGain {
     /// Of a stable transfer function.
     fn over<G: Ground>(parts: &Parts<G>, budget: &Budget) -> Result<PeakGain, Exhausted> {
-        let n = parts.denominator.coeffs().len().saturating_sub(1);
-        let common = budget.enter(|| parts.numerator.gcd(&parts.denominator))?;
-        let squared =
-            |p: &Poly<G::Number>| modulus_squared(&p.div_exact(&common).expect("a gcd divides"), n, parts.shape);
-        let (above, below) = (squared(&parts.numerator), squared(&parts.denominator));
-        let extreme = extreme_over(&parts.ground, &above, &below, parts.shape, Ordering::Greater, budget)?;
+        let (above, below) = (&parts.reduced.numerator_squared, &parts.reduced.denominator_squared);
+        let extreme = extreme_over(&parts.ground, above, below, parts.frequencies(), Ordering::Greater, budget)?;
         let square = extreme.value().expect("no pole of a stable loop is on the boundary").number(budget)?;
         Ok(PeakGain { value: square_root(&square, budget)?, extreme })
     }

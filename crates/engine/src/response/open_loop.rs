@@ -1,7 +1,8 @@
 //! The open loop as two polynomials.
 
-use super::Place;
+use super::Frequencies;
 use super::by_gain::{by_gain, only_gain};
+use super::complex_poly::ComplexPoly;
 use super::family::nothing_comes_back;
 use super::ground::{Constants, Ground, Integers};
 use super::place::{modulus_squared, product};
@@ -72,27 +73,24 @@ pub(crate) use with_parts;
 #[derive(Clone, Debug)]
 pub(crate) struct Parts<G: Ground> {
     pub ground: G,
-    pub denominator: Poly<G::Number>,
-    pub numerator: Poly<G::Number>,
+    pub denominator: ComplexPoly<G::Number>,
+    pub numerator: ComplexPoly<G::Number>,
     /// Polynomials in the factor at whose zeros the model is undefined.
     pub poles: Vec<Poly<G::Number>>,
     pub shape: Shape,
     pub reduced: Reduced<G::Number>,
 }
 
-/// `L` in lowest terms, and its products on the boundary, in `x`.
+/// The products of `L` in lowest terms on the boundary, in the variable `x` of its frequencies.
 #[derive(Clone, Debug)]
 pub(crate) struct Reduced<R: Domain> {
-    pub numerator: Poly<R>,
-    pub denominator: Poly<R>,
-    /// The greater degree of the two.
-    pub degree: usize,
+    pub frequencies: Frequencies,
     /// `|N|^2`, `|D0|^2`, `|D0 + N|^2`, `|D0 - N|^2`.
     pub numerator_squared: Poly<R>,
     pub denominator_squared: Poly<R>,
     pub sum_squared: Poly<R>,
     pub difference_squared: Poly<R>,
-    /// Twice the real part of `N conj(D0)`, and its imaginary part over `sin theta` or `omega`.
+    /// Twice the real part of `N conj(D0)`, and its imaginary part; over `sin theta` or `omega` where frequencies have no sign.
     pub twice_real: Poly<R>,
     pub imaginary: Poly<R>,
 }
@@ -203,34 +201,42 @@ impl OpenLoop {
         &self.cut
     }
 
-    /// `D0`, primitive together with `N`; hidden modes stay. `None` of a loop whose coefficients are not rational.
+    /// `D0`, primitive together with `N`; hidden modes stay. `None` where its coefficients are not rational numbers.
     pub fn denominator(&self) -> Option<&UniPoly> {
         match &self.over {
-            Over::Integers(parts) => Some(&parts.denominator),
-            Over::Constants(_) => None,
+            Over::Integers(parts) if parts.denominator.is_real() => Some(&parts.denominator.re),
+            _ => None,
         }
     }
 
-    /// `N`; `None` of a loop whose coefficients are not rational.
+    /// `N`; `None` where its coefficients are not rational numbers.
     pub fn numerator(&self) -> Option<&UniPoly> {
         match &self.over {
-            Over::Integers(parts) => Some(&parts.numerator),
-            Over::Constants(_) => None,
+            Over::Integers(parts) if parts.numerator.is_real() => Some(&parts.numerator.re),
+            _ => None,
         }
     }
 
-    /// The coefficients of `D0` and of `N` from the constant term up, with an absolute error of at most about `2^-bits`.
+    /// The coefficients of `D0` and of `N` from the constant term up, with an absolute error of at most about `2^-bits`. Of complex ones, those of
+    /// the polynomial with the conjugate roots.
     pub fn coefficients(&self, bits: u64) -> [Vec<Rational>; 2] {
         fn middles<G: Ground>(ground: &G, p: &Poly<G::Number>, bits: u64) -> Vec<Rational> {
             let value = |c: &G::Number| ground.values(&Poly::constant(c.clone()), bits)(&Rational::ZERO);
             p.coeffs().iter().map(value).map(|e| e.lower().midpoint(e.upper())).collect()
         }
-        with_parts!(self, parts => [&parts.denominator, &parts.numerator].map(|p| middles(&parts.ground, p, bits)))
+        with_parts!(self, parts => {
+            [&parts.denominator, &parts.numerator].map(|p| middles(&parts.ground, &p.with_conjugate(), bits))
+        })
     }
 
     /// The disc or the half plane.
     pub fn shape(&self) -> Shape {
         self.shape
+    }
+
+    /// The frequencies that are looked at, and their variable `x`.
+    pub fn frequencies(&self) -> Frequencies {
+        with_parts!(self, parts => parts.frequencies())
     }
 
     /// The sample time, of a discrete loop that has one.
@@ -243,8 +249,9 @@ impl OpenLoop {
         self.dead_time.as_ref()
     }
 
-    /// `L` at a point of the boundary, given by `x = z + 1/z` or `x = s^2`: the real part, and the imaginary part divided by
-    /// `sin theta` or `omega`, computed with some bits; `None` at a pole. Exact where the coefficients are rational.
+    /// `L` at a point of the boundary, given by the variable of its [`Frequencies`]: the real part, and the imaginary part, computed with some bits;
+    /// `None` at a pole. For `x = z + 1/z` and `x = s^2` the imaginary part is divided by `sin theta` or `omega`. Exact where the coefficients are
+    /// rational.
     ///
     /// ```
     /// use jurist_algebra::limits::Budget;
@@ -303,7 +310,10 @@ impl OpenLoop {
     /// Whether this is the same function of frequency: the same loop, cut elsewhere.
     pub(crate) fn is_same(&self, other: &OpenLoop) -> bool {
         fn equal<R: Domain>(a: &Reduced<R>, b: &Reduced<R>) -> bool {
-            a.numerator.times(&b.denominator) == b.numerator.times(&a.denominator)
+            let is_same = |p: &Poly<R>, q: &Poly<R>| p.times(&b.denominator_squared) == q.times(&a.denominator_squared);
+            a.frequencies == b.frequencies
+                && is_same(&a.twice_real, &b.twice_real)
+                && is_same(&a.imaginary, &b.imaginary)
         }
         if self.dead_time != other.dead_time {
             return false;
@@ -407,6 +417,7 @@ fn split_delay(
 }
 
 impl<G: Ground> Parts<G> {
+    /// With real coefficients.
     pub fn new(
         ground: G,
         denominator: Poly<G::Number>,
@@ -415,7 +426,22 @@ impl<G: Ground> Parts<G> {
         shape: Shape,
     ) -> Parts<G> {
         let reduced = Reduced::of(&numerator, &denominator, shape);
-        Parts { ground, denominator, numerator, poles, shape, reduced }
+        Parts { ground, denominator: denominator.into(), numerator: numerator.into(), poles, shape, reduced }
+    }
+
+    /// The variable of frequencies.
+    pub fn frequencies(&self) -> Frequencies {
+        self.reduced.frequencies
+    }
+
+    /// A polynomial in the factor `k` for each power of the variable of the loop: that of `D0 + k N`, or of it with the conjugate roots, by powers of `k`.
+    pub fn in_factor(&self) -> Vec<Poly<G::Number>> {
+        let (d, n) = (&self.denominator, &self.numerator);
+        if d.is_real() && n.is_real() {
+            return vec![d.re.clone(), n.re.clone()];
+        }
+        let two = G::Number::from_integer(&Integer::from(2));
+        vec![d.with_conjugate(), d.times_conjugate(n)[0].scaled(&two), n.with_conjugate()]
     }
 }
 
@@ -425,33 +451,34 @@ impl<R: Domain> Reduced<R> {
         let divided = |p: &Poly<R>| p.div_exact(&common).expect("a gcd divides");
         let (numerator, denominator) = (divided(numerator), divided(denominator));
         let degree = numerator.coeffs().len().max(denominator.coeffs().len()) - 1;
-        let squared = |p: &Poly<R>| modulus_squared(p, degree, shape);
-        let (twice_real, imaginary) = product(&numerator, &denominator, degree, shape);
+        let squares = [&numerator, &denominator].map(|p| modulus_squared(p, degree, shape));
+        Reduced::of_products(squares, product(&numerator, &denominator, degree, shape).into(), shape.into())
+    }
+
+    /// From `|N|^2` and `|D0|^2`, and from twice the real part and the imaginary part of `N conj(D0)`.
+    fn of_products(
+        [numerator_squared, denominator_squared]: [Poly<R>; 2],
+        [twice_real, imaginary]: [Poly<R>; 2],
+        frequencies: Frequencies,
+    ) -> Reduced<R> {
+        let sum = numerator_squared.plus(&denominator_squared);
         Reduced {
-            numerator_squared: squared(&numerator),
-            denominator_squared: squared(&denominator),
-            sum_squared: squared(&denominator.plus(&numerator)),
-            difference_squared: squared(&denominator.minus(&numerator)),
-            degree,
+            sum_squared: sum.plus(&twice_real),
+            difference_squared: sum.minus(&twice_real),
+            frequencies,
+            numerator_squared,
+            denominator_squared,
             twice_real,
             imaginary,
-            numerator,
-            denominator,
         }
     }
 
-    /// A polynomial at an end of the range of frequencies, and `D0` there.
-    pub fn at_end(&self, p: &Poly<R>, end: &Place, shape: Shape) -> (R, R) {
-        let x = match (end, shape) {
-            (Place::Lowest, Shape::UnitDisc) => 1,
-            (Place::Highest, Shape::UnitDisc) => -1,
-            (Place::Highest, Shape::LeftHalfPlane) => {
-                return (p.coeff(self.degree), self.denominator.coeff(self.degree));
-            }
-            _ => 0,
-        };
-        let x = R::from_integer(&Integer::from(x));
-        (p.eval(&x), self.denominator.eval(&x))
+    /// `|u D0 + v N|^2`.
+    pub fn combined_squared(&self, u: &Integer, v: &Integer) -> Poly<R> {
+        let scaled = |p: &Poly<R>, c: &Integer| p.scaled(&R::from_integer(c));
+        scaled(&self.denominator_squared, &(u * u))
+            .plus(&scaled(&self.twice_real, &(u * v)))
+            .plus(&scaled(&self.numerator_squared, &(v * v)))
     }
 }
 

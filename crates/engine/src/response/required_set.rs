@@ -359,7 +359,7 @@ fn bears(margins: &Margins, least: &Rational, budget: &Budget) -> Result<bool, E
         (DelayMargin::Zero, _) => Ok(false),
         (DelayMargin::DeadTime(i), _) => {
             let crossing = &margins.crossings.gain[*i];
-            let enclose = |bits| crossing.delay(margins.open_loop.shape(), bits);
+            let enclose = |bits| crossing.delay(margins.open_loop.frequencies(), bits);
             Ok(is_at_least(enclose, least, budget)?)
         }
         (_, Some(HeldDelay { samples, period, .. })) => {

@@ -3,7 +3,6 @@
 use super::crossings::samples_between;
 use super::ground::Ground;
 use super::open_loop::{OpenLoop, Parts, with_parts};
-use super::place::inner;
 use crate::stability::Shape;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational, Sign};
@@ -59,12 +58,12 @@ impl Turning {
     }
 
     fn over<G: Ground>(parts: &Parts<G>, budget: &Budget) -> Result<Turning, Exhausted> {
-        let (r, ground, shape) = (&parts.reduced, &parts.ground, parts.shape);
+        let (r, ground, frequencies) = (&parts.reduced, &parts.ground, parts.frequencies());
         let sides = budget.enter(|| Sides::of([&r.twice_real, &r.imaginary], &r.denominator_squared))?;
         let all = sides.product();
-        let zeros = if all.is_constant() { Vec::new() } else { ground.zeros(&all, &inner(shape), budget)? };
+        let zeros = if all.is_constant() { Vec::new() } else { ground.zeros(&all, &frequencies.inner(), budget)? };
         let mut found = Vec::with_capacity(zeros.len() + 1);
-        for sample in samples_between(&zeros, shape, budget)? {
+        for sample in samples_between(&zeros, frequencies, budget)? {
             found.push(Cell::at(&sides, &Real::from(sample), ground, budget)?);
         }
         // From the lowest frequency on, where x is greatest.
@@ -86,8 +85,9 @@ impl Turning {
 
 /// How many more poles than zeros an open loop has at the lowest frequency, `z = 1` or `s = 0`.
 fn integrators<G: Ground>(parts: &Parts<G>) -> i64 {
+    // |z - 1|^2 = 2 - x
     let at = match parts.shape {
-        Shape::UnitDisc => 1,
+        Shape::UnitDisc => 2,
         Shape::LeftHalfPlane => 0,
     };
     let root = Poly::new(vec![G::Number::from_integer(&Integer::from(-at)), G::Number::one()]);
@@ -95,7 +95,7 @@ fn integrators<G: Ground>(parts: &Parts<G>) -> i64 {
         let quotients = std::iter::successors(Some(p.clone()), |p| p.div_exact(&root).filter(|q| !q.is_zero()));
         quotients.count() as i64 - 1
     };
-    count(&parts.reduced.denominator) - count(&parts.reduced.numerator)
+    count(&parts.reduced.denominator_squared) - count(&parts.reduced.numerator_squared)
 }
 
 /// Twice the real part of `N conj(D0)` and its imaginary part over `sin theta` or `omega`, in factors.

@@ -175,7 +175,7 @@ impl Writer<'_> {
             }
             DelayMargin::DeadTime(i) => {
                 let crossing = &self.margins.crossings.gain[*i];
-                let seconds = decimal(self.digits, |bits| crossing.delay(self.shape(), bits));
+                let seconds = decimal(self.digits, |bits| crossing.delay(self.margins.open_loop.frequencies(), bits));
                 format!("less than {seconds} s of dead time, {}", self.at(Some(&crossing.place)))
             }
         }
@@ -209,7 +209,7 @@ impl Writer<'_> {
 
     /// The phase divided by the frequency, in samples and in seconds.
     fn delay_at(&self, c: &GainCrossing) -> Option<String> {
-        let delay = |bits| c.delay(self.shape(), bits);
+        let delay = |bits| c.delay(self.margins.open_loop.frequencies(), bits);
         let narrow = delay(real::bits_for(PLACES) + 16)?;
         let text = real::enclosed_in(PLACES, &narrow, delay)?;
         if self.shape() == Shape::LeftHalfPlane {

@@ -291,9 +291,9 @@ impl Writer<'_> {
             DelayMargin::SamplesAtLeast(m) => DelayMarginFound { samples: Some(*m), at_least: true, ..none },
             DelayMargin::DeadTime(i) => {
                 let crossing = &self.margins.crossings.gain[*i];
-                let narrow = crossing.delay(self.shape(), real::bits_for(self.digits));
+                let narrow = crossing.delay(self.margins.open_loop.frequencies(), real::bits_for(self.digits));
                 DelayMarginFound {
-                    seconds: self.decimal(|bits| crossing.delay(self.shape(), bits)),
+                    seconds: self.decimal(|bits| crossing.delay(self.margins.open_loop.frequencies(), bits)),
                     enclosure: narrow.map(|e| super::number::enclosure(e.lower(), e.upper())),
                     frequency: self.at(Some(&crossing.place)),
                     ..none
@@ -336,11 +336,11 @@ impl Writer<'_> {
             phase_margin_degrees: self
                 .decimal(|bits| Some(response::degrees(&c.phase(bits + 16), bits)))
                 .unwrap_or_default(),
-            delay: self.decimal(|bits| c.delay(self.shape(), bits)),
+            delay: self.decimal(|bits| c.delay(self.margins.open_loop.frequencies(), bits)),
             delay_seconds: self.decimal(|bits| {
                 let period = self.margins.open_loop.sample_time().filter(|_| self.shape() == Shape::UnitDisc)?;
                 let period = number::Enclosure::from_rational(period.clone());
-                Some(c.delay(self.shape(), bits + 16)?.mul(&period, bits))
+                Some(c.delay(self.margins.open_loop.frequencies(), bits + 16)?.mul(&period, bits))
             }),
             direction: c.direction,
             frequency: self.at(Some(&c.place)),
