@@ -30,6 +30,7 @@ pub use map_limits::{MapLimit, RegionExtent};
 pub use plan::Answers;
 pub use roots::{BeyondRoots, ClosedLoopRoot, RIGHTMOST, Roots};
 pub use sensitivity::{Sensitivities, Sensitivity};
+pub(crate) use sides::Sides;
 pub use table::{ParametricTable, PointTable};
 pub use tolerance::{LimitSide, RequiredBox, ToleranceAnswer, ToleranceLimit, ToleranceRequest, WorstEnd};
 pub(crate) use tolerance::{SYMBOL_BITS, Truth};

@@ -216,11 +216,11 @@ impl Asked {
     ///
     /// ```
     /// use jurist_engine::coverage::Asked;
-    /// assert!(Asked::Roots.of_complex_loop().is_none() && Asked::Margins.of_complex_loop().is_some());
+    /// assert!(Asked::Roots.of_complex_loop().is_none() && Asked::Locus.of_complex_loop().is_some());
     /// ```
     pub fn of_complex_loop(self) -> Option<&'static Refusal> {
         use Asked::*;
-        const KNOWN: [Asked; 20] = [
+        const KNOWN: [Asked; 26] = [
             Verdict,
             VerdictInRegion,
             Intervals,
@@ -241,6 +241,12 @@ impl Asked {
             Charpoly,
             Analyze,
             Report,
+            Margins,
+            Norm,
+            Bode,
+            Nyquist,
+            VerdictWithMargins,
+            VerdictWithDelayMargin,
         ];
         (!KNOWN.contains(&self)).then_some(&COMPLEX)
     }

@@ -46,9 +46,15 @@ impl<R: Domain> ComplexPoly<R> {
         ]
     }
 
+    /// `p p*`.
+    pub fn squared(&self) -> Poly<R> {
+        let [square, _] = self.times_conjugate(self);
+        square
+    }
+
     /// A polynomial with real coefficients that has the same roots inside of the boundary, on it and outside: itself, or with the conjugate roots.
     pub fn with_conjugate(&self) -> Poly<R> {
-        if self.is_real() { self.re.clone() } else { self.times_conjugate(self)[0].clone() }
+        if self.is_real() { self.re.clone() } else { self.squared() }
     }
 
     /// `p + q`.
@@ -90,10 +96,7 @@ impl<R: Domain> ComplexPoly<R> {
     pub fn modulus_squared(&self, n: usize, frequencies: Frequencies) -> Poly<R> {
         match frequencies {
             Frequencies::Positive(shape) => modulus_squared(&self.re, n, shape),
-            Frequencies::Signed(shape) => {
-                let along = self.along(n, shape);
-                along.times_conjugate(&along)[0].clone()
-            }
+            Frequencies::Signed(shape) => self.along(n, shape).squared(),
         }
     }
 

@@ -179,6 +179,7 @@ impl<'a> DeadTime<'a> {
         Ok(StableMargins {
             gain,
             phase,
+            one_sided: None,
             delay,
             modulus,
             peak_sensitivity,

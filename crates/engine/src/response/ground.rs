@@ -13,7 +13,7 @@ use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
 use jurist_algebra::real::Real;
-use jurist_algebra::symbols::{SymbolicPoly, Symbols};
+use jurist_algebra::symbols::{MovingSymbols, SymbolicPoly, Symbols};
 use std::fmt;
 use std::sync::Arc;
 
@@ -52,6 +52,12 @@ pub(crate) trait Ground: Clone + fmt::Debug + Send + Sync {
         shape: Shape,
         budget: &Budget,
     ) -> Result<StableSet, Exhausted>;
+
+    /// A polynomial in the factor, which is variable 0; variables of symbols follow.
+    fn in_factor(&self, p: &Poly<Self::Number>) -> RationalFunction;
+
+    /// The symbols beside the factor.
+    fn beside_factor(&self) -> MovingSymbols;
 
     /// The value of a quotient of polynomials without a common factor at a frequency; `None` where it is infinite.
     fn value(
@@ -118,7 +124,7 @@ fn degree_of<R: Domain>(powers: &[Poly<R>]) -> usize {
 }
 
 /// A coefficient of the sum of polynomials times powers of the factor, as a polynomial in the factor.
-fn in_factor<R: Domain>(powers: &[Poly<R>], i: usize) -> Poly<R> {
+fn coefficient_in_factor<R: Domain>(powers: &[Poly<R>], i: usize) -> Poly<R> {
     Poly::new(powers.iter().map(|p| p.coeff(i)).collect())
 }
 
@@ -166,10 +172,18 @@ impl Ground for Integers {
         budget: &Budget,
     ) -> Result<StableSet, Exhausted> {
         let degree = degree_of(powers);
-        let coefficient = |i| (in_factor(powers, i), UniPoly::one());
+        let coefficient = |i| (coefficient_in_factor(powers, i), UniPoly::one());
         let coefficients: Vec<_> = (0..=degree).map(coefficient).collect();
         let p = ParametricPolynomial::new(&coefficients, degree, poles.to_vec());
         stable_set(&p, &Range::all(), shape, budget)
+    }
+
+    fn in_factor(&self, p: &UniPoly) -> RationalFunction {
+        MultiPoly::from_terms(p.coeffs().iter().enumerate().map(|(k, c)| (vec![k as u32], c.clone()))).into()
+    }
+
+    fn beside_factor(&self) -> MovingSymbols {
+        MovingSymbols::new(Vec::new())
     }
 }
 
@@ -280,9 +294,19 @@ impl Ground for Constants {
         budget: &Budget,
     ) -> Result<StableSet, Exhausted> {
         let degree = degree_of(powers);
-        let coefficient = |i| Constants::over_unknown(&in_factor(powers, i));
+        let coefficient = |i| Constants::over_unknown(&coefficient_in_factor(powers, i));
         let poles = poles.iter().map(Constants::over_unknown).collect();
         let p = self.symbolic((0..=degree).map(coefficient).collect(), 1, poles);
         symbolic_stable_set(&p, &Range::all(), shape, budget)
+    }
+
+    fn in_factor(&self, p: &Poly<MultiPoly>) -> RationalFunction {
+        Constants::over_unknown(p).into()
+    }
+
+    fn beside_factor(&self) -> MovingSymbols {
+        let place = |f: &RationalFunction| f.map_variables(|i| i + 1);
+        let definition = |i: usize| self.0.definition(i).try_map(place).expect("variables are only renamed");
+        MovingSymbols::new(self.0.names().into_iter().zip((0..self.0.len()).map(definition)).collect())
     }
 }

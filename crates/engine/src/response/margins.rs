@@ -6,7 +6,7 @@ use super::extreme::extreme_over;
 use super::ground::Ground;
 use super::open_loop::{OpenLoop, Over, Parts, with_parts};
 use super::value::{reciprocal, square_root};
-use super::{DelayMargin, DiskMargin, Extreme, HeldDelay, Place, Value};
+use super::{DelayMargin, DiskMargin, Extreme, HeldDelay, OneSided, Place, Value};
 use crate::answer::{Answer, Frequency, PointVerdict, Verdict};
 use crate::error::Error;
 use crate::problem::{Problem, Question};
@@ -59,6 +59,8 @@ pub struct StableMargins {
     pub gain: GainMargin,
     /// By how much the open loop may turn, either way.
     pub phase: PhaseMargin,
+    /// The same each way, of a loop with complex coefficients.
+    pub one_sided: Option<OneSided>,
     /// How much delay is borne.
     pub delay: DelayMargin,
     /// The modulus margin: the least value of `|1 + L|`.
@@ -254,7 +256,8 @@ impl StableMargins {
         budget.step("gain margin");
         let gain = GainMargin::of(open_loop, budget)?;
         budget.step("phase margin");
-        let phase = PhaseMargin::of(open_loop, crossings, budget)?;
+        let one_sided = OneSided::of(open_loop, crossings, budget)?;
+        let phase = PhaseMargin::with(open_loop, crossings, one_sided.as_ref(), budget)?;
         budget.step("delay margin");
         let delay = DelayMargin::of(open_loop, crossings, budget)?;
         budget.step("modulus margin");
@@ -270,6 +273,7 @@ impl StableMargins {
         Ok(StableMargins {
             gain,
             phase,
+            one_sided,
             delay,
             modulus,
             peak_sensitivity,
@@ -284,7 +288,11 @@ impl StableMargins {
 impl GainMargin {
     pub(super) fn of(open_loop: &OpenLoop, budget: &Budget) -> Result<Self, Exhausted> {
         let set = with_parts!(open_loop, parts => {
-            parts.ground.stable_factors(&parts.in_factor(), &parts.poles, parts.shape, budget)?
+            let mut set = parts.ground.stable_factors(&parts.in_factor(), &parts.poles, parts.shape, budget)?;
+            if parts.frequencies().are_signed() {
+                GainMargin::sided(parts, &mut set, budget)?;
+            }
+            set
         });
         Ok(GainMargin::of_set(set))
     }
@@ -305,8 +313,22 @@ impl GainMargin {
 }
 
 impl PhaseMargin {
-    /// The rotation at which a stable loop first meets -1 belongs to a crossing, the one with the least angle.
+    /// Of any loop.
     pub(super) fn of(open_loop: &OpenLoop, crossings: &Crossings, budget: &Budget) -> Result<Self, Exhausted> {
+        let one_sided = OneSided::of(open_loop, crossings, budget)?;
+        PhaseMargin::with(open_loop, crossings, one_sided.as_ref(), budget)
+    }
+
+    /// The rotation at which a stable loop first meets -1 belongs to a crossing, the one with the least angle.
+    fn with(
+        open_loop: &OpenLoop,
+        crossings: &Crossings,
+        one_sided: Option<&OneSided>,
+        budget: &Budget,
+    ) -> Result<Self, Exhausted> {
+        if let Some(one_sided) = one_sided {
+            return one_sided.smaller(budget);
+        }
         if crossings.gain_everywhere {
             return with_parts!(open_loop, parts => PhaseMargin::of_modulus_one(parts, budget));
         }

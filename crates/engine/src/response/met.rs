@@ -101,7 +101,13 @@ impl Requirement {
     ) -> Result<Option<bool>, Exhausted> {
         Ok(match self.rule() {
             Rule::Factors(factor) => Some(has_gain_margin(&margins.gain, factor, budget)?),
-            Rule::Turned { twice_cosine } => Some(has_phase_margin(&margins.phase, twice_cosine, budget)?),
+            Rule::Turned { twice_cosine } => Some(match &margins.one_sided {
+                Some(both) => {
+                    let greatest = super::value::reciprocal(&half_tangent(twice_cosine, budget)?, budget)?;
+                    both.are_at_least(&greatest, budget)?
+                }
+                None => has_phase_margin(&margins.phase, twice_cosine, budget)?,
+            }),
             Rule::Circle(circle) => match self.found(all, margins) {
                 Some(Found::Number(number)) => {
                     let order = budget.enter(|| number.compare_rational(circle.asked()))?;

@@ -144,6 +144,9 @@ impl OpenLoop {
                 |budget| opened_exactly(problem, &cut, budget),
                 |budget| {
                     let opened = model.opened_in_numbers(&cut, problem.set(), budget)?;
+                    if opened.system.is_complex {
+                        return Ok(None);
+                    }
                     let sample_time = opened.sample_time.as_ref().and_then(RationalFunction::as_constant);
                     let over = budget.enter(|| Some(Over::of_enclosed(EnclosedQuotient::of(&opened)?, shape)))?;
                     Ok(over.map(|over| ((over, None), sample_time)))
@@ -361,7 +364,7 @@ impl Over {
         shape: Shape,
         not_a_factor: fn() -> Error,
     ) -> Result<(Over, Option<Rational>), Error> {
-        let (denominator, mut numerator) = polynomial(denominator, numerator);
+        let [denominator, mut numerator] = without_denominators([denominator, numerator]);
         let mut dead_time = None;
         if !symbols.delays().is_empty() {
             let (rest, tau) = split_delay(&denominator, &numerator, symbols).ok_or_else(not_a_factor)?;
@@ -441,7 +444,7 @@ impl<G: Ground> Parts<G> {
             return vec![d.re.clone(), n.re.clone()];
         }
         let two = G::Number::from_integer(&Integer::from(2));
-        vec![d.with_conjugate(), d.times_conjugate(n)[0].scaled(&two), n.with_conjugate()]
+        vec![d.squared(), d.times_conjugate(n)[0].scaled(&two), n.squared()]
     }
 }
 
@@ -456,7 +459,7 @@ impl<R: Domain> Reduced<R> {
     }
 
     /// From `|N|^2` and `|D0|^2`, and from twice the real part and the imaginary part of `N conj(D0)`.
-    fn of_products(
+    pub(super) fn of_products(
         [numerator_squared, denominator_squared]: [Poly<R>; 2],
         [twice_real, imaginary]: [Poly<R>; 2],
         frequencies: Frequencies,
@@ -485,8 +488,15 @@ impl<R: Domain> Reduced<R> {
 /// The loop opened at a signal, with polynomials over the constants of holds, and the sample time.
 fn opened_exactly(problem: &Problem, cut: &Cut, budget: &Budget) -> Result<WithTimes, Error> {
     let Opened { system, sample_time, symbols } = problem.model().opened(cut, &[], problem.set(), budget)?;
-    let (denominator, numerator) = returned(&system, budget)?;
-    let over = budget.enter(|| Over::new(denominator, numerator, Vec::new(), &symbols, problem.shape()))??;
+    let shape = problem.shape();
+    let over = if system.is_complex {
+        let [denominator, numerator] = system.complex_transfer(0, system.inputs.len() / 2 - 1, budget)?;
+        let lists = [denominator.re, denominator.im, negated(&numerator.re), negated(&numerator.im)];
+        budget.enter(|| Over::of_complex(lists, Vec::new(), &symbols, shape))??
+    } else {
+        let (denominator, numerator) = returned(&system, budget)?;
+        budget.enter(|| Over::new(denominator, numerator, Vec::new(), &symbols, shape))??
+    };
     Ok((over, sample_time.and_then(|t| t.as_constant())))
 }
 
@@ -494,27 +504,26 @@ fn opened_exactly(problem: &Problem, cut: &Cut, budget: &Budget) -> Result<WithT
 fn returned(system: &ClosedLoop, budget: &Budget) -> Result<(Vec<RationalFunction>, Vec<RationalFunction>), Error> {
     let column = system.inputs.len().max(system.e.columns()) - 1;
     let transfer = system.transfer_function_at(0, column, budget)?;
-    Ok((transfer.denominator.coefficients, transfer.numerator.iter().map(|f| -f).collect()))
+    Ok((transfer.denominator.coefficients, negated(&transfer.numerator)))
 }
 
-/// Two polynomials without denominators, primitive together over the integers.
-fn polynomial(a: Vec<RationalFunction>, b: Vec<RationalFunction>) -> (Poly<MultiPoly>, Poly<MultiPoly>) {
-    let split = a.len();
-    let all: Vec<RationalFunction> = a.into_iter().chain(b).collect();
-    let common = all.iter().fold(MultiPoly::one(), |l, f| {
+fn negated(list: &[RationalFunction]) -> Vec<RationalFunction> {
+    list.iter().map(|f| -f).collect()
+}
+
+/// Polynomials without denominators, primitive together over the integers.
+pub(super) fn without_denominators<const N: usize>(lists: [Vec<RationalFunction>; N]) -> [Poly<MultiPoly>; N] {
+    let all = || lists.iter().flatten();
+    let common = all().fold(MultiPoly::one(), |l, f| {
         let d = f.denominator();
         l.times(&d.div_exact(&l.gcd(d)).expect("a gcd divides"))
     });
     let cleared =
         |f: &RationalFunction| f.numerator().times(&common.div_exact(f.denominator()).expect("a common multiple"));
-    let mut all: Vec<MultiPoly> = all.iter().map(cleared).collect();
-    let content = all.iter().fold(Integer::ZERO, |g, c| g.gcd(&c.integer_content()));
-    if !content.is_zero() {
-        let divided = |c: &MultiPoly| c.div_exact_integer(&content).expect("the content divides");
-        all = all.iter().map(divided).collect();
-    }
-    let b = all.split_off(split);
-    (Poly::new(all), Poly::new(b))
+    let lists = lists.each_ref().map(|list| list.iter().map(cleared).collect::<Vec<_>>());
+    let content = lists.iter().flatten().fold(Integer::ZERO, |g, c| g.gcd(&c.integer_content()));
+    let divided = |c: &MultiPoly| c.div_exact_integer(&content).expect("the content divides");
+    lists.map(|list| Poly::new(if content.is_zero() { list } else { list.iter().map(divided).collect() }))
 }
 
 /// Two polynomials with integer coefficients, primitive together.

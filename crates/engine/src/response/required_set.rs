@@ -282,7 +282,6 @@ impl Problem {
         if requirements.is_empty() {
             return Ok(Vec::new());
         }
-        self.refuse_complex(budget)?;
         budget.enter(|| {
             let stable = self.verdict(budget)?.value().verdict == Verdict::Stable;
             let (margins, zero_loop) = match requirements.iter().any(Requirement::needs_cut) {

@@ -10,8 +10,8 @@ use crate::answer::{Answer, Frequency};
 use crate::model::Cut;
 use crate::problem::Problem;
 use crate::response::{
-    self, DelayMargin, Direction, Extreme, GainCrossing, HeldDelay, Margins, Norm, PeakToPeak, PhaseMargin, Place,
-    StableMargins,
+    self, DelayMargin, Direction, Extreme, GainCrossing, HeldDelay, Margins, Norm, OneSided, PeakToPeak, PhaseMargin,
+    Place, Rotation, StableMargins,
 };
 use crate::stability::{AbsoluteSum, End, Shape};
 use jurist_algebra::number::{Enclosure, Rational, enclosed_decimal, to_decimal};
@@ -124,9 +124,12 @@ impl Writer<'_> {
             Some(end) if end.value.sign().is_eq() => "none, every lower gain above 0 is stable".to_owned(),
             Some(end) => self.end(end),
         };
-        let phase = match &margins.phase {
-            PhaseMargin::Unbounded => "none, the open loop's magnitude is nowhere 1".to_owned(),
-            angle @ PhaseMargin::Angle { place, .. } => {
+        let phase = match (&margins.phase, &margins.one_sided) {
+            (PhaseMargin::Angle { .. }, Some(OneSided { lag: Some(lag), lead: Some(lead), .. })) => {
+                format!("{}; {}", self.rotation(lag, "lag"), self.rotation(lead, "lead"))
+            }
+            (PhaseMargin::Unbounded, _) => "none, the open loop's magnitude is nowhere 1".to_owned(),
+            (angle @ PhaseMargin::Angle { place, .. }, _) => {
                 format!("{} degrees {}", decimal(digits, |bits| angle.degrees(bits)), self.at(place.as_ref()))
             }
         };
@@ -147,6 +150,11 @@ impl Writer<'_> {
             ("peak of the complementary sensitivity", complementary),
             ("disk margin", self.disk(&margins.disk)),
         ]
+    }
+
+    fn rotation(&self, rotation: &Rotation, sense: &str) -> String {
+        let degrees = decimal(self.digits, |bits| Some(rotation.degrees(bits)));
+        format!("{degrees} degrees of {sense} {}", self.at(rotation.place.as_ref()))
     }
 
     fn extreme(&self, extreme: &Extreme) -> String {

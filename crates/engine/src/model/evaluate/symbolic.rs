@@ -6,7 +6,7 @@ use super::transfer::{Fraction, MAX_ORDER, fraction, held_fraction, polynomial};
 use super::walk::{Failure, Meaning, division_by_zero};
 use super::zpoly::ZPoly;
 use crate::error::{Code, Diagnostic, Span};
-use crate::model::complex::{Frame, Lift, lifted};
+use crate::model::complex::{Frame, Lift, lifted, names_of_parts};
 use crate::model::definition::{
     Block, Discretization, Dynamics, Form, Matrix, Model, Output, Ports, Pulses, Rate, Time,
 };
@@ -47,6 +47,11 @@ impl<'m> Wiring<'m> {
         }
         let inputs = inputs.into_iter().map(str::to_owned).collect();
         Wiring { numbers, driven: own.len(), inputs, is_complex: false }
+    }
+
+    /// The names of a signal's parts: of a real one only its own.
+    pub fn parts_of(&self, name: &str) -> Vec<String> {
+        if self.is_complex { names_of_parts([name.to_owned()]) } else { vec![name.to_owned()] }
     }
 }
 
