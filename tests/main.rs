@@ -70,6 +70,7 @@ mod loops {
 mod complex {
     mod frames;
     mod laws;
+    mod margin_laws;
     mod margins;
     mod oracle;
     mod random;

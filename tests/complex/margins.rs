@@ -22,7 +22,7 @@ pub struct Open {
 
 impl Open {
     /// The degree of `N` is at most that of `D`, and less in continuous time.
-    fn random(random: &mut Random, is_discrete: bool) -> Open {
+    pub fn random(random: &mut Random, is_discrete: bool) -> Open {
         let order = 1 + random.below(3);
         let mut part = |most: i64| random.below(2 * most as usize + 1) as i64 - most;
         let shift = if is_discrete { 0 } else { 8 };
@@ -138,7 +138,8 @@ fn check_gain(of: &Open, margins: &Margins) {
         let sides = beside(&end.value);
         assert!(of.is_stable(0, &real(sides[inside].clone())), "{of:?} {end:?}");
         assert!(!of.is_stable(0, &real(sides[outside].clone())), "{of:?} {end:?}");
-        if let Some(frequency) = margins.frequency_of(end, 60) {
+        // With the factor 0 a pole of the open loop is on the boundary.
+        if let Some(frequency) = margins.frequency_of(end, 60).filter(|_| !end.value.sign().is_eq()) {
             let place = frequency.angle.or(frequency.radians_per_second).unwrap();
             let place = place.lower().to_f64_approximate();
             let found = of.at(place) * value(&end.value);
@@ -160,7 +161,9 @@ fn check_extremes(of: &Open, margins: &Margins) {
         (value(&stable.peak_complementary), extreme(&|l| (l / (l + 1.0)).norm())),
         (stable.disk.alpha.as_ref().map_or(0.0, |a| 1.0 / value(a)), extreme(&|l| (0.5 - 1.0 / (l + 1.0)).norm())),
     ] {
-        assert!(of_grid <= found * (1.0 + 1e-9) && of_grid >= found * (1.0 - 1e-3), "{of:?}: {found} {of_grid}");
+        // The higher a peak the narrower it is.
+        let missed = 1e-3 + 3e-6 * found * found;
+        assert!(of_grid <= found * (1.0 + 1e-9) && of_grid >= found * (1.0 - missed), "{of:?}: {found} {of_grid}");
     }
     if let Some(place) = stable.modulus_at.place().and_then(|place| rate(margins, place)) {
         assert!((of.at(place) + 1.0).norm() < value(&stable.modulus) * (1.0 + 1e-6), "{of:?} at {place}");
@@ -173,7 +176,7 @@ fn check_crossings(of: &Open, margins: &Margins) {
     assert!(places.windows(2).all(|w| w[0] < w[1]), "{places:?}");
     assert!(places.iter().all(|x| (of.at(*x).norm() - 1.0).abs() < 1e-9), "{of:?}: {places:?}");
     let excess: Vec<bool> = of.grid().map(|x| of.at(x).norm() > 1.0).collect();
-    let changes = excess.windows(2).filter(|w| w[0] != w[1]).count();
+    let changes = excess.iter().zip(excess.iter().cycle().skip(1)).filter(|(a, b)| a != b).count();
     assert!(changes <= places.len() && (places.len() - changes).is_multiple_of(2), "{of:?}: {changes} {places:?}");
     for c in &crossings.phase {
         let Some(place) = rate(margins, &c.place) else { continue };
@@ -216,8 +219,9 @@ fn check_delay(of: &Open, margins: &Margins) -> bool {
             let crossing = &margins.crossings.gain[*i];
             let tau = crossing.delay(margins.open_loop.frequencies(), 60).unwrap().lower().to_f64_approximate();
             let place = rate(margins, &crossing.place).unwrap();
-            let integrates = of.d[0] == [0, 0];
-            if !integrates && tau < 40.0 {
+            // A grid does not go around a pole on the axis.
+            let has_pole = of.grid().any(|x| of.at(x).norm() > 500.0);
+            if !has_pole && tau < 40.0 {
                 let [less, more] = [0.995, 1.005].map(|share| turns(of, share * tau, place));
                 assert!(less == turns(of, 0.0, place) && more != less, "{of:?}: {tau} at {place}: {less} {more}");
             }
