@@ -32,7 +32,9 @@ fn numbers(margins: &Margins) -> (Vec<String>, Vec<f64>) {
     let ends = [&stable.gain.upper, &stable.gain.lower].map(|end| end.as_ref().map(|e| e.value.decimal(12)));
     let mut values: Vec<String> = rotations.iter().map(|r| decimal(&r.degrees(60))).collect();
     values.extend(ends.into_iter().flatten());
-    values.extend([&stable.modulus, &stable.peak_complementary, stable.disk.alpha.as_ref().unwrap()].map(|x| x.decimal(12)));
+    values.extend(
+        [&stable.modulus, &stable.peak_complementary, stable.disk.alpha.as_ref().unwrap()].map(|x| x.decimal(12)),
+    );
     let places = [rotations[0].place.as_ref(), rotations[1].place.as_ref(), stable.modulus_at.place()];
     let angle = |place: &Place| {
         let frequency = margins.frequency(place, 60)?;
@@ -52,7 +54,9 @@ fn a_turned_gain_by_hand() {
     // |z (z - 1)| = 2 sin(theta/2): the modulus is 0.3/(2 sin(theta/2)), the phase -90 - 3 theta/2 degrees, and 30 more.
     let both = stable.one_sided.as_ref().unwrap();
     let theta = 2.0 * 0.15f64.asin();
-    for (rotation, expected) in [(&both.lag, 120.0 - 1.5 * theta.to_degrees()), (&both.lead, 60.0 - 1.5 * theta.to_degrees())] {
+    for (rotation, expected) in
+        [(&both.lag, 120.0 - 1.5 * theta.to_degrees()), (&both.lead, 60.0 - 1.5 * theta.to_degrees())]
+    {
         let degrees = rotation.as_ref().unwrap().degrees(60).lower().to_f64_approximate();
         assert!((degrees - expected).abs() < 1e-9, "{degrees} {expected}");
     }
@@ -67,7 +71,12 @@ fn a_unit_that_cancels_leaves_the_margins_of_the_real_loop() {
                   input = 'r - y'\noutput = 'u'\ngain = 'K*j'\n[[block]]\ninput = '-j*u'\noutput = 'y'\ntransfer = '1/(s + 1)'\n\
                   discretize = { method = 'zoh', delay = 0.03 }\n";
     let plain = turned.replace("K*j", "K").replace("-j*u", "u");
-    for arguments in [&["margins", "-"][..], &["margins", "-", "--json"], &["verdict", "-", "--phase-margin", "45", "--json"], &["margins", "-", "--at", "K"]] {
+    for arguments in [
+        &["margins", "-"][..],
+        &["margins", "-", "--json"],
+        &["verdict", "-", "--phase-margin", "45", "--json"],
+        &["margins", "-", "--at", "K"],
+    ] {
         assert_eq!(printed(arguments, turned), printed(arguments, &plain), "{arguments:?}");
     }
     // A gain of a polynomial.

@@ -239,7 +239,7 @@ impl OpenLoop {
 
     /// The frequencies that are looked at, and their variable `x`.
     pub fn frequencies(&self) -> Frequencies {
-        with_parts!(self, parts => parts.frequencies())
+        self.over.frequencies()
     }
 
     /// The sample time, of a discrete loop that has one.
@@ -330,6 +330,13 @@ impl OpenLoop {
 }
 
 impl Over {
+    pub(super) fn frequencies(&self) -> Frequencies {
+        match self {
+            Over::Integers(parts) => parts.frequencies(),
+            Over::Constants(parts) => parts.frequencies(),
+        }
+    }
+
     /// Whether nothing comes back.
     pub(super) fn is_open(&self) -> bool {
         match self {

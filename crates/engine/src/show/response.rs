@@ -280,7 +280,7 @@ fn norm_line(problem: &Problem, norm: &Norm, digits: usize) -> String {
         Extreme::At { attained: false, .. } => "approached as the frequency grows without end".to_owned(),
         Extreme::Constant(_) => "at all frequencies".to_owned(),
         Extreme::At { place: Place::Lowest, .. } => "at frequency 0".to_owned(),
-        _ => format!("at {}", frequency_text(|bits| norm.frequency(problem.shape(), bits)).unwrap_or_default()),
+        _ => format!("at {}", frequency_text(|bits| norm.frequency(bits)).unwrap_or_default()),
     };
     let value = real::rounded(&peak.value, digits).decimal;
     let decibels = margin(&peak.value, Some(&Rational::ONE), PLACES).and_then(|m| m.decibels);
