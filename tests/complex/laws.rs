@@ -168,14 +168,9 @@ fn a_name_of_the_model() {
 fn what_is_refused() {
     let text = turned("pi/6");
     for arguments in [
-        &["margins", "-"][..],
-        &["norm", "-", "r", "y"],
-        &["bode", "-"],
-        &["nyquist", "-"],
-        &["jury", "-"],
-        &["jury", "-", "--param", "K"],
+        &["norm", "-", "r", "y", "--l1"][..],
         &["locus", "-", "--param", "K"],
-        &["verdict", "-", "--modulus-margin", "1/100"],
+        &["intervals", "-", "--param", "K", "--modulus-margin", "1/100"],
         &["intervals", "-", "--param", "K", "--damping", "1/10"],
         &["intervals", "-", "--param", "K", "--sensitivity"],
         &["intervals", "-", "--param", "K", "--certificate", "never.json"],

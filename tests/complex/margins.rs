@@ -157,6 +157,9 @@ fn check_gain(of: &Open, margins: &Margins) {
 
 fn check_extremes(of: &Open, margins: &Margins) {
     let stable = margins.stable.as_ref().unwrap();
+    let norm = read(&of.text(1)).ask().norm("r", "y", &Budget::unlimited()).unwrap().into_value();
+    let norm = norm.peak.expect("the loop is stable");
+    assert!(norm.value.is_same(&stable.peak_complementary), "{of:?}: {norm:?}");
     let extreme = |f: &dyn Fn(C) -> f64| of.grid().map(|x| f(of.at(x))).filter(|x| x.is_finite()).fold(0.0, f64::max);
     let largest = |l: C| 1.0 / (l + 1.0).norm();
     for (found, of_grid) in [
@@ -165,7 +168,7 @@ fn check_extremes(of: &Open, margins: &Margins) {
         (stable.disk.alpha.as_ref().map_or(0.0, |a| 1.0 / value(a)), extreme(&|l| (0.5 - 1.0 / (l + 1.0)).norm())),
     ] {
         // The higher a peak the narrower it is.
-        let missed = 1e-3 + 3e-6 * found * found;
+        let missed = 1e-3 + 1e-5 * found * found;
         assert!(of_grid <= found * (1.0 + 1e-9) && of_grid >= found * (1.0 - missed), "{of:?}: {found} {of_grid}");
     }
     if let Some(place) = stable.modulus_at.place().and_then(|place| rate(margins, place)) {
@@ -180,7 +183,8 @@ fn check_crossings(of: &Open, margins: &Margins) {
     assert!(places.iter().all(|x| (of.at(*x).norm() - 1.0).abs() < 1e-9), "{of:?}: {places:?}");
     let excess: Vec<bool> = of.grid().map(|x| of.at(x).norm() > 1.0).collect();
     let changes = excess.iter().zip(excess.iter().cycle().skip(1)).filter(|(a, b)| a != b).count();
-    assert!(changes <= places.len() && (places.len() - changes).is_multiple_of(2), "{of:?}: {changes} {places:?}");
+    let passed = crossings.gain.iter().filter(|c| c.direction != Direction::Touching).count();
+    assert!(changes <= passed && (passed - changes).is_multiple_of(2), "{of:?}: {changes} {places:?}");
     for c in &crossings.phase {
         let Some(place) = rate(margins, &c.place) else { continue };
         let k = c.factor.enclosure(60).lower().to_f64_approximate();
@@ -224,7 +228,8 @@ fn check_delay(of: &Open, margins: &Margins) -> bool {
             let place = rate(margins, &crossing.place).unwrap();
             // A grid does not go around a pole on the axis.
             let has_pole = of.grid().any(|x| of.at(x).norm() > 500.0);
-            if !has_pole && tau < 40.0 {
+            let touches = crossing.direction == Direction::Touching;
+            if !has_pole && !touches && tau < 40.0 {
                 let [less, more] = [0.995, 1.005].map(|share| turns(of, share * tau, place));
                 assert!(less == turns(of, 0.0, place) && more != less, "{of:?}: {tau} at {place}: {less} {more}");
             }

@@ -25,6 +25,7 @@ mod cause;
 mod conditions;
 pub mod dead_time;
 mod half_size;
+mod hermitian;
 mod impulse_response;
 mod intersection;
 mod interval_set;
@@ -45,8 +46,11 @@ mod symbolic;
 
 pub use boundary::{Boundary, boundary_polynomials};
 pub use cause::{Cause, Causes};
-pub use conditions::{ClassicalTest, Condition, Inequality, ScaledPoly, Table, classical_test, row_name, solve};
+pub use conditions::{
+    ClassicalTest, Condition, Inequality, ScaledPoly, Table, classical_test, hermitian_test, row_name, solve,
+};
 pub use half_size::HalfSizePair;
+pub use hermitian::hermitian_minors;
 pub use impulse_response::{AbsoluteSum, ImpulseResponse};
 pub use interval_set::zeros_in;
 pub use interval_set::{AlgebraicInterval, IntervalSet, Range, RealInterval};

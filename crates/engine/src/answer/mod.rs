@@ -6,6 +6,7 @@ mod analysis;
 mod body;
 mod dead_time;
 mod frequency;
+mod hermitian;
 mod map;
 mod map_boxes;
 mod map_limits;

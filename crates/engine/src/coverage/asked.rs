@@ -220,7 +220,7 @@ impl Asked {
     /// ```
     pub fn of_complex_loop(self) -> Option<&'static Refusal> {
         use Asked::*;
-        const KNOWN: [Asked; 26] = [
+        const KNOWN: [Asked; 29] = [
             Verdict,
             VerdictInRegion,
             Intervals,
@@ -241,12 +241,15 @@ impl Asked {
             Charpoly,
             Analyze,
             Report,
+            Jury,
+            JuryInParameter,
             Margins,
             Norm,
             Bode,
             Nyquist,
             VerdictWithMargins,
             VerdictWithDelayMargin,
+            VerdictWithDamping,
         ];
         (!KNOWN.contains(&self)).then_some(&COMPLEX)
     }
