@@ -153,6 +153,41 @@ fn what_has_to_be_real() {
     }
 }
 
+/// One mistake is told once: a complex sample time, which every block that is made discrete uses, and a frame whose name is mistyped.
+#[test]
+fn one_mistake_is_one_error() {
+    let block = |n: usize, discretize: &str| {
+        format!(
+            "[[block]]\ninput = '{}y{n}'\noutput = 'y{}'\ntransfer = '1/(s + 1)'\ndiscretize = {discretize}\n",
+            if n == 0 { "-" } else { "" },
+            1 - n
+        )
+    };
+    for (time, discretize, code) in
+        [("'1 + j'", "'zoh'", Code::Complex), ("1", "{ method = 'zoh', fraem = 1, advance = 1 }", Code::UnknownKey)]
+    {
+        let blocks = block(0, discretize) + &block(1, if time == "1" { "'zoh'" } else { discretize });
+        let text = format!("time = 'discrete'\nsample_time = {time}\n[loop]\n{blocks}");
+        let error = Model::from_toml(&Source::new("model.toml", text)).map(|_| ()).unwrap_err();
+        let codes: Vec<Code> = error.diagnostics().iter().map(|d| d.code).collect();
+        assert_eq!(codes, [code], "{error}");
+    }
+}
+
+/// Two roots reach the circle at once, `exp(+-j pi/3)` turned: the one of lower frequency is named, also where the turn is no rational number.
+#[test]
+fn several_roots_at_one_value() {
+    for (turn, angle) in
+        [("exp(j*pi/5)", "0.4188790"), ("exp(j*0.3)", "0.7471976"), ("exp(-j*0.3)", "-0.7471976"), ("j", "-0.5235988")]
+    {
+        let text = format!(
+            "time = 'discrete'\n[parameters]\nK = 0.3\n[loop]\ncharacteristic = '(z*{turn})^2 - z*{turn} + K'\n"
+        );
+        let text = printed(&["intervals", "-", "--param", "K"], &text);
+        assert!(text.contains(&format!("complex root at {angle} rad")), "{turn}\n{text}");
+    }
+}
+
 /// A model's own name comes first.
 #[test]
 fn a_name_of_the_model() {

@@ -5,11 +5,12 @@ use crate::error::Error;
 use crate::model::ComplexPolynomial;
 use crate::precisions::SIDE_OF_ROOT;
 use crate::problem::{Bound, Problem, Region, definitions_beside};
+use crate::response::root_on_boundary;
 use crate::stability::{Cause, ComplexPair, End, Shape, Side, StableSet};
 use jurist_algebra::ball::{Ball, cos_sin};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::MultiPoly;
+use jurist_algebra::poly::{MultiPoly, RationalFunction};
 use jurist_algebra::real::Real;
 use jurist_algebra::symbols::MovingSymbols;
 
@@ -63,7 +64,28 @@ impl Problem {
                 end.pair = None;
             }
         }
+        if end.pair.is_none() && end.causes.contains(Cause::ComplexRoot) {
+            end.pair = self.exact_root(&end, budget)?;
+            if end.pair.as_ref().is_some_and(|pair| pair.side() == Side::Both) {
+                end.causes.remove(Cause::ComplexRoot);
+                end.causes.insert(Cause::ComplexPair);
+            }
+        }
         Ok(end)
+    }
+
+    /// The root at an end that is a rational number, where several roots are on the boundary at once: enclosures do not tell them.
+    fn exact_root(&self, end: &End, budget: &Budget) -> Result<Option<ComplexPair>, Error> {
+        let Some(value) = end.value.exact() else { return Ok(None) };
+        let symbols = self.algebra_over_symbols(budget)?.symbols();
+        let whole = self.complex_in_region(budget)?.filter(|_| !symbols.is_moving());
+        let at_value = |f: &RationalFunction| f.substitute(0, &value)?.map_variables(|i| i.saturating_sub(1));
+        let Some(whole) = whole.and_then(|whole| whole.try_map(at_value)) else { return Ok(None) };
+        match root_on_boundary(&whole, symbols, self.shape(), budget) {
+            // The end stands without it.
+            Err(Error::Stopped(stopped)) if stopped.stop.is_precision() => Ok(None),
+            found => found,
+        }
     }
 }
 

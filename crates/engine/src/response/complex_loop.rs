@@ -1,6 +1,7 @@
 //! Open loops with complex coefficients: over frequencies of either sign.
 
 use super::complex_poly::ComplexPoly;
+use super::enclosed::{enclosed, within};
 use super::ground::{Constants, Ground, Integers};
 use super::open_loop::{Over, Parts, Reduced, without_denominators};
 use super::{Frequencies, GainMargin};
@@ -9,10 +10,12 @@ use crate::coverage::refusals::COMPLEX_WITH_DEAD_TIME;
 use crate::error::Error;
 use crate::model::{ComplexPolynomial, Time};
 use crate::problem::{Region, fixed_symbols};
-use crate::stability::{Shape, StableSet};
+use crate::stability::{ComplexPair, Range, Shape, Side, StableSet};
 use jurist_algebra::limits::{Budget, Exhausted};
-use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction};
+use jurist_algebra::real::Real;
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 impl Over {
@@ -95,3 +98,71 @@ impl GainMargin {
         Ok(())
     }
 }
+
+/// The root of lowest frequency on the boundary, of those that are not real, of a polynomial with complex coefficients in symbols: with the side that it is
+/// on. `None` where no identity shows one.
+///
+/// Cost: Euclid's algorithm and the zeros of one polynomial.
+pub(crate) fn root_on_boundary(
+    whole: &ComplexPolynomial,
+    symbols: &crate::model::Symbols,
+    shape: Shape,
+    budget: &Budget,
+) -> Result<Option<ComplexPair>, Error> {
+    let [re, im] = without_denominators([whole.re.clone(), whole.im.clone()]);
+    let is_rational = |p: &Poly<MultiPoly>| p.coeffs().iter().all(MultiPoly::is_constant);
+    let found = if is_rational(&re) && is_rational(&im) {
+        let plain = |p: &Poly<MultiPoly>| p.map(|c| c.as_constant().expect("it is a number"));
+        lowest_root(&Integers, ComplexPoly { re: plain(&re), im: plain(&im) }, shape, budget)?
+    } else {
+        lowest_root(&Constants(Arc::new(fixed_symbols(symbols)?)), ComplexPoly { re, im }, shape, budget)?
+    };
+    let Some((t, side)) = found else { return Ok(None) };
+    let pair = match shape {
+        Shape::UnitDisc => ComplexPair::at_half_size_root(
+            shape,
+            enclosed("twice the cosine of an angle", move |bits| {
+                // 2 (1 - t^2)/(1 + t^2)
+                let (t, one) = (within(&t, bits), Enclosure::from_rational(Rational::ONE));
+                let square = t.mul(&t, bits);
+                let cosine = one.sub(&square, bits).div(&one.add(&square, bits), bits)?;
+                Some(cosine.mul(&Enclosure::from_rational(Rational::from(2)), bits))
+            }),
+        ),
+        Shape::LeftHalfPlane => ComplexPair::at_angular_frequency(enclosed("the size of a frequency", move |bits| {
+            let rate = within(&t, bits);
+            Some(if rate.upper().is_negative() { rate.neg() } else { rate })
+        })),
+    };
+    Ok(Some(pair.on_side(side)))
+}
+
+fn lowest_root<G: Ground>(
+    ground: &G,
+    p: ComplexPoly<G::Number>,
+    shape: Shape,
+    budget: &Budget,
+) -> Result<Option<(Real, Side)>, Exhausted> {
+    if p.is_zero() {
+        return Ok(None);
+    }
+    let along = p.along(p.len() - 1, shape);
+    let common = budget.enter(|| along.re.gcd(&along.im))?;
+    let zeros = ground.zeros(&common, &Range::all(), budget)?;
+    let size = |t: &Real| {
+        let (lo, hi) = t.refined_to_digits(DIGITS).enclosure();
+        lo.midpoint(&hi).abs()
+    };
+    let lowest = budget.enter(|| zeros.into_iter().filter(|t| t.sign().is_ne()).min_by_key(size))?;
+    let Some(t) = lowest else { return Ok(None) };
+    let both = budget.enter(|| common.gcd(&common.negated_argument()))?;
+    let side = match budget.enter(|| t.sign())? {
+        _ if ground.sign_at(&both, &t, budget)?.is_eq() => Side::Both,
+        Ordering::Less => Side::Lower,
+        _ => Side::Upper,
+    };
+    Ok(Some((t, side)))
+}
+
+/// Digits by which frequencies are told apart, of which one is named.
+const DIGITS: usize = 17;

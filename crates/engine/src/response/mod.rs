@@ -53,6 +53,7 @@ mod turning;
 mod value;
 
 pub use asked::Requirements;
+pub(crate) use complex_loop::root_on_boundary;
 pub use crossings::{Crossings, Direction, GainCrossing, PhaseCrossing};
 pub use delay::DelayMargin;
 pub use disk::DiskMargin;

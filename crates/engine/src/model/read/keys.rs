@@ -308,7 +308,7 @@ pub(super) const DISCRETIZE: [Key; 9] = [
     key(
         "frame",
         Shape::Expression,
-        "the speed, in radians per unit of time, at which the frame of the block's signals turns against that in which zoh holds its inputs; the signals are then complex, d + j q",
+        "the speed, in radians per unit of time, at which the frame of the block's signals turns against that in which its inputs are held, or pulses with the duty ratio 1/2; the signals are then complex, d + j q",
     ),
     key("advance", Shape::Expression, "the angle by which commands are turned ahead into that frame, 0 when missing"),
     key(
