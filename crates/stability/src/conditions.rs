@@ -214,7 +214,7 @@ pub fn hermitian_test(
     let mut power = Rational::ONE;
     for (k, polynomial) in minors.into_iter().enumerate() {
         budget.step(&format!("condition {}", k + 1));
-        power = power * &scale;
+        power *= &scale;
         let solution = solve_positive(&polynomial, range, budget)?;
         intersection = intersection.intersection(&solution);
         let inequality = Inequality::Positive(ScaledPoly { scale: power.clone(), polynomial });
