@@ -3,6 +3,7 @@
 use super::refusals::COMPLEX;
 use super::table::rows;
 use super::{CoefficientRing, Coverage, Refusal};
+use crate::error::Diagnostic;
 use crate::model::Time;
 use crate::response::{Requirement, Rule};
 
@@ -252,6 +253,12 @@ impl Asked {
             VerdictWithDamping,
         ];
         (!KNOWN.contains(&self)).then_some(&COMPLEX)
+    }
+
+    /// The refusal of a question about a loop whose coefficients are complex.
+    pub(crate) fn refused_of_complex_loops() -> Diagnostic {
+        let known = rows().iter().filter(|row| row.asked.of_complex_loop().is_none()).filter_map(|row| row.phrase);
+        COMPLEX.diagnostic(&[("known", &known.collect::<Vec<_>>().join(", "))])
     }
 
     /// The questions that are answered over a ring, as a list in words: those that are a command of their own.

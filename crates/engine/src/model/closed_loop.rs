@@ -117,10 +117,7 @@ impl Evaluated {
         symbols: Symbols,
         budget: &Budget,
     ) -> Result<Evaluated, Error> {
-        let (mut polynomial, complex) = match closed_loop.is_complex {
-            false => (closed_loop.characteristic_polynomial(budget)?, None),
-            true => closed_loop.complex_polynomial(&symbols, budget)?,
-        };
+        let (mut polynomial, complex) = closed_loop.real_polynomial(&symbols, budget)?;
         polynomial.poles = polynomial.poles.iter().filter_map(|pole| pole_beside(pole, &symbols)).collect();
         let closed_loop = Some(closed_loop);
         Ok(Evaluated { polynomial, complex, closed_loop, sample_time, symbols }.without_unused_symbols())

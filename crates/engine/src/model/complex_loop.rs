@@ -8,8 +8,7 @@ use super::evaluate::symbolic::Values;
 use super::evaluate::zpoly::ZPoly;
 use super::symbols::Symbols;
 use super::text::UNIT;
-use crate::coverage::Refusal;
-use crate::coverage::refusals::COMPLEX;
+use crate::coverage::Asked;
 use crate::error::{Diagnostics, Error};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::{CharacteristicPolynomial, RationalMatrix};
@@ -93,8 +92,20 @@ impl ClosedLoop {
         Ok([below.clone(), other.minus(&below).plus_multiple(&direct, &below)])
     }
 
-    /// The characteristic polynomial of a complex loop with conjugate roots, and the polynomial itself where it is complex.
-    pub(super) fn complex_polynomial(
+    /// The characteristic polynomial, of a complex loop with conjugate roots; and then the polynomial itself where it is complex.
+    pub(crate) fn real_polynomial(
+        &self,
+        symbols: &Symbols,
+        budget: &Budget,
+    ) -> Result<(CharacteristicPolynomial, Option<ComplexPolynomial>), Error> {
+        match self.is_complex {
+            false => Ok((self.characteristic_polynomial(budget)?, None)),
+            true => self.complex_polynomial(symbols, budget),
+        }
+    }
+
+    /// The same of a complex loop.
+    fn complex_polynomial(
         &self,
         symbols: &Symbols,
         budget: &Budget,
@@ -122,13 +133,16 @@ impl Model {
         given: &[(String, Rational)],
         budget: &Budget,
     ) -> Result<(), Error> {
-        self.refuse_complex(&self.answer(kept, given, budget)?, &COMPLEX)
+        self.refuse_complex(&self.answer(kept, given, budget)?)
     }
 
     /// Refuses a complex loop.
-    pub(super) fn refuse_complex(&self, answer: &Answer<'_>, how: &Refusal) -> Result<(), Error> {
+    pub(super) fn refuse_complex(&self, answer: &Answer<'_>) -> Result<(), Error> {
         match answer.wiring.is_complex {
-            true => Err(Diagnostics::new(Some(self.source().clone()), vec![how.diagnostic(&[])]).into()),
+            true => {
+                let refused = Asked::refused_of_complex_loops();
+                Err(Diagnostics::new(Some(self.source().clone()), vec![refused]).into())
+            }
             false => Ok(()),
         }
     }

@@ -292,7 +292,7 @@ impl Model {
         let (Some((block, hold)), None) = (holds.next(), holds.next()) else { return Ok(None) };
         let number = |f: &RationalFunction| answer.substituted(f).and_then(|f| f.as_constant());
         let (Some(period), Some(delay)) = (number(&hold.time), number(&hold.delay)) else { return Ok(None) };
-        let one_input = block.inputs.len() == 1;
+        let one_input = block.inputs.len() == answer.wiring.parts_of("").len();
         let Some(samples) = delay.checked_div(&period).filter(|_| one_input) else { return Ok(None) };
         let edges = hold.pulses.iter().flatten().flat_map(|pulse| pulse.edges.iter().flatten());
         let Some(edges) = edges.map(number).collect::<Option<Vec<Rational>>>() else { return Ok(None) };
