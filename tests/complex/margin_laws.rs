@@ -142,7 +142,7 @@ fn margins_of_a_machine_are_verdicts_of_machines() {
         asked.unwrap().into_value().verdict == Verdict::Stable
     };
     let near: Rational = "1/100000000".parse().unwrap();
-    for speed in [-4000, 0, 600, 5000] {
+    for speed in [-4000, 0, 5000] {
         let answer = read(&text).ask().set("omega_e", speed).margins(None, &Rational::ZERO, &budget).unwrap();
         let found = answer.value();
         let stable = found.stable.as_ref().unwrap();

@@ -188,52 +188,6 @@ pub fn classical_test(
     })
 }
 
-/// The conditions of a loop with complex coefficients: that the leading principal minors of its Hermitian matrix are positive, each solved exactly over
-/// `range`, and the intersection. `p` has the loop's poles, and the coefficients have been multiplied by `below`.
-///
-/// Cost: isolation of the real zeros of each minor.
-///
-/// # Errors
-/// [`Exhausted`] when the budget runs out.
-pub fn hermitian_test(
-    minors: Vec<UniPoly>,
-    below: &UniPoly,
-    p: &ParametricPolynomial,
-    range: &Range,
-    budget: &Budget,
-) -> Result<ClassicalTest, Exhausted> {
-    let order = minors.len();
-    let mut poles = Vec::new();
-    for pole in p.poles().iter().chain([p.denominator()]) {
-        poles.push(zeros_in(pole, range, budget)?);
-    }
-    let mut intersection: IntervalSet = cells(range, &merge_points(poles, budget)?).into_iter().collect();
-    let square = Rational::from(below.coeff(0).pow(2));
-    let scale = Rational::ONE.checked_div(&square).filter(|_| below.is_constant()).unwrap_or(Rational::ONE);
-    let mut conditions = Vec::with_capacity(order);
-    let mut power = Rational::ONE;
-    for (k, polynomial) in minors.into_iter().enumerate() {
-        budget.step(&format!("condition {}", k + 1));
-        power *= &scale;
-        let solution = solve_positive(&polynomial, range, budget)?;
-        intersection = intersection.intersection(&solution);
-        let inequality = Inequality::Positive(ScaledPoly { scale: power.clone(), polynomial });
-        conditions.push(Condition { name: minor_name(k), inequality, solution });
-    }
-    Ok(ClassicalTest {
-        table: Table::Hermitian(order),
-        scales: Vec::new(),
-        cleared_by: (!below.is_constant()).then(|| below.clone()),
-        conditions,
-        intersection,
-    })
-}
-
-/// The condition on the minor of this number, from 0 on.
-pub(crate) fn minor_name(k: usize) -> String {
-    format!("H_{} > 0", k + 1)
-}
-
 /// The exact solution set of one inequality over a range.
 ///
 /// # Errors
@@ -291,7 +245,7 @@ fn solve_divided_row(
     solve_dominates(left, right, factors, range, budget).map(Some)
 }
 
-fn solve_positive(f: &UniPoly, range: &Range, budget: &Budget) -> Result<IntervalSet, Exhausted> {
+pub(super) fn solve_positive(f: &UniPoly, range: &Range, budget: &Budget) -> Result<IntervalSet, Exhausted> {
     if f.is_zero() {
         return Ok(IntervalSet::default());
     }

@@ -1,9 +1,12 @@
 //! The leading principal minors of the Hermitian matrix of a polynomial with complex coefficients: all are positive where the polynomial is stable, and
 //! only there. In discrete time it is the matrix of Schur and Cohn, in continuous time that of Hermite, to which Bilharz gave the determinants.
 
-use crate::Shape;
+use super::conditions::solve_positive;
+use super::interval_set::{cells, merge_points, zeros_in};
+use super::{ClassicalTest, Condition, Inequality, IntervalSet, ParametricPolynomial, Range, ScaledPoly, Shape, Table};
 use jurist_algebra::limits::{Budget, Exhausted};
-use jurist_algebra::poly::{Domain, Poly};
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::{Domain, Poly, UniPoly};
 
 /// A complex number as its real and its imaginary part.
 type Complex<R> = [R; 2];
@@ -49,6 +52,52 @@ pub fn hermitian_minors<R: Domain>(
         Shape::LeftHalfPlane => hermite(&a),
     };
     budget.enter(|| leading_minors(matrix))
+}
+
+/// The conditions of a loop with complex coefficients: that the leading principal minors of its Hermitian matrix are positive, each solved exactly over
+/// `range`, and the intersection. `p` has the loop's poles, and the coefficients have been multiplied by `below`.
+///
+/// Cost: isolation of the real zeros of each minor.
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out.
+pub fn hermitian_test(
+    minors: Vec<UniPoly>,
+    below: &UniPoly,
+    p: &ParametricPolynomial,
+    range: &Range,
+    budget: &Budget,
+) -> Result<ClassicalTest, Exhausted> {
+    let order = minors.len();
+    let mut poles = Vec::new();
+    for pole in p.poles().iter().chain([p.denominator()]) {
+        poles.push(zeros_in(pole, range, budget)?);
+    }
+    let mut intersection: IntervalSet = cells(range, &merge_points(poles, budget)?).into_iter().collect();
+    let square = Rational::from(below.coeff(0).pow(2));
+    let scale = Rational::ONE.checked_div(&square).filter(|_| below.is_constant()).unwrap_or(Rational::ONE);
+    let mut conditions = Vec::with_capacity(order);
+    let mut power = Rational::ONE;
+    for (k, polynomial) in minors.into_iter().enumerate() {
+        budget.step(&format!("condition {}", k + 1));
+        power *= &scale;
+        let solution = solve_positive(&polynomial, range, budget)?;
+        intersection = intersection.intersection(&solution);
+        let inequality = Inequality::Positive(ScaledPoly { scale: power.clone(), polynomial });
+        conditions.push(Condition { name: minor_name(k), inequality, solution });
+    }
+    Ok(ClassicalTest {
+        table: Table::Hermitian(order),
+        scales: Vec::new(),
+        cleared_by: (!below.is_constant()).then(|| below.clone()),
+        conditions,
+        intersection,
+    })
+}
+
+/// The condition on the minor of this number, from 0 on.
+pub(crate) fn minor_name(k: usize) -> String {
+    format!("H_{} > 0", k + 1)
 }
 
 fn schur_cohn<R: Domain>(a: &[Complex<R>]) -> Rows<R> {
@@ -174,7 +223,6 @@ fn quotient<R: Domain>(x: &Complex<R>, y: &Complex<R>) -> Complex<R> {
 mod tests {
     use super::*;
     use jurist_algebra::number::Integer;
-    use jurist_algebra::poly::UniPoly;
 
     fn minors(re: &[i64], im: &[i64], n: usize, region: Shape) -> Vec<i64> {
         let (re, im) = (UniPoly::from_i64(re), UniPoly::from_i64(im));

@@ -46,11 +46,9 @@ mod symbolic;
 
 pub use boundary::{Boundary, boundary_polynomials};
 pub use cause::{Cause, Causes};
-pub use conditions::{
-    ClassicalTest, Condition, Inequality, ScaledPoly, Table, classical_test, hermitian_test, row_name, solve,
-};
+pub use conditions::{ClassicalTest, Condition, Inequality, ScaledPoly, Table, classical_test, row_name, solve};
 pub use half_size::HalfSizePair;
-pub use hermitian::hermitian_minors;
+pub use hermitian::{hermitian_minors, hermitian_test};
 pub use impulse_response::{AbsoluteSum, ImpulseResponse};
 pub use interval_set::zeros_in;
 pub use interval_set::{AlgebraicInterval, IntervalSet, Range, RealInterval};

@@ -1,7 +1,8 @@
 //! A parameter as the loop's gain.
 
 use super::ground::Integers;
-use super::open_loop::{Over, Parts, WithTimes, integral, without_denominators};
+use super::open_loop::{Over, WithTimes};
+use super::parts::{Parts, integral, without_denominators};
 use crate::error::{Code, Diagnostic, Error};
 use crate::model::ComplexPolynomial;
 use crate::problem::Problem;

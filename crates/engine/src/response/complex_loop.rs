@@ -3,7 +3,8 @@
 use super::complex_poly::ComplexPoly;
 use super::enclosed::{enclosed, within};
 use super::ground::{Constants, Ground, Integers};
-use super::open_loop::{Over, Parts, Reduced, without_denominators};
+use super::open_loop::Over;
+use super::parts::{Parts, Reduced, without_denominators};
 use super::{Frequencies, GainMargin};
 use crate::answer::Sides;
 use crate::coverage::refusals::COMPLEX_WITH_DEAD_TIME;

@@ -1,7 +1,8 @@
 //! Where the open loop has modulus one, and where it is real and negative.
 
 use super::ground::{Ground, at_end};
-use super::open_loop::{OpenLoop, Parts, with_parts};
+use super::open_loop::OpenLoop;
+use super::parts::{Parts, with_parts};
 use super::{Frequencies, Place, Value};
 use crate::stability::{RealInterval, Shape};
 use jurist_algebra::limits::{Budget, Exhausted};

@@ -9,7 +9,7 @@ use super::crossings::{Crossings, PhaseCrossing};
 use super::enclosed::enclosed;
 use super::ground::Integers;
 use super::margins::{GainMargin, PhaseMargin, StableMargins};
-use super::open_loop::Parts;
+use super::parts::Parts;
 use super::value::{reciprocal, square_root};
 use super::{DelayMargin, DiskMargin, Extreme, Place, Value};
 use crate::answer::stable_factors;

@@ -2,7 +2,8 @@
 
 use super::extreme::extreme_over;
 use super::ground::Ground;
-use super::open_loop::{OpenLoop, Parts, with_parts};
+use super::open_loop::OpenLoop;
+use super::parts::{Parts, with_parts};
 use super::value::square_root;
 use super::{Extreme, Value};
 use jurist_algebra::limits::{Budget, Exhausted};

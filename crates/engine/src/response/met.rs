@@ -3,7 +3,8 @@
 use super::crossings::Crossings;
 use super::extreme::{Extreme, extreme_over};
 use super::margins::{GainMargin, Margins, PhaseMargin, StableMargins};
-use super::open_loop::{OpenLoop, with_parts};
+use super::open_loop::OpenLoop;
+use super::parts::with_parts;
 use super::requirement::{Circle, Found, Requirement, Rule};
 use super::value::{Value, square_root};
 use jurist_algebra::limits::{Budget, Exhausted};

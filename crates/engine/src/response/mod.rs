@@ -39,6 +39,7 @@ mod open_loop;
 mod over_box;
 mod over_boxes;
 mod over_symbols;
+mod parts;
 mod peak_to_peak;
 mod place;
 mod required_boxes;

@@ -2,7 +2,8 @@
 
 use super::extreme::extreme_over;
 use super::ground::Ground;
-use super::open_loop::{Over, Parts};
+use super::open_loop::Over;
+use super::parts::Parts;
 use super::value::square_root;
 use super::{Extreme, Frequencies};
 use crate::answer::{Answer, Frequency, PointVerdict, Verdict};

@@ -3,7 +3,8 @@
 use super::Frequencies;
 use super::crossings::samples_between;
 use super::ground::Ground;
-use super::open_loop::{OpenLoop, Parts, with_parts};
+use super::open_loop::OpenLoop;
+use super::parts::{Parts, with_parts};
 use crate::stability::Shape;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational, Sign};

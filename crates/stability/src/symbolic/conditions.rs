@@ -3,10 +3,9 @@
 use super::basis::{Boundary, Split, Unexpanded, Way};
 use super::jury::Comparison;
 use super::minors::{EnclosedMinor, Minor};
-use super::rows::{Asked, EnclosedRows, SymbolicRow, enclosed_quotient, enclosed_rows, plus, shown, times};
+use super::rows::{Asked, EnclosedRows, SymbolicRow, enclosed_rows, plus, shown, times};
 use super::statements::{Conditions, Rule, Stated};
 use super::{SymbolicPolynomial, Table};
-use crate::conditions::minor_name;
 use crate::interval_set::real_cells;
 use crate::precisions::SIGN_OF_DETERMINANT;
 use crate::{Cause, Range, Shape};
@@ -18,7 +17,7 @@ use jurist_algebra::symbols::{SymbolicPoly, Symbols};
 use std::sync::Arc;
 
 /// Determinants with no more terms than this are expanded: order 6 over two symbols takes 30 ms, order 7 over three ten seconds.
-const MOST_EXPANDED: u64 = 800;
+pub(super) const MOST_EXPANDED: u64 = 800;
 
 /// A union of disjoint open intervals, ascending. Two may share an end, which is then not in the set.
 #[derive(Clone, Debug, Default)]
@@ -151,64 +150,6 @@ impl SymbolicPolynomial {
         let asked = Asked { region, rows: conditions.rows, divisors, digits };
         let table = enclosed_rows(self, symbols, &asked, budget)?;
         Ok(self.shown_test(conditions, solved, &table, region, digits))
-    }
-
-    /// The conditions of a loop with complex coefficients, of which this is the polynomial with the conjugate roots: that the leading principal minors of
-    /// its Hermitian matrix are positive. The coefficients have been multiplied by `below`.
-    ///
-    /// Cost: as [`SymbolicPolynomial::classical_test`], with minors that are expanded.
-    ///
-    /// # Errors
-    /// As [`SymbolicPolynomial::classical_test`].
-    ///
-    /// # Panics
-    /// When symbols depend on the parameter.
-    pub fn hermitian_test(
-        &self,
-        minors: &[MultiPoly],
-        below: &MultiPoly,
-        range: &Range,
-        digits: usize,
-        budget: &Budget,
-    ) -> Result<SymbolicTest, Exhausted> {
-        let Table::Fixed(symbols) = &self.symbols else { panic!("symbols depend on the parameter") };
-        budget.step("the conditions");
-        let rule = |k: usize| Rule { product: vec![k], is_negative: false, other_than_zero: Vec::new() };
-        let stated =
-            |k: usize| Stated { name: minor_name(k), row: None, comparison: Comparison::Greater, rule: rule(k) };
-        let conditions = Conditions {
-            functions: minors.iter().cloned().map(Minor::of).collect(),
-            stated: (0..minors.len()).map(stated).collect(),
-            is_plain: true,
-            ..Conditions::default()
-        };
-        let ((solutions, intersection), _) =
-            Way::in_order(symbols, MOST_EXPANDED, |way| solved(self, &conditions, symbols, range, way, budget))?;
-        budget.step("the table");
-        let is_number = below.degree_in(0) == 0;
-        let square = if is_number { below.times(below) } else { MultiPoly::one() };
-        let mut scale = MultiPoly::one();
-        let mut out = Vec::with_capacity(minors.len());
-        for ((stated, solution), minor) in conditions.stated.iter().zip(solutions).zip(minors) {
-            scale = scale.times(&square);
-            out.push(SymbolicCondition {
-                name: stated.name.clone(),
-                comparison: stated.comparison,
-                left: shown(&enclosed_quotient(minor, &scale, symbols, digits, budget)?, digits),
-                right: Vec::new(),
-                row: None,
-                solution,
-            });
-        }
-        let cleared = |below: &MultiPoly| enclosed_quotient(below, &MultiPoly::one(), symbols, digits, budget);
-        let cleared_by = (!is_number).then(|| cleared(below)).transpose()?;
-        Ok(SymbolicTest {
-            order: minors.len(),
-            rows: Vec::new(),
-            cleared_by: cleared_by.map(|p| shown(&p, digits)),
-            conditions: out,
-            intersection,
-        })
     }
 
     fn shown_test(
@@ -357,10 +298,10 @@ fn seem_simple(functions: &[Minor], most: u64, budget: &Budget) -> Result<bool, 
 }
 
 /// Where each condition holds, and where all do and the loop is defined.
-type Solutions = (Vec<RealIntervals>, RealIntervals);
+pub(super) type Solutions = (Vec<RealIntervals>, RealIntervals);
 
 /// The solutions, and the degrees of the functions.
-fn solved(
+pub(super) fn solved(
     p: &SymbolicPolynomial,
     conditions: &Conditions,
     symbols: &Arc<Symbols>,

@@ -164,26 +164,6 @@ impl SymbolicPolynomial {
         Ok(Some(self.classical_test(&Range::all(), Shape::LeftHalfPlane, digits, budget)?.into()))
     }
 
-    /// The conditions of a loop with complex coefficients at a point, as [`SymbolicPolynomial::hermitian_test`]; `None` where the loop is undefined, or its
-    /// degree lost.
-    ///
-    /// Cost: that of [`SymbolicPolynomial::hermitian_test`].
-    ///
-    /// # Errors
-    /// [`Exhausted`] when the budget runs out.
-    pub fn hermitian_conditions(
-        &self,
-        minors: &[MultiPoly],
-        below: &MultiPoly,
-        digits: usize,
-        budget: &Budget,
-    ) -> Result<Option<EnclosedTable>, Exhausted> {
-        if self.is_undefined_without_parameter(budget)? {
-            return Ok(None);
-        }
-        Ok(Some(self.hermitian_test(minors, below, &Range::all(), digits, budget)?.into()))
-    }
-
     /// Whether a loop without parameter is undefined, or its degree lost.
     pub(super) fn is_undefined_without_parameter(&self, budget: &Budget) -> Result<bool, Exhausted> {
         let Table::Fixed(symbols) = &self.symbols else { unreachable!("without parameter symbols are numbers") };
