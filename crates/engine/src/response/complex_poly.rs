@@ -70,26 +70,38 @@ impl<R: Domain> ComplexPoly<R> {
     /// The values on the boundary as a polynomial in the real variable of signed frequencies: in `t = tan(theta/2)`, times `(1 - jt)^n`, or in
     /// `omega`.
     ///
-    /// With `z = (1 + jt)/(1 - jt)` each power `z^k` becomes `(1 + jt)^k (1 - jt)^(n - k)`.
+    /// With `z = (1 + jt)/(1 - jt)` each power `z^k` becomes `(1 + jt)^k (1 - jt)^(n - k)`: by Horner's scheme, with one more factor `1 - jt` in each step.
     pub fn along(&self, n: usize, shape: Shape) -> Self {
-        let whole = |k: i64| R::from_integer(&Integer::from(k));
-        let power = |sign: i64, k: usize| {
-            let factor = ComplexPoly { re: Poly::constant(R::one()), im: Poly::new(vec![R::zero(), whole(sign)]) };
-            (0..k).fold(ComplexPoly::from(Poly::constant(R::one())), |product, _| product.times(&factor))
+        let constant = |re: R, im: R| ComplexPoly { re: Poly::constant(re), im: Poly::constant(im) };
+        let coefficient = |k: usize| constant(self.re.coeff(k), self.im.coeff(k));
+        let linear = |slope: i64| ComplexPoly {
+            re: Poly::one(),
+            im: Poly::new(vec![R::zero(), R::from_integer(&Integer::from(slope))]),
         };
-        let mut sum = ComplexPoly::from(Poly::zero());
-        for k in 0..self.len() {
-            let basis = match shape {
-                Shape::UnitDisc => power(1, k).times(&power(-1, n - k)),
-                Shape::LeftHalfPlane => {
-                    let turned = ComplexPoly { re: Poly::zero(), im: Poly::constant(R::one()) };
-                    (0..k).fold(ComplexPoly::from(Poly::constant(R::one())), |p, _| p.times(&turned)).shifted_up(k)
+        match shape {
+            Shape::UnitDisc => {
+                let (up, down) = (linear(1), linear(-1));
+                let (mut sum, mut factor) = (coefficient(n), ComplexPoly::from(Poly::one()));
+                for k in (0..n).rev() {
+                    factor = factor.times(&down);
+                    sum = sum.times(&up).plus(&factor.times(&coefficient(k)));
                 }
-            };
-            let c = ComplexPoly { re: Poly::constant(self.re.coeff(k)), im: Poly::constant(self.im.coeff(k)) };
-            sum = sum.plus(&basis.times(&c));
+                sum
+            }
+            Shape::LeftHalfPlane => {
+                let turned = |k: usize| {
+                    let (re, im) = (self.re.coeff(k), self.im.coeff(k));
+                    match k % 4 {
+                        0 => [re, im],
+                        1 => [im.negated(), re],
+                        2 => [re.negated(), im.negated()],
+                        _ => [im, re.negated()],
+                    }
+                };
+                let (re, im) = (0..self.len()).map(turned).map(|[re, im]| (re, im)).unzip();
+                ComplexPoly { re: Poly::new(re), im: Poly::new(im) }
+            }
         }
-        sum
     }
 
     /// The square of the modulus on the boundary, in the variable of these frequencies; real coefficients where they have no sign.

@@ -1,6 +1,8 @@
 //! The least and the greatest value of a modulus over all frequencies.
 
 use super::ground::{Ground, Integers};
+use super::open_loop::OpenLoop;
+use super::parts::with_parts;
 use super::value::square_root;
 use super::{Frequencies, Place, Value};
 use crate::stability::Shape;
@@ -139,4 +141,20 @@ pub(crate) fn extreme_over<G: Ground>(
     }
     let (place, value, attained) = best.expect("not infinite at all frequencies");
     Ok(Extreme::At { place, value, attained })
+}
+
+/// The least value of `|1 + L|^2`.
+pub(super) fn modulus_extreme(open_loop: &OpenLoop, budget: &Budget) -> Result<Extreme, Exhausted> {
+    with_parts!(open_loop, parts => {
+        let r = &parts.reduced;
+        extreme_over(&parts.ground, &r.sum_squared, &r.denominator_squared, parts.frequencies(), Ordering::Less, budget)
+    })
+}
+
+/// The greatest value of `|L/(1 + L)|^2`.
+pub(super) fn complementary_extreme(open_loop: &OpenLoop, budget: &Budget) -> Result<Extreme, Exhausted> {
+    with_parts!(open_loop, parts => {
+        let r = &parts.reduced;
+        extreme_over(&parts.ground, &r.numerator_squared, &r.sum_squared, parts.frequencies(), Ordering::Greater, budget)
+    })
 }

@@ -2,7 +2,7 @@
 
 use super::crossings::Crossings;
 use super::dead_time::DeadTime;
-use super::extreme::extreme_over;
+use super::extreme::{complementary_extreme, extreme_over, modulus_extreme};
 use super::ground::Ground;
 use super::open_loop::{OpenLoop, Over};
 use super::parts::{Parts, with_parts};
@@ -163,6 +163,24 @@ impl Problem {
         budget: &Budget,
     ) -> Result<Answer<Margins>, Error> {
         self.margins_with(at, skew, true, budget)
+    }
+
+    /// The same without the dead time behind a hold ([`Margins::held_delay`]), which takes the longest.
+    ///
+    /// Cost: that of [`Problem::margins`] but for that dead time.
+    ///
+    /// # Errors
+    /// As [`Problem::margins`].
+    ///
+    /// # Panics
+    /// When a parameter is free.
+    pub fn margins_without_held_delay(
+        self: &Arc<Self>,
+        at: Option<&str>,
+        skew: &Rational,
+        budget: &Budget,
+    ) -> Result<Answer<Margins>, Error> {
+        self.margins_with(at, skew, false, budget)
     }
 
     /// The dead time behind a hold takes the longest, and is left out where nobody asks for it.
@@ -366,20 +384,4 @@ impl PhaseMargin {
         let tangent = Some(Box::new(square_root(&square, budget)?));
         Ok(PhaseMargin::Angle { tangent, place: least.place().cloned() })
     }
-}
-
-/// The least value of `|1 + L|^2`.
-fn modulus_extreme(open_loop: &OpenLoop, budget: &Budget) -> Result<Extreme, Exhausted> {
-    with_parts!(open_loop, parts => {
-        let r = &parts.reduced;
-        extreme_over(&parts.ground, &r.sum_squared, &r.denominator_squared, parts.frequencies(), Ordering::Less, budget)
-    })
-}
-
-/// The greatest value of `|L/(1 + L)|^2`.
-fn complementary_extreme(open_loop: &OpenLoop, budget: &Budget) -> Result<Extreme, Exhausted> {
-    with_parts!(open_loop, parts => {
-        let r = &parts.reduced;
-        extreme_over(&parts.ground, &r.numerator_squared, &r.sum_squared, parts.frequencies(), Ordering::Greater, budget)
-    })
 }
