@@ -219,3 +219,63 @@ fn other_forms_of_a_loop() {
     let at = read(&block).ask().margins(Some("y"), &Rational::ZERO, &Budget::unlimited()).unwrap().into_value();
     assert_eq!(numbers(&at), values);
 }
+
+fn loop_of(transfer: &str) -> String {
+    format!(
+        "time = 'discrete'\n[parameters]\nK = 1\n[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\ninput = 'r - y'\noutput = 'y'\n\
+         transfer = 'K*({transfer})'\n"
+    )
+}
+
+/// The angles of both rotations, rounded.
+fn angles(margins: &Margins) -> [String; 2] {
+    let both = margins.stable.as_ref().unwrap().one_sided.as_ref().unwrap();
+    [&both.lag, &both.lead].map(|r| r.as_ref().unwrap().degrees(60).decimal(7).unwrap())
+}
+
+/// A modulus that is one at one frequency or at all of them.
+#[test]
+fn moduli_that_touch_one() {
+    // |1 - z|/2 is 1 at z = -1 only, where the open loop is -(3 + 4j)/5: no number of samples makes it -1.
+    let touching = margins(&loop_of("(3 + 4*j)/5*(1 - z)/(2*z)"));
+    let stable = touching.stable.as_ref().unwrap();
+    assert!(matches!(stable.delay, DelayMargin::Unbounded), "{:?}", stable.delay);
+    assert!(matches!(touching.crossings.gain[..], [ref only] if matches!(only.place, Place::Highest)));
+    assert_eq!(angles(&touching), ["53.13010", "306.8699"]);
+    // A constant, with a mode that cancels.
+    let constant = margins(&loop_of("(3 + 4*j)/5*(z - j/2)/(z - j/2)"));
+    assert!(constant.crossings.gain_everywhere);
+    assert_eq!(angles(&constant), ["233.1301", "126.8699"]);
+    let stable = constant.stable.as_ref().unwrap();
+    assert_eq!(
+        (stable.phase.degrees(60).unwrap().decimal(7).unwrap(), stable.modulus.decimal(7)),
+        ("126.8699".into(), "1.788854".into())
+    );
+    assert!(matches!(stable.delay, DelayMargin::Samples(0)), "{:?}", stable.delay);
+    // Nowhere one.
+    let small = margins(&loop_of("j/(4*z)"));
+    assert!(small.stable.as_ref().unwrap().one_sided.as_ref().unwrap().lag.is_none());
+    assert!(matches!(small.stable.unwrap().delay, DelayMargin::Unbounded));
+}
+
+/// A complex mode that the cut hides changes no margin.
+#[test]
+fn a_hidden_mode_changes_nothing() {
+    let plain = margins(&loop_of("7/10*(3 + 4*j)/5*(z + 1/4)/(z^2 - z/2 + 1/8)"));
+    let hidden = margins(&loop_of("7/10*(3 + 4*j)/5*(z + 1/4)*(2*z - j)/((z^2 - z/2 + 1/8)*(2*z - j))"));
+    assert_eq!(numbers(&hidden), numbers(&plain));
+    assert_eq!((hidden.verdict.degree, plain.verdict.degree), (3, 2));
+    // A mode that is not stable leaves no margins.
+    assert!(margins(&loop_of("(3 + 4*j)/5*(z - 2*j)/((z + 1/4)*(z - 2*j))")).stable.is_none());
+}
+
+/// A pole on the circle that is not real, and a zero there.
+#[test]
+fn poles_and_zeros_on_the_circle() {
+    let found = margins(&loop_of("1/4*(z - 1)/(z - (3 + 4*j)/5)"));
+    let stable = found.stable.as_ref().unwrap();
+    // (z - p) + k (z - 1)/4 has its root between p and 1, on the chord: inside for all k > 0.
+    assert!(stable.gain.upper.is_none(), "{:?}", stable.gain.upper);
+    assert_eq!(stable.gain.lower.as_ref().map(|end| end.value.decimal(5)), Some("0".to_owned()));
+    assert!(stable.modulus.compare_rational(&0.into()).is_gt());
+}
