@@ -71,7 +71,10 @@ mod loops {
 /// Loops with complex coefficients, and plants that are held in another frame.
 mod complex {
     mod frames;
+    mod jury;
     mod laws;
+    mod margin_laws;
+    mod margins;
     mod oracle;
     mod random;
     mod table;

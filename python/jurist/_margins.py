@@ -31,6 +31,10 @@ class PhaseMargin(NamedTuple):
     degrees: float | None
     tangent: Real | None
     at: At
+    lag: float | None = None
+    """Of a loop with complex coefficients: the smallest turn in the sense of a delay, in degrees; `degrees` is the smaller of both."""
+    lead: float | None = None
+    """The same in the other sense."""
 
 
 class DelayMargin(NamedTuple):
@@ -135,7 +139,8 @@ class Margins(Document):
         if found is None:
             return None
         degrees = None if found["degrees"] is None else float(found["degrees"])
-        return PhaseMargin(degrees, self._number("phase", "tangent"), At._of(found))
+        lag, lead = (None if key not in found else float(found[key]) for key in ("lag", "lead"))
+        return PhaseMargin(degrees, self._number("phase", "tangent"), At._of(found), lag, lead)
 
     @property
     def delay(self) -> DelayMargin | None:

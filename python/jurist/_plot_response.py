@@ -105,8 +105,15 @@ def plot_bode(
     upper, lower = _pair(ax)
     x = response.frequency
     decibels = 20 * numpy.log10(numpy.abs(response.response))
-    (line,) = upper.semilogx(x, decibels, **kw)
-    lower.semilogx(x, response.phase_degrees, **{"color": line.get_color(), **kw})
+    above = x > 0
+    (line,) = upper.semilogx(x[above], decibels[above], **kw)
+    lower.semilogx(x[above], response.phase_degrees[above], **{"color": line.get_color(), **kw})
+    if not above.all():
+        # Of a loop with complex coefficients negative frequencies are no mirror image.
+        dashed = {"color": line.get_color(), **kw, "linestyle": "--", "label": "negative frequencies"}
+        upper.semilogx(-x[~above], decibels[~above], **dashed)
+        lower.semilogx(-x[~above], response.phase_degrees[~above], **dashed)
+        upper.legend()
     upper.axhline(0, color="gray", linewidth=0.8)
     found = response.margins() if exact else None
     levels = set()
@@ -115,20 +122,21 @@ def plot_bode(
         for phase_crossing in found.phase_crossings:
             place = _place(response, phase_crossing.at)
             if place and phase_crossing.factor:
-                notes.append((place, -20 * math.log10(abs(phase_crossing.factor)), _factor_named(phase_crossing.factor, found)))
+                notes.append((abs(place), -20 * math.log10(abs(phase_crossing.factor)), _factor_named(phase_crossing.factor, found)))
         angles = []
         for crossing in found.gain_crossings:
             place = _place(response, crossing.at)
             if place:
                 # The phase as it is drawn is continued over turns.
-                near = float(numpy.interp(place, x, response.phase_degrees))
+                half = above if place > 0 else ~above
+                near = float(numpy.interp(place, x[half], response.phase_degrees[half]))
                 degrees = crossing.phase_margin_degrees - 180
                 degrees += 360 * round((near - degrees) / 360)
                 levels.add(360 * round((degrees + 180) / 360) - 180)
-                angles.append((place, degrees, _angle_named(crossing.phase_margin_degrees, found)))
+                angles.append((abs(place), degrees, _angle_named(crossing.phase_margin_degrees, found)))
         for axis, list_ in ((upper, notes), (lower, angles)):
             axis.plot([n[0] for n in list_], [n[1] for n in list_], "o", color=CROSSING)
-            _annotate(axis, _noted(list_), x[0], x[-1])
+            _annotate(axis, _noted(list_), float(numpy.abs(x).min()), float(numpy.abs(x).max()))
             for place, _, _ in (*_noted(notes), *_noted(angles)):
                 axis.axvline(place, color="gray", linewidth=0.8, linestyle="--")
     low, high = float(numpy.min(response.phase_degrees)), float(numpy.max(response.phase_degrees))
@@ -184,13 +192,16 @@ def _arrows(ax: Axes, curve: Any, color: Any, window: tuple[float, float, float]
 
 
 def plot_nyquist(response: FrequencyResponse, ax: Axes | None, exact: bool, kw: dict[str, Any]) -> Axes:
-    """The curve towards higher frequencies, its mirror image dashed, the unit circle and -1."""
+    """The curve towards higher frequencies, that of negative ones dashed, the unit circle and -1."""
     import numpy
 
     ax = axes(ax)
-    curve = response.response
+    whole, above = response.response, response.frequency > 0
+    curve = whole[above]
+    # Of a loop with real coefficients that is the mirror image.
+    negative = numpy.conj(curve[::-1]) if above.all() else whole[~above]
     (line,) = ax.plot(curve.real, curve.imag, **{"linewidth": 1.5, **kw})
-    ax.plot(curve.real, -curve.imag, "--", color=line.get_color(), linewidth=1, alpha=0.6)
+    ax.plot(negative.real, negative.imag, "--", color=line.get_color(), linewidth=1, alpha=0.6)
     turn = numpy.exp(1j * numpy.linspace(0, 2 * math.pi, 361))
     ax.plot(turn.real, turn.imag, color="gray", linewidth=0.8, linestyle=":")
     ax.plot([-1], [0], "+", color="black", markersize=10)
@@ -210,13 +221,13 @@ def plot_nyquist(response: FrequencyResponse, ax: Axes | None, exact: bool, kw: 
                 if is_margin:
                     marks.append(complex(-1 / phase_crossing.factor, 0))
                     notes.append((marks[-1].real, 0.0, note))
-    window = _nyquist_window(curve, marks)
+    window = _nyquist_window(numpy.concatenate((negative, curve)), marks)
     left, right, top = window
     inside = [note for note in _noted(notes) if left < note[0] < right]
     ax.plot([n[0] for n in notes], [n[1] for n in notes], "o", color=CROSSING)
     _annotate(ax, inside, left, right, is_logarithmic=False)
     _arrows(ax, curve, line.get_color(), window)
-    _arrows(ax, numpy.conj(curve[::-1]), line.get_color(), window)
+    _arrows(ax, negative, line.get_color(), window)
     ax.set_xlim(left, right)
     ax.set_ylim(-top, top)
     ax.set_aspect("equal")

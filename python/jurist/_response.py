@@ -37,7 +37,7 @@ class FrequencyResponse(Document):
 
     @property
     def frequency(self) -> Any:
-        """The frequencies, an array."""
+        """The frequencies, an array; of a loop with complex coefficients from the lowest negative one on."""
         return self._array("frequency")
 
     @property
@@ -50,7 +50,7 @@ class FrequencyResponse(Document):
 
     @property
     def phase_degrees(self) -> Any:
-        """Its phase, continued from the lowest frequency on."""
+        """Its phase, continued from the lowest frequency on, or from 0 in both directions."""
         return self._array("phase_degrees")
 
     def _array(self, name: str) -> Any:

@@ -4,6 +4,8 @@
 use crate::helpers::model::read;
 use crate::helpers::random::Random;
 use jurist_algebra::limits::Budget;
+use jurist_engine::error::{Code, Source};
+use jurist_engine::model::Model;
 use jurist_engine::stability::StableSet;
 
 /// A current loop with a dead time of `m + f` samples.
@@ -172,4 +174,63 @@ fn a_command_turned_by_right_angles_more_has_another_sign() {
     assert_eq!(ends("K", " + pi"), known);
     assert_eq!(ends("K", " - 3*pi"), known);
     assert_eq!(ends("j*K", " + pi/2"), known);
+}
+
+/// Pulses of zero voltage, commanded before their period begins: by hand, edge by edge. With the edge at `t` behind the sample the
+/// column `exp(-(1 - phi)/2)` acts on the command of `m` samples before, `t = m + phi`.
+#[test]
+fn pulses_of_zero_voltage_in_a_turning_frame() {
+    let text = |block: &str| {
+        format!(
+            "time = 'discrete'\nsample_time = 1\n[parameters]\nK = {{ nominal = 0.4, min = 0, max = 4 }}\nw = {{ nominal = 0.3, min = -3, max = 3 }}\n\
+             [loop]\ninputs = ['r']\noutputs = ['i']\n[[block]]\nname = 'C'\ninput = 'r - i'\noutput = 'u'\ntransfer = 'K + 1/16/(z - 1)'\n\
+             [[block]]\nname = 'P'\ninput = 'u'\noutput = 'i'\n{block}\n"
+        )
+    };
+    let turned = "(z*exp(j*w))";
+    for (edge, delay, column) in [
+        // One edge at 5/4.
+        ("trailing", "0.75", format!("exp(-3/8)/{turned}")),
+        ("leading", "0.75", format!("exp(-3/8)/{turned}")),
+        // Edges at 1/4 and at 3/4 of the period that begins at 1/2.
+        ("double", "0.5", format!("(exp(-1/8) + exp(-3/8)/{turned})/2")),
+    ] {
+        let pulsed = text(&format!(
+            "transfer = '1/(s + 1/2)'\ndiscretize = {{ method = 'pwm', edge = '{edge}', duty = '1/2', frame = 'w', delay = {delay}, advance = 'w' }}"
+        ));
+        let by_hand = text(&format!("transfer = 'exp(j*w)*{column}/({turned} - exp(-1/2))'"));
+        for name in ["K", "w"] {
+            let found = places(&set(&pulsed, name));
+            assert!(!found.is_empty() && found == places(&set(&by_hand, name)), "{edge} {name}: {found:?}");
+        }
+        let margins = |text: &str| {
+            let answer = read(text).ask().margins(None, &0.into(), &Budget::unlimited()).unwrap().into_value();
+            let stable = answer.stable.unwrap();
+            let both = stable.one_sided.unwrap();
+            [both.lag, both.lead].map(|r| r.unwrap().degrees(60).decimal(12).unwrap())
+        };
+        assert_eq!(margins(&pulsed), margins(&by_hand), "{edge}");
+    }
+}
+
+#[test]
+fn pulses_of_another_voltage_are_refused_in_a_turning_frame() {
+    let text = |duty: &str, frame: &str| {
+        format!(
+            "time = 'discrete'\nsample_time = 1\n[constants]\nhalf = '3/6'\n[parameters]\nK = 0.4\nw = 0.3\n[loop]\ninputs = ['r']\noutputs = ['i']\n\
+             [[block]]\ninput = 'r - i'\noutput = 'u'\ngain = 'K'\n[[block]]\ninput = 'u'\noutput = 'i'\ntransfer = '1/(s + 1/2)'\n\
+             discretize = {{ method = 'pwm', edge = 'trailing', duty = {duty}, frame = {frame} }}\n"
+        )
+    };
+    let load = |text: &str| Model::from_toml(&Source::new("model.toml", text));
+    for duty in ["0.4", "'K'", "'steady'"] {
+        let text = text(duty, "'w'");
+        let error = load(&text).map(|_| ()).unwrap_err();
+        let [only] = error.diagnostics() else { panic!("{error}") };
+        assert_eq!(only.code, Code::Frame, "{error}");
+        let place = only.primary.as_ref().unwrap().span;
+        assert!(text[place.start..place.end].contains(duty.trim_matches('\'')), "{error}");
+        assert!(only.help.as_ref().unwrap().contains("duty = 0.5"));
+    }
+    assert!(load(&text("'half'", "'w'")).is_ok() && load(&text("0.4", "0")).is_ok());
 }

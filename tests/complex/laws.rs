@@ -153,6 +153,84 @@ fn what_has_to_be_real() {
     }
 }
 
+/// One mistake is told once: a complex sample time, which every block that is made discrete uses, and a frame whose name is mistyped.
+#[test]
+fn one_mistake_is_one_error() {
+    let block = |n: usize, discretize: &str| {
+        format!(
+            "[[block]]\ninput = '{}y{n}'\noutput = 'y{}'\ntransfer = '1/(s + 1)'\ndiscretize = {discretize}\n",
+            if n == 0 { "-" } else { "" },
+            1 - n
+        )
+    };
+    for (time, discretize, code) in
+        [("'1 + j'", "'zoh'", Code::Complex), ("1", "{ method = 'zoh', fraem = 1, advance = 1 }", Code::UnknownKey)]
+    {
+        let blocks = block(0, discretize) + &block(1, if time == "1" { "'zoh'" } else { discretize });
+        let text = format!("time = 'discrete'\nsample_time = {time}\n[loop]\n{blocks}");
+        let error = Model::from_toml(&Source::new("model.toml", text)).map(|_| ()).unwrap_err();
+        let codes: Vec<Code> = error.diagnostics().iter().map(|d| d.code).collect();
+        assert_eq!(codes, [code], "{error}");
+    }
+}
+
+/// Two roots reach the circle at once, `exp(+-j pi/3)` turned: the one of lower frequency is named, also where the turn is no rational number.
+#[test]
+fn several_roots_at_one_value() {
+    for (turn, angle) in
+        [("exp(j*pi/5)", "0.4188790"), ("exp(j*0.3)", "0.7471976"), ("exp(-j*0.3)", "-0.7471976"), ("j", "-0.5235988")]
+    {
+        let text = format!(
+            "time = 'discrete'\n[parameters]\nK = 0.3\n[loop]\ncharacteristic = '(z*{turn})^2 - z*{turn} + K'\n"
+        );
+        let text = printed(&["intervals", "-", "--param", "K"], &text);
+        assert!(text.contains(&format!("complex root at {angle} rad")), "{turn}\n{text}");
+    }
+}
+
+/// The step of an input may be complex: `[simulation]` names its parts as the command line does.
+#[test]
+fn inputs_of_a_simulation_have_parts() {
+    let model = machine("");
+    let table = |arguments: &[&str], inputs: &str| {
+        printed(
+            &[&["simulate", "-", "--duration", "0.005"], arguments].concat(),
+            &format!("{model}[simulation]\n{inputs}\n"),
+        )
+    };
+    let asked = table(&["--input", "i_ref=1", "--input", "i_ref.im=2"], "");
+    for inputs in [
+        "inputs = { i_ref = { re = 1, im = 2 } }",
+        "inputs = { 'i_ref.re' = 1, 'i_ref.im' = 2 }",
+        "inputs.i_ref.re = 1\ninputs.i_ref.im = 2",
+    ] {
+        assert_eq!(table(&[], inputs), asked, "{inputs}");
+    }
+    assert_eq!(table(&[], "inputs.i_ref = 1"), table(&[], "inputs.i_ref.re = 1"));
+    assert_ne!(table(&[], "inputs.i_ref.im = 1"), table(&[], "inputs.i_ref.re = 1"));
+    for (inputs, place) in [("inputs.i_ref.imag = 1", "i_ref.imag"), ("inputs.u.im = 1", "u.im")] {
+        let error = Model::from_toml(&Source::new("model.toml", format!("{model}[simulation]\n{inputs}\n")));
+        let error = error.map(|_| ()).unwrap_err();
+        assert!(error.to_string().contains(place) && error.code() == Code::UnknownName, "{error}");
+    }
+}
+
+/// A coefficient of the document has a real and an imaginary part in each term.
+#[test]
+fn coefficients_in_the_document() {
+    let text = "time = 'discrete'\n[parameters]\nK = 0.3\nL = 1\n[loop]\ncharacteristic = 'z^2 - j*z/(1 + L) + K*(3 + 4*j)/5 + L/(2 + j)'\n";
+    let document = printed(&["charpoly", "-", "--json"], text);
+    let document: serde_json::Value = serde_json::from_str(&document).unwrap();
+    assert_eq!(document["parameters"], serde_json::json!(["K", "L"]));
+    let expected = serde_json::json!([
+        { "numerator": [[[1, 0], ["3/5", "4/5"]], [[0, 1], ["2/5", "-1/5"]]], "denominator": [[[0, 0], "1"]] },
+        { "numerator": [[[0, 0], ["0", "-1"]]], "denominator": [[[0, 1], "1"], [[0, 0], "1"]] },
+        { "numerator": [[[0, 0], ["1", "0"]]], "denominator": [[[0, 0], "1"]] },
+    ]);
+    assert_eq!(document["coefficients"], expected);
+    assert!(document.get("imaginary").is_none());
+}
+
 /// A model's own name comes first.
 #[test]
 fn a_name_of_the_model() {
@@ -168,14 +246,9 @@ fn a_name_of_the_model() {
 fn what_is_refused() {
     let text = turned("pi/6");
     for arguments in [
-        &["margins", "-"][..],
-        &["norm", "-", "r", "y"],
-        &["bode", "-"],
-        &["nyquist", "-"],
-        &["jury", "-"],
-        &["jury", "-", "--param", "K"],
+        &["norm", "-", "r", "y", "--l1"][..],
         &["locus", "-", "--param", "K"],
-        &["verdict", "-", "--modulus-margin", "1/100"],
+        &["intervals", "-", "--param", "K", "--modulus-margin", "1/100"],
         &["intervals", "-", "--param", "K", "--damping", "1/10"],
         &["intervals", "-", "--param", "K", "--sensitivity"],
         &["intervals", "-", "--param", "K", "--certificate", "never.json"],

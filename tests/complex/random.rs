@@ -8,6 +8,8 @@ use crate::helpers::random::Random;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_engine::answer::{Answer, ToleranceRequest};
+use jurist_engine::problem::Region;
+use jurist_engine::response::Requirement;
 use jurist_engine::stability::boxes::BoxDecision;
 use jurist_engine::stability::{Cause, End, StableSet};
 
@@ -134,6 +136,47 @@ fn roots_and_verdicts_agree() {
             assert!(f64::hypot(re, im) < 1e-4, "{of:?}: {x} + {y} j is no root");
         }
     }
+}
+
+/// Smaller regions are those of a variable that is scaled or shifted, and the least damping of all roots bounds what can be required.
+#[test]
+fn regions_and_damping() {
+    let mut random = Random::new(1875);
+    let mut damped = 0;
+    for case in 0..60 {
+        let of = Loop::random(&mut random, case % 2 == 0);
+        let text = of.text(1);
+        let (option, moved) = match of.is_discrete {
+            true => (Region::disc(ratio(4, 5)).unwrap(), text.replace("z^", "(4/5*z)^")),
+            false => (Region::half_plane(ratio(1, 3)), text.replace("s^", "(s - 1/3)^")),
+        };
+        let own = read(&text).ask().within(option).free("K").stable_set(&Budget::unlimited()).unwrap();
+        let values = |answer: &Answer<StableSet>| ends(answer.value()).map(|e| e.value.clone()).collect::<Vec<_>>();
+        let (a, b) = (values(&own), values(&set(&moved)));
+        assert!(a.len() == b.len() && a.iter().zip(&b).all(|(a, b)| a.is_same(b)), "{of:?}: {a:?} {b:?}");
+        let problem = load(&text).ask().set("K", ratio(1, 3)).problem().unwrap();
+        let budget = Budget::unlimited();
+        if problem.verdict(&budget).unwrap().value().count.unwrap().inside < of.a.len() {
+            continue;
+        }
+        let roots = problem.roots(17, &budget).unwrap().into_value();
+        let damping = |root: &jurist_engine::answer::ClosedLoopRoot| {
+            let (x, y) = (root.disc.re.to_f64_approximate(), root.disc.im.to_f64_approximate());
+            let (x, y) = if of.is_discrete { (x.hypot(y).ln(), y.atan2(x)) } else { (x, y) };
+            -x / x.hypot(y)
+        };
+        let least = roots.list.iter().map(damping).fold(1.0, f64::min);
+        for (more, expected) in [(-1e-9, true), (1e-9, false)] {
+            let Some(asked) = Rational::from_f64(least + more).filter(|d| d.sign().is_gt() && *d < Rational::ONE)
+            else {
+                continue;
+            };
+            let met = problem.requirements_met(&[Requirement::damping(asked).unwrap()], None, &budget).unwrap();
+            assert_eq!(met[0].met, expected, "{of:?}: {least}");
+            damped += 1;
+        }
+    }
+    assert!(damped > 20, "{damped}");
 }
 
 /// The plane of two parameters: a point of each cell of the exact map against Schur and Cohn.

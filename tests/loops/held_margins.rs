@@ -96,7 +96,7 @@ fn the_peak_gain_of_the_held_servo() {
     let answer = load(SERVO_BEHIND_A_HOLD).ask().norm("r", "y", &Budget::unlimited()).unwrap();
     let peak = answer.value().peak.as_ref().unwrap();
     assert_eq!(peak.value.decimal(30), "1.16393389170524927311057031234");
-    let angle = real::enclosed(20, |bits| answer.value().frequency(answer.problem().shape(), bits)?.angle).unwrap();
+    let angle = real::enclosed(20, |bits| answer.value().frequency(bits)?.angle).unwrap();
     assert_eq!(angle, "0.061497963235524362911");
 }
 

@@ -264,18 +264,18 @@ pub struct FrequencyResponse {
     pub at: String,
     /// Whether frequencies are in hertz; else in radians per sample.
     pub hertz: bool,
-    /// The frequencies.
+    /// The frequencies, ascending; of a loop with complex coefficients negative ones too.
     pub frequency: Vec<Float>,
     /// The open loop there.
     pub response: Vec<Point>,
-    /// Its phase in degrees, continued from the lowest frequency on.
+    /// Its phase in degrees, continued from the lowest frequency on, or from 0 in both directions.
     pub phase_degrees: Vec<Float>,
 }
 
 /// The document of a frequency response.
 pub fn frequency_response_json(answer: &Answer<Margins>, drawn: &Sampled) -> FrequencyResponse {
     let problem = answer.problem();
-    let column = |of: fn(&ResponsePoint) -> f64| drawn.points.iter().map(|p| Float::from(of(p))).collect();
+    let column = |of: fn(&ResponsePoint) -> f64| drawn.all().map(|p| Float::from(of(p))).collect();
     FrequencyResponse {
         schema: FrequencyResponseName::V1,
         title: problem.title().unwrap_or_default().to_owned(),
@@ -285,7 +285,7 @@ pub fn frequency_response_json(answer: &Answer<Margins>, drawn: &Sampled) -> Fre
         at: answer.value().open_loop.cut().name().to_owned(),
         hertz: drawn.hertz,
         frequency: column(|p| p.frequency),
-        response: drawn.points.iter().map(|p| [p.real.into(), p.imaginary.into()]).collect(),
+        response: drawn.all().map(|p| [p.real.into(), p.imaginary.into()]).collect(),
         phase_degrees: column(|p| p.phase),
     }
 }

@@ -64,6 +64,8 @@ pub enum Table {
     Jury(JuryTable<UniPoly>),
     /// Continuous time.
     Routh(RouthTable<UniPoly>),
+    /// None, of a loop with complex coefficients: its conditions are on the minors of a Hermitian matrix of this order.
+    Hermitian(usize),
 }
 
 /// The classical test of a loop with one parameter: table, conditions, their intersection.
@@ -243,7 +245,7 @@ fn solve_divided_row(
     solve_dominates(left, right, factors, range, budget).map(Some)
 }
 
-fn solve_positive(f: &UniPoly, range: &Range, budget: &Budget) -> Result<IntervalSet, Exhausted> {
+pub(super) fn solve_positive(f: &UniPoly, range: &Range, budget: &Budget) -> Result<IntervalSet, Exhausted> {
     if f.is_zero() {
         return Ok(IntervalSet::default());
     }

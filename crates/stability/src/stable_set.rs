@@ -100,8 +100,8 @@ impl StableInterval {
 ///
 /// ```
 /// use jurist_stability::UndecidedBracket;
-/// let bracket = UndecidedBracket::new(Some(1.into()), Some(2.into()), "touching or crossing");
-/// assert_eq!(bracket.why, "touching or crossing");
+/// let bracket = UndecidedBracket::new(Some(1.into()), Some(2.into()), "a root on the boundary, or close to it");
+/// assert_eq!(bracket.why, "a root on the boundary, or close to it");
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]

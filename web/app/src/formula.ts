@@ -2,7 +2,8 @@
 
 import { m } from "./dom.js";
 
-type Term = [number[], string];
+/** Powers, and the number before them; of a complex loop its real and its imaginary part. */
+type Term = [number[], string | [string, string]];
 interface Coefficient {
   numerator: Term[];
   denominator: Term[];
@@ -23,13 +24,23 @@ function number(text: string): Element {
   return q === undefined ? m("mn", {}, p!) : m("mfrac", {}, m("mn", {}, p!), m("mn", {}, q));
 }
 
+/** Each term with one number; that of an imaginary part has the unit as a factor. */
+function apart(terms: Term[]): [number[], string, boolean][] {
+  return terms.flatMap(([powers, value]): [number[], string, boolean][] => {
+    if (typeof value === "string") return [[powers, value, false]];
+    const parts: [number[], string, boolean][] = value.map((part, i) => [powers, part, i === 1]);
+    return parts.filter(([, part]) => part !== "0");
+  });
+}
+
 function sum(terms: Term[], names: string[]): Element[] {
   const out: Element[] = [];
-  for (const [k, [powers, coefficient]] of terms.entries()) {
+  for (const [k, [powers, coefficient, imaginary]] of apart(terms).entries()) {
     const negative = coefficient.startsWith("-");
     if (negative || k > 0) out.push(m("mo", {}, negative ? "−" : "+"));
     const size = negative ? coefficient.slice(1) : coefficient;
     const factors = powers.flatMap((e, i) => (e > 0 ? [power(name(names[i] ?? "?"), e)] : []));
+    if (imaginary) factors.unshift(m("mi", {}, "j"));
     if (size !== "1" || factors.length === 0) out.push(number(size));
     out.push(...factors);
   }

@@ -8,7 +8,7 @@ use crate::simulate::roots;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::poly::{Poly, UniPoly};
-use jurist_engine::response::{Margins, Place, Turning};
+use jurist_engine::response::{Frequencies, Margins, Place, Turning};
 use jurist_engine::stability::Shape;
 
 /// A frequency response in floating point, by ascending frequency.
@@ -16,8 +16,11 @@ use jurist_engine::stability::Shape;
 pub struct FrequencyResponse {
     /// Whether frequencies are in hertz; else in radians per sample.
     pub hertz: bool,
-    /// The samples.
+    /// The samples at positive frequencies.
     pub points: Vec<ResponsePoint>,
+    /// Those at negative frequencies, of a loop with complex coefficients, from the highest frequency on; of a real loop these are the mirror images of
+    /// the others.
+    pub negative: Vec<ResponsePoint>,
 }
 
 /// The open loop at one frequency.
@@ -67,11 +70,11 @@ pub(super) fn unit_of(margins: &Margins) -> (bool, f64) {
     }
 }
 
-/// Angle or radians per unit of time at a place, if it is positive.
+/// Angle or radians per unit of time at a place, if it is not 0.
 pub(super) fn rate(margins: &Margins, place: &Place) -> Option<f64> {
     let frequency = margins.frequency(place, 60)?;
     let rate = middle(frequency.angle.as_ref().or(frequency.radians_per_second.as_ref())?);
-    (rate > 0.0).then_some(rate)
+    (rate != 0.0).then_some(rate)
 }
 
 /// The crossings that matter: all of modulus one, and of those of the negative real axis the ones whose factors are nearest to 1,
@@ -90,7 +93,7 @@ fn range(margins: &Margins) -> (f64, f64) {
     let (crossings, delay) = (&margins.crossings, dead_time(margins));
     let places = crossings.gain.iter().map(|c| &c.place).chain(crossings.phase.iter().map(|c| &c.place));
     let places: Vec<&Place> = if delay > 0.0 { binding(margins) } else { places.collect() };
-    let mut features: Vec<f64> = places.into_iter().filter_map(|place| rate(margins, place)).collect();
+    let mut features: Vec<f64> = places.into_iter().filter_map(|place| rate(margins, place)).map(f64::abs).collect();
     let last = features.iter().copied().fold(0.0, f64::max);
     let is_disc = margins.open_loop.shape() == Shape::UnitDisc;
     let half_turn = std::f64::consts::PI;
@@ -119,7 +122,7 @@ fn dead_time(margins: &Margins) -> f64 {
     margins.open_loop.dead_time().map_or(0.0, Rational::to_f64_approximate)
 }
 
-/// The frequencies of the samples: evenly on a logarithmic axis, and so near to one another that the dead time turns little between them.
+/// The sizes of the frequencies of the samples: evenly on a logarithmic axis, and so near to one another that the dead time turns little between them.
 fn rates(margins: &Margins) -> Vec<f64> {
     let (low, high) = range(margins);
     let mut rates: Vec<f64> =
@@ -132,18 +135,20 @@ fn rates(margins: &Margins) -> Vec<f64> {
     }
     let crossings = &margins.crossings;
     let places = crossings.gain.iter().map(|c| &c.place).chain(crossings.phase.iter().map(|c| &c.place));
-    rates.extend(places.filter_map(|place| rate(margins, place)).filter(|r| (low..=high).contains(r)));
+    rates.extend(places.filter_map(|place| rate(margins, place)).map(f64::abs).filter(|r| (low..=high).contains(r)));
     rates.sort_by(f64::total_cmp);
     rates.dedup();
     rates
 }
 
 /// The point of the boundary at an angle or a frequency: exact at the nearest binary number.
-fn point(rate: f64, shape: Shape) -> Rational {
-    match shape {
+fn point(rate: f64, frequencies: Frequencies) -> Rational {
+    match frequencies {
         // 2 - 4 sin^2(theta/2) keeps the digits near z = 1.
-        Shape::UnitDisc => Rational::from(2) - finite(4.0 * (rate / 2.0).sin().powi(2)),
-        Shape::LeftHalfPlane => -finite(rate * rate),
+        Frequencies::Positive(Shape::UnitDisc) => Rational::from(2) - finite(4.0 * (rate / 2.0).sin().powi(2)),
+        Frequencies::Positive(Shape::LeftHalfPlane) => -finite(rate * rate),
+        Frequencies::Signed(Shape::UnitDisc) => finite((rate / 2.0).tan()),
+        Frequencies::Signed(Shape::LeftHalfPlane) => finite(rate),
     }
 }
 
@@ -165,29 +170,43 @@ pub fn frequency_response(margins: &Margins, budget: &Budget) -> Result<Frequenc
     let turning = Turning::of(open_loop, budget)?;
     budget.enter(|| {
         let rates = rates(margins);
-        let places: Vec<Rational> = rates.iter().map(|&rate| point(rate, open_loop.shape())).collect();
-        let rounded = |values: Vec<Option<(Enclosure, Enclosure)>>| -> Vec<Option<(f64, f64)>> {
-            let factors =
-                rates.iter().map(|&rate| if open_loop.shape() == Shape::UnitDisc { rate.sin() } else { rate });
-            let value = |(value, factor): (Option<(Enclosure, Enclosure)>, f64)| {
-                let (real, imaginary) = value?;
-                Some((middle(&real), middle(&imaginary) * factor)).filter(|v| v.0.is_finite() && v.1.is_finite())
-            };
-            values.into_iter().zip(factors).map(value).collect()
+        let points = sampled(margins, &turning, &rates, unit);
+        let negative = match open_loop.frequencies().are_signed() {
+            true => sampled(margins, &turning, &rates.iter().rev().map(|rate| -rate).collect::<Vec<_>>(), unit),
+            false => Vec::new(),
         };
-        let undelayed = rounded(open_loop.undelayed_values_at(&places, BITS));
-        let delay = dead_time(margins);
-        let values = if delay > 0.0 { rounded(open_loop.values_at(&places, BITS)) } else { undelayed.clone() };
-        let mut points = Vec::with_capacity(rates.len());
-        for (i, rate) in rates.iter().enumerate() {
-            let (Some((real, imaginary)), Some((re, im))) = (values[i], undelayed[i]) else { continue };
-            let own = im.atan2(re).to_degrees();
-            let turns = ((turning.middle(&places[i]) as f64 - own) / 360.0).round();
-            let phase = own + 360.0 * turns - (rate * delay).to_degrees();
-            points.push(ResponsePoint { frequency: rate * unit, real, imaginary, phase });
-        }
-        FrequencyResponse { hertz, points }
+        FrequencyResponse { hertz, points, negative }
     })
+}
+
+/// The open loop at these angles or frequencies.
+fn sampled(margins: &Margins, turning: &Turning, rates: &[f64], unit: f64) -> Vec<ResponsePoint> {
+    let open_loop = &margins.open_loop;
+    let places: Vec<Rational> = rates.iter().map(|&rate| point(rate, open_loop.frequencies())).collect();
+    let rounded = |values: Vec<Option<(Enclosure, Enclosure)>>| -> Vec<Option<(f64, f64)>> {
+        let factors = rates.iter().map(|&rate| match open_loop.frequencies() {
+            Frequencies::Positive(Shape::UnitDisc) => rate.sin(),
+            Frequencies::Positive(Shape::LeftHalfPlane) => rate,
+            Frequencies::Signed(_) => 1.0,
+        });
+        let value = |(value, factor): (Option<(Enclosure, Enclosure)>, f64)| {
+            let (real, imaginary) = value?;
+            Some((middle(&real), middle(&imaginary) * factor)).filter(|v| v.0.is_finite() && v.1.is_finite())
+        };
+        values.into_iter().zip(factors).map(value).collect()
+    };
+    let undelayed = rounded(open_loop.undelayed_values_at(&places, BITS));
+    let delay = dead_time(margins);
+    let values = if delay > 0.0 { rounded(open_loop.values_at(&places, BITS)) } else { undelayed.clone() };
+    let mut points = Vec::with_capacity(rates.len());
+    for (i, rate) in rates.iter().enumerate() {
+        let (Some((real, imaginary)), Some((re, im))) = (values[i], undelayed[i]) else { continue };
+        let own = im.atan2(re).to_degrees();
+        let turns = ((turning.middle(&places[i]) as f64 - own) / 360.0).round();
+        let phase = own + 360.0 * turns - (rate * delay).to_degrees();
+        points.push(ResponsePoint { frequency: rate * unit, real, imaginary, phase });
+    }
+    points
 }
 
 impl FrequencyResponse {
@@ -195,10 +214,15 @@ impl FrequencyResponse {
     pub fn to_csv(&self) -> String {
         let unit = if self.hertz { "hz" } else { "rad_per_sample" };
         let mut out = format!("frequency_{unit},real,imaginary,magnitude_db,phase_degrees\n");
-        for p in &self.points {
+        for p in self.all() {
             out.push_str(&format!("{},{},{},{},{}\n", p.frequency, p.real, p.imaginary, p.decibels(), p.phase));
         }
         out
+    }
+
+    /// All samples by ascending frequency.
+    pub fn all(&self) -> impl Iterator<Item = &ResponsePoint> {
+        self.negative.iter().chain(&self.points)
     }
 
     pub(super) fn label(&self) -> &'static str {
@@ -207,11 +231,12 @@ impl FrequencyResponse {
 
     /// The sample nearest to a frequency, `None` outside of the range that is drawn.
     pub(super) fn nearest(&self, frequency: f64) -> Option<&ResponsePoint> {
+        let points = if frequency < 0.0 { &self.negative } else { &self.points };
         let (first, last) = (self.points.first()?.frequency, self.points.last()?.frequency);
-        if !(first * 0.999..=last * 1.001).contains(&frequency) {
+        if !(first * 0.999..=last * 1.001).contains(&frequency.abs()) {
             return None;
         }
         let distance = |p: &&ResponsePoint| (p.frequency / frequency).ln().abs();
-        self.points.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        points.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
 }

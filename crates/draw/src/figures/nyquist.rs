@@ -21,7 +21,7 @@ const SIZE: f64 = 640.0;
 
 /// Ends of both axes, equally far apart: around the unit circle and -1, the crossings that matter and the part of the curve near to them.
 fn window(response: &FrequencyResponse, exact: &[Crossing], modulus: Option<f64>) -> [(f64, f64); 2] {
-    let values = || response.points.iter().map(|p| (p.real, p.imaginary)).filter(|p| p.0.hypot(p.1).is_finite());
+    let values = || response.all().map(|p| (p.real, p.imaginary)).filter(|p| p.0.hypot(p.1).is_finite());
     let farthest = values().map(|(x, y)| x.hypot(y)).fold(0.0, f64::max);
     let reach = if farthest <= WHOLE { WHOLE } else { PART };
     let shown = values().filter(|(x, y)| x.hypot(*y) <= reach);
@@ -36,7 +36,7 @@ fn window(response: &FrequencyResponse, exact: &[Crossing], modulus: Option<f64>
     [(middle - half, middle + half), (-half, half)]
 }
 
-/// The curve of the open loop around -1 with arrows towards higher frequencies, its mirror image for negative frequencies dashed, the
+/// The curve of the open loop around -1 with arrows towards higher frequencies, for negative frequencies dashed, of a real loop the mirror image, the
 /// unit circle, and the exact crossings with their margins.
 pub fn nyquist(answer: &Answer<Margins>, response: &FrequencyResponse) -> Figure {
     let margins = answer.value();
@@ -97,7 +97,7 @@ fn still(response: &FrequencyResponse) -> Option<Mark> {
     let first = place(response.points.first()?);
     let near = |p: &ResponsePoint| (p.real - first.0).hypot(p.imaginary - first.1) <= 1e-9 * first.0.hypot(first.1);
     let mark = Mark { at: first, shape: Shape::Dot, colour: COLOURS[0].to_owned(), label: None };
-    response.points.iter().all(near).then_some(mark)
+    response.all().all(near).then_some(mark)
 }
 
 fn curves(response: &FrequencyResponse, modulus: Option<f64>) -> Vec<Curve> {
@@ -113,7 +113,10 @@ fn curves(response: &FrequencyResponse, modulus: Option<f64>) -> Vec<Curve> {
         (0..=240).map(|i| f64::from(i) * turn / 240.0).map(|a| (centre + r * a.cos(), r * a.sin())).collect::<Vec<_>>()
     };
     let positive: Vec<(f64, f64)> = response.points.iter().map(|p| (p.real, p.imaginary)).collect();
-    let negative: Vec<(f64, f64)> = positive.iter().rev().map(|p| (p.0, -p.1)).collect();
+    let negative: Vec<(f64, f64)> = match response.negative.is_empty() {
+        true => positive.iter().rev().map(|p| (p.0, -p.1)).collect(),
+        false => response.negative.iter().map(|p| (p.real, p.imaginary)).collect(),
+    };
     let mut curves = vec![
         Curve { dashed: true, ..curve(circle(0.0, 1.0), "#999999", 1.2, "unit circle") },
         Curve { dashed: true, arrows: true, ..curve(negative, COLOURS[4], 1.2, "ω < 0") },
@@ -139,7 +142,7 @@ mod tests {
             imaginary: *imaginary,
             phase: 0.0,
         };
-        FrequencyResponse { hertz: true, points: values.iter().map(point).collect() }
+        FrequencyResponse { hertz: true, points: values.iter().map(point).collect(), negative: Vec::new() }
     }
 
     fn crossing(real: f64) -> Crossing {

@@ -3,7 +3,7 @@
 //! The curves are sampled; crossings and margins are those of the answer.
 
 use super::frequency::{FrequencyResponse, ResponsePoint, binding, middle, rate, unit_of};
-use super::panel::{Curve, Mark, Panel, Shape, Text, stacked};
+use super::panel::{Corner, Curve, Mark, Panel, Shape, Text, stacked};
 use super::{COLOURS, Figure, Scale};
 use jurist_engine::answer::Answer;
 use jurist_engine::response::{Margins, PhaseMargin, Place};
@@ -135,28 +135,35 @@ struct Half<'a> {
 impl Half<'_> {
     fn panel(&self, y_label: &str, levels: &[f64]) -> Panel {
         let (points, value) = (&self.response.points, self.value);
+        let negative = &self.response.negative;
         let first = points.first().map_or(0.1, |p| p.frequency);
         let last = points.last().map_or(10.0, |p| p.frequency).max(first * 1.01);
-        let range = extent(points.iter().map(value).chain(levels.iter().copied()));
+        let range = extent(self.response.all().map(value).chain(levels.iter().copied()));
         let chosen: Vec<&Crossing> = self.marked.iter().filter(|m| m.is_gain == self.of_gain).collect();
         let mark = |m: &&Crossing| Mark {
-            at: (m.at.frequency, value(&m.at)),
+            at: (m.at.frequency.abs(), value(&m.at)),
             shape: Shape::Diamond,
             colour: COLOURS[1].to_owned(),
             label: None,
         };
         let step = 0.1 * (range.1 - range.0);
         let text = |m: &&Crossing| {
-            let (x, y) = (m.at.frequency, value(&m.at));
+            let (x, y) = (m.at.frequency.abs(), value(&m.at));
             let at = (x * (last / first).powf(0.04), (y + step).min(range.1 - 0.5 * step));
             Text { text: m.words.clone(), at, target: Some((x, y)) }
         };
         let curve =
             |points, colour: &str, width| Curve { points, colour: colour.to_owned(), width, ..Curve::default() };
-        let mut curves = vec![curve(points.iter().map(|p| (p.frequency, value(p))).collect(), COLOURS[0], 1.8)];
+        let along = |points: &[ResponsePoint]| points.iter().map(|p| (p.frequency.abs(), value(p))).collect();
+        let mut curves = vec![curve(along(points), COLOURS[0], 1.8)];
+        if !negative.is_empty() {
+            let named = |curve, label: &str| Curve { label: Some(label.to_owned()), ..curve };
+            let below = Curve { dashed: true, ..curve(along(negative), COLOURS[4], 1.4) };
+            curves = vec![named(curve(along(points), COLOURS[0], 1.8), "ω > 0"), named(below, "ω < 0")];
+        }
         // The margins themselves: from the line to the curve.
         curves.extend(chosen.iter().filter(|m| m.is_binding).map(|m| {
-            let x = m.at.frequency;
+            let x = m.at.frequency.abs();
             curve(vec![(x, (self.base)(&m.at)), (x, value(&m.at))], COLOURS[1], 1.6)
         }));
         Panel {
@@ -175,7 +182,7 @@ impl Half<'_> {
 
     /// The crossings that matter, of both kinds, in both panels; none where they would be a hedge.
     fn verticals(&self) -> Vec<(f64, String)> {
-        let binding: Vec<f64> = self.marked.iter().filter(|m| m.is_binding).map(|m| m.at.frequency).collect();
+        let binding: Vec<f64> = self.marked.iter().filter(|m| m.is_binding).map(|m| m.at.frequency.abs()).collect();
         if binding.len() > 2 * MOST_WORDS {
             return Vec::new();
         }
@@ -188,7 +195,7 @@ impl Half<'_> {
 pub fn bode(answer: &Answer<Margins>, response: &FrequencyResponse) -> Figure {
     let margins = answer.value();
     let mut marked = crossings(margins, response);
-    marked.retain(|m| m.at.frequency > 0.0);
+    marked.retain(|m| m.at.frequency != 0.0);
     let marked = &marked[..];
     let magnitude = Half { response, marked, value: ResponsePoint::decibels, base: |_| 0.0, of_gain: false };
     let phase = Half { response, marked, value: |p| p.phase, base: |p| nearest_level(p.phase), of_gain: true };
@@ -196,9 +203,10 @@ pub fn bode(answer: &Answer<Margins>, response: &FrequencyResponse) -> Figure {
         title: title(answer),
         notes: margins_line(margins),
         x_label: if response.hertz { " (Hz)" } else { "" }.to_owned(),
+        legend: (!response.negative.is_empty()).then_some(Corner::Above),
         ..magnitude.panel("magnitude (dB)", &[0.0])
     };
-    let levels = critical_levels(marked, extent(response.points.iter().map(|p| p.phase)));
+    let levels = critical_levels(marked, extent(response.all().map(|p| p.phase)));
     let phase = Panel { x_label: response.label().to_owned(), ..phase.panel("phase (°)", &levels) };
     stacked(&[magnitude, phase], SIZE.0, SIZE.1)
 }

@@ -1,7 +1,7 @@
 //! The loop's margins, its Bode diagram and its Nyquist curve, where it is clear where the loop is cut.
 
 use super::limits::{DIGITS, PLACES};
-use super::part::{Part, Parts, Work};
+use super::part::{Missing, Part, Parts, Work};
 use crate::figures::{bode, frequency_response, nyquist};
 use crate::page::{Table, escaped, figure, math, paragraph};
 use jurist_algebra::number::Rational;
@@ -15,7 +15,14 @@ const WORK: Work = Work::Units(50_000_000);
 
 pub(super) fn find(problem: &Part<Arc<Problem>>, at: Option<&str>, parts: &Parts<'_>) -> Part<Answer<Margins>> {
     let problem = problem.as_ref().map_err(Clone::clone)?;
-    parts.part("margins", WORK, |budget| problem.margins(at, &Rational::ZERO, budget))
+    let all = parts.part("margins", WORK, |budget| problem.margins(at, &Rational::ZERO, budget));
+    match all {
+        // What takes the longest is the dead time behind a hold.
+        Err(Missing::TooLong) => {
+            parts.part("margins", WORK, |budget| problem.margins_without_held_delay(at, &Rational::ZERO, budget))
+        }
+        all => all,
+    }
 }
 
 pub(super) fn section(margins: &Part<Answer<Margins>>, parts: &Parts<'_>) -> String {

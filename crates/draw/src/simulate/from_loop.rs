@@ -121,14 +121,17 @@ pub fn excitation(
     let mut out = Excitation { initial: vec![0.0; order], steps: Vec::new() };
     for (name, value) in initial {
         let unknown = || simulation_error(format!("'{name}' is no state that an initial value can be given"));
-        // Of a complex signal the real part is meant.
-        let state = states(name).or_else(|| states(&format!("{name}.re")));
+        // Of a complex signal the real part is meant, and a real one has no other.
+        let state =
+            states(name).or_else(|| states(&format!("{name}.re"))).or_else(|| states(name.strip_suffix(".re")?));
         out.initial[state.ok_or_else(unknown)?] = *value;
     }
     for (name, sample, value) in steps {
         let unknown = || simulation_error(format!("the loop has no input '{name}'"));
         let position = |name: &str| inputs.iter().position(|i| i == name);
-        let input = position(name).or_else(|| position(&format!("{name}.re"))).ok_or_else(unknown)?;
+        let input =
+            position(name).or_else(|| position(&format!("{name}.re"))).or_else(|| position(name.strip_suffix(".re")?));
+        let input = input.ok_or_else(unknown)?;
         out.steps.push(Step { sample: *sample, input, value: *value });
     }
     Ok(out)

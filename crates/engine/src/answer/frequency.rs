@@ -59,7 +59,8 @@ impl Frequency {
     pub(crate) fn of_pair(pair: &ComplexPair, sample_time: Option<&Rational>, bits: u64) -> Frequency {
         let working = bits + 16;
         let step = sample_time.filter(|t| t.sign().is_gt()).map(|t| Enclosure::from_rational(t.clone()));
-        Frequency::new(pair.angle(working), step.as_ref(), pair.angular_frequency(working), bits)
+        let [angle, rate] = [pair.angle(working), pair.angular_frequency(working)].map(|e| e.map(|e| on_side(pair, e)));
+        Frequency::new(angle, step.as_ref(), rate, bits)
     }
 }
 
@@ -71,16 +72,22 @@ impl Problem {
     pub fn frequency(&self, end: &End, bits: u64) -> Option<Frequency> {
         let pair = end.pair.as_ref()?;
         let working = bits + 16;
-        let signed = |e: Enclosure| if pair.side() == Side::Lower { e.neg() } else { e };
         Some(match pair.region() {
-            Shape::LeftHalfPlane => Frequency::new(None, None, pair.angular_frequency(working).map(signed), bits),
+            Shape::LeftHalfPlane => {
+                Frequency::new(None, None, pair.angular_frequency(working).map(|rate| on_side(pair, rate)), bits)
+            }
             Shape::UnitDisc => {
-                let angle = signed(pair.angle(working)?);
+                let angle = on_side(pair, pair.angle(working)?);
                 let step = self.sample_time().and_then(|t| positive_value_at(&t, &end.value, working));
                 Frequency::new(Some(angle), step.as_ref(), None, bits)
             }
         })
     }
+}
+
+/// An angle or a rate with the sign of the side that the root is on, where it comes alone.
+fn on_side(pair: &ComplexPair, size: Enclosure) -> Enclosure {
+    if pair.side() == Side::Lower { size.neg() } else { size }
 }
 
 /// Doublings of precision after which a value at a number that is not algebraic is given up.

@@ -198,7 +198,7 @@ fn quotients<G: Ground>(
 ) -> Result<Option<(Real, Option<Real>)>, Exhausted> {
     let place = Place::Inside(end.value.clone());
     let at = |a: &Poly<G::Number>, b: &Poly<G::Number>| -> Result<Option<Real>, Exhausted> {
-        let found: Option<Value> = ground.value(a, b, &place, shape, budget)?;
+        let found: Option<Value> = ground.value(a, b, &place, shape.into(), budget)?;
         found.map(|found| found.number(budget)).transpose()
     };
     let Some(derivative) = at(above, below)? else { return Ok(None) };

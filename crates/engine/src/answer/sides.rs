@@ -4,12 +4,14 @@
 use crate::error::Error;
 use crate::model::ComplexPolynomial;
 use crate::precisions::SIDE_OF_ROOT;
-use crate::problem::{Algebra, Bound, Problem, Region, definitions_beside};
-use crate::stability::{Cause, End, Shape, Side, StableSet};
+use crate::problem::{Bound, Problem, Region, definitions_beside};
+use crate::response::root_on_boundary;
+use crate::stability::{Cause, ComplexPair, End, Shape, Side, StableSet};
 use jurist_algebra::ball::{Ball, cos_sin};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::MultiPoly;
+use jurist_algebra::poly::{MultiPoly, RationalFunction};
+use jurist_algebra::real::Real;
 use jurist_algebra::symbols::MovingSymbols;
 
 /// Work that the polynomial may be where the set has been found without it.
@@ -52,37 +54,86 @@ impl Problem {
         let Some((algebra, whole)) = algebra.and_then(|algebra| Some((algebra, algebra.complex()?))) else {
             return Ok(end);
         };
-        let side = budget.enter(|| self.side(&end, whole, algebra))?;
+        match definitions_beside(algebra.symbols(), self.free().len()) {
+            Ok(table) => {
+                let sides = Sides::new(whole, MovingSymbols::new(table), self.region().clone());
+                budget.enter(|| sides.name(&mut end))?;
+            }
+            Err(_) => {
+                end.causes.of_complex_loop();
+                end.pair = None;
+            }
+        }
+        if end.pair.is_none() && end.causes.contains(Cause::ComplexRoot) {
+            end.pair = self.exact_root(&end, budget)?;
+            if end.pair.as_ref().is_some_and(|pair| pair.side() == Side::Both) {
+                end.causes.remove(Cause::ComplexRoot);
+                end.causes.insert(Cause::ComplexPair);
+            }
+        }
+        Ok(end)
+    }
+
+    /// The root at an end that is a rational number, where several roots are on the boundary at once: enclosures do not tell them.
+    fn exact_root(&self, end: &End, budget: &Budget) -> Result<Option<ComplexPair>, Error> {
+        let Some(value) = end.value.exact() else { return Ok(None) };
+        let symbols = self.algebra_over_symbols(budget)?.symbols();
+        let whole = self.complex_in_region(budget)?.filter(|_| !symbols.is_moving());
+        let at_value = |f: &RationalFunction| f.substitute(0, &value)?.map_variables(|i| i.saturating_sub(1));
+        let Some(whole) = whole.and_then(|whole| whole.try_map(at_value)) else { return Ok(None) };
+        match root_on_boundary(&whole, symbols, self.shape(), budget) {
+            // The end stands without it.
+            Err(Error::Stopped(stopped)) if stopped.stop.is_precision() => Ok(None),
+            found => found,
+        }
+    }
+}
+
+/// A complex polynomial in one parameter, by which ends are named.
+pub(crate) struct Sides<'a> {
+    whole: &'a ComplexPolynomial,
+    symbols: MovingSymbols,
+    region: Region,
+}
+
+impl<'a> Sides<'a> {
+    /// Of a polynomial over the parameter (variable 0) and these symbols, whose roots are to lie in a region.
+    pub fn new(whole: &'a ComplexPolynomial, symbols: MovingSymbols, region: Region) -> Sides<'a> {
+        Sides { whole, symbols, region }
+    }
+
+    /// Names an end that a complex pair of `D conj(D)` makes.
+    pub fn name(&self, end: &mut End) {
+        if !end.causes.contains(Cause::ComplexPair) {
+            return;
+        }
+        let side = end.pair.as_ref().and_then(|pair| self.side(pair, &end.value));
         if side != Some(Side::Both) {
             end.causes.of_complex_loop();
         }
         end.pair = end.pair.take().zip(side).map(|(pair, side)| pair.on_side(side));
-        Ok(end)
     }
 
     /// The side that the root at an end is on: where `D` may vanish on either side, both if it is a factor with real coefficients that does.
-    fn side(&self, end: &End, whole: &ComplexPolynomial, algebra: &Algebra) -> Option<Side> {
-        let pair = end.pair.as_ref()?;
-        let table = definitions_beside(algebra.symbols(), self.free().len()).ok()?;
-        let symbols = MovingSymbols::new(table);
+    fn side(&self, pair: &ComplexPair, value: &Real) -> Option<Side> {
         let vanishes_at = |whole: &ComplexPolynomial, bits: u64| {
             let place = match pair.region() {
                 Shape::UnitDisc => pair.angle(bits),
                 Shape::LeftHalfPlane => pair.angular_frequency(bits),
             };
             let place = place.map(|place| Ball::from_enclosure(&place, bits));
-            let (lo, hi) = end.value.refined(&Rational::dyadic(&Integer::ONE, bits)).enclosure();
+            let (lo, hi) = value.refined(&Rational::dyadic(&Integer::ONE, bits)).enclosure();
             let parameter = Ball::between(&lo, &hi, bits);
-            let vanishes = |place: &Ball| self.may_vanish(place, &parameter, whole, &symbols);
+            let vanishes = |place: &Ball| self.may_vanish(place, &parameter, whole);
             place.and_then(|place| Some([vanishes(&place)?, vanishes(&place.neg())?]))
         };
-        let side = SIDE_OF_ROOT.bits().find_map(|bits| match vanishes_at(whole, bits) {
+        let side = SIDE_OF_ROOT.bits().find_map(|bits| match vanishes_at(self.whole, bits) {
             Some([true, false]) => Some(Side::Upper),
             Some([false, true]) => Some(Side::Lower),
             _ => None,
         });
         side.or_else(|| {
-            let others = whole.without_real_factor()?;
+            let others = self.whole.without_real_factor()?;
             let is_elsewhere = |bits: u64| vanishes_at(&others, bits) == Some([false, false]);
             SIDE_OF_ROOT.bits().any(is_elsewhere).then_some(Side::Both)
         })
@@ -90,19 +141,13 @@ impl Problem {
 
     /// Whether a polynomial may vanish at a point of the region's boundary, given by its angle or frequency; `None` where something may be divided by
     /// zero.
-    fn may_vanish(
-        &self,
-        place: &Ball,
-        parameter: &Ball,
-        whole: &ComplexPolynomial,
-        symbols: &MovingSymbols,
-    ) -> Option<bool> {
+    fn may_vanish(&self, place: &Ball, parameter: &Ball, whole: &ComplexPolynomial) -> Option<bool> {
         let bits = place.bits();
         let number = |bound: &Bound| match bound {
             Bound::Number(value) => Ball::from_rational(value, bits),
             Bound::Free => parameter.clone(),
         };
-        let [x, y] = match self.region() {
+        let [x, y] = match &self.region {
             Region::Disc(radius) => {
                 let ((cosine, sine), radius) = (cos_sin(place), number(radius));
                 [cosine.mul(&radius), sine.mul(&radius)]
@@ -112,7 +157,7 @@ impl Problem {
         let [re, im] = [&whole.re, &whole.im].map(|list| {
             let sides: Vec<MultiPoly> =
                 list.iter().flat_map(|f| [f.numerator().clone(), f.denominator().clone()]).collect();
-            let values = symbols.enclose(&sides, parameter)?;
+            let values = self.symbols.enclose(&sides, parameter)?;
             values.chunks(2).map(|pair| pair[0].div(&pair[1])).collect::<Option<Vec<Ball>>>()
         });
         let mut value = [Ball::zero(bits), Ball::zero(bits)];

@@ -44,7 +44,7 @@ pub struct ParametricTable {
 const COMPARED_BITS: u64 = 256;
 
 /// Digits to which entries are enclosed.
-const ENCLOSED_DIGITS: usize = 60;
+pub(super) const ENCLOSED_DIGITS: usize = 60;
 
 /// The table at a point.
 ///
@@ -116,40 +116,32 @@ impl Problem {
     /// [`Error::Stopped`]; [`Error::Refused`] where the two ways disagree (a defect of this program), and with `E-function`
     /// where functions depend on the parameter.
     pub fn parametric_table(self: &Arc<Self>, budget: &Budget) -> Result<Answer<ParametricTable>, Error> {
-        self.refuse_complex(budget)?;
         budget.enter(|| {
+            if let Some(table) = self.complex_table(budget)? {
+                return Ok(Answer::new(Arc::clone(self), table));
+            }
             let symbols = self.algebra_over_symbols(budget)?.symbols();
             if !symbols.is_empty() && symbols.delays().is_empty() && !symbols.is_moving() {
                 return self.symbolic_table(budget);
             }
             let Some(p) = self.parametric(budget)? else {
-                let nothing = ParametricTable { test: None, enclosed: None, stable: StableSet::default() };
-                return Ok(Answer::new(Arc::clone(self), nothing));
+                return Ok(Answer::new(Arc::clone(self), ParametricTable::undefined()));
             };
             let domain = &self.parameter().domain;
             let stable = stable_set(p, domain, self.shape(), budget)?;
             let test = classical_test(p, domain, self.shape(), budget)?;
-            if !stable.to_interval_set().is_some_and(|set| test.intersection.same_as(&set)) {
-                return Err(ways_disagree());
-            }
-            Ok(Answer::new(Arc::clone(self), ParametricTable { test: Some(test), enclosed: None, stable }))
+            Ok(Answer::new(Arc::clone(self), agreed(test, stable)?))
         })?
     }
 
     fn symbolic_table(self: &Arc<Self>, budget: &Budget) -> Result<Answer<ParametricTable>, Error> {
         let Some(p) = self.symbolic(budget)? else {
-            let nothing = ParametricTable { test: None, enclosed: None, stable: StableSet::default() };
-            return Ok(Answer::new(Arc::clone(self), nothing));
+            return Ok(Answer::new(Arc::clone(self), ParametricTable::undefined()));
         };
         let domain = &self.parameter().domain;
         let stable = symbolic_stable_set(&p, domain, self.shape(), budget)?;
         let test = p.classical_test(domain, self.shape(), ENCLOSED_DIGITS, budget)?;
-        let real = |end: &Option<End>| end.as_ref().map(|end| end.value.clone());
-        let intervals = stable.intervals().iter().map(|i| [real(&i.lower), real(&i.upper)]).collect();
-        if !budget.enter(|| RealIntervals { intervals }.agree(&test.intersection, COMPARED_BITS))? {
-            return Err(ways_disagree());
-        }
-        Ok(Answer::new(Arc::clone(self), ParametricTable { test: None, enclosed: Some(test), stable }))
+        Ok(Answer::new(Arc::clone(self), agreed_over_symbols(test, stable, budget)?))
     }
 
     /// The table at the point that the values of all parameters are.
@@ -160,8 +152,10 @@ impl Problem {
     /// # Errors
     /// [`Error::Stopped`] when the budget runs out; `E-dead-time`.
     pub fn point_table(self: &Arc<Self>, budget: &Budget) -> Result<Answer<PointTable>, Error> {
-        self.refuse_complex(budget)?;
         budget.enter(|| {
+            if let Some(table) = self.complex_point(budget)? {
+                return Ok(Answer::new(Arc::clone(self), self.with_verdict(table, budget)?));
+            }
             let symbols = self.algebra_over_symbols(budget)?.symbols();
             if !symbols.is_empty() && symbols.delays().is_empty() {
                 let enclosed = match (self.symbolic(budget)?, self.shape()) {
@@ -194,6 +188,35 @@ impl Problem {
         }
         Ok(table)
     }
+}
+
+impl ParametricTable {
+    /// Of a loop that is undefined for every value.
+    pub(super) fn undefined() -> ParametricTable {
+        ParametricTable { test: None, enclosed: None, stable: StableSet::default() }
+    }
+}
+
+/// The table, if its conditions and the boundary polynomials say the same.
+pub(super) fn agreed(test: ClassicalTest, stable: StableSet) -> Result<ParametricTable, Error> {
+    if !stable.to_interval_set().is_some_and(|set| test.intersection.same_as(&set)) {
+        return Err(ways_disagree());
+    }
+    Ok(ParametricTable { test: Some(test), enclosed: None, stable })
+}
+
+/// The same over symbols.
+pub(super) fn agreed_over_symbols(
+    test: SymbolicTest,
+    stable: StableSet,
+    budget: &Budget,
+) -> Result<ParametricTable, Error> {
+    let real = |end: &Option<End>| end.as_ref().map(|end| end.value.clone());
+    let intervals = stable.intervals().iter().map(|i| [real(&i.lower), real(&i.upper)]).collect();
+    if !budget.enter(|| RealIntervals { intervals }.agree(&test.intersection, COMPARED_BITS))? {
+        return Err(ways_disagree());
+    }
+    Ok(ParametricTable { test: None, enclosed: Some(test), stable })
 }
 
 fn ways_disagree() -> Error {

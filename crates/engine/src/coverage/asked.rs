@@ -3,6 +3,7 @@
 use super::refusals::COMPLEX;
 use super::table::rows;
 use super::{CoefficientRing, Coverage, Refusal};
+use crate::error::Diagnostic;
 use crate::model::Time;
 use crate::response::{Requirement, Rule};
 
@@ -216,11 +217,11 @@ impl Asked {
     ///
     /// ```
     /// use jurist_engine::coverage::Asked;
-    /// assert!(Asked::Roots.of_complex_loop().is_none() && Asked::Margins.of_complex_loop().is_some());
+    /// assert!(Asked::Roots.of_complex_loop().is_none() && Asked::Locus.of_complex_loop().is_some());
     /// ```
     pub fn of_complex_loop(self) -> Option<&'static Refusal> {
         use Asked::*;
-        const KNOWN: [Asked; 20] = [
+        const KNOWN: [Asked; 29] = [
             Verdict,
             VerdictInRegion,
             Intervals,
@@ -241,8 +242,23 @@ impl Asked {
             Charpoly,
             Analyze,
             Report,
+            Jury,
+            JuryInParameter,
+            Margins,
+            Norm,
+            Bode,
+            Nyquist,
+            VerdictWithMargins,
+            VerdictWithDelayMargin,
+            VerdictWithDamping,
         ];
         (!KNOWN.contains(&self)).then_some(&COMPLEX)
+    }
+
+    /// The refusal of a question about a loop whose coefficients are complex.
+    pub(crate) fn refused_of_complex_loops() -> Diagnostic {
+        let known = rows().iter().filter(|row| row.asked.of_complex_loop().is_none()).filter_map(|row| row.phrase);
+        COMPLEX.diagnostic(&[("known", &known.collect::<Vec<_>>().join(", "))])
     }
 
     /// The questions that are answered over a ring, as a list in words: those that are a command of their own.

@@ -74,7 +74,7 @@ const CERTIFIED_MAPS: &str = "exact maps have one where the loop is rational, th
 pub(crate) static COMPLEX: Refusal = Refusal::new(
     Code::Complex,
     "this cannot be asked of a loop with complex coefficients",
-    "what can be asked of it: verdict, intervals, roots, map, tolerance, charpoly, simulate; in real form, with two signals for each complex one, it can be asked everything",
+    "what can be asked of it: {known}, and test and check; in real form, with two signals for each complex one, it can be asked everything",
 );
 pub(crate) static COMPLEX_WITH_DEAD_TIME: Refusal = Refusal::new(
     Code::Complex,

@@ -117,10 +117,7 @@ impl Evaluated {
         symbols: Symbols,
         budget: &Budget,
     ) -> Result<Evaluated, Error> {
-        let (mut polynomial, complex) = match closed_loop.is_complex {
-            false => (closed_loop.characteristic_polynomial(budget)?, None),
-            true => closed_loop.complex_polynomial(&symbols, budget)?,
-        };
+        let (mut polynomial, complex) = closed_loop.real_polynomial(&symbols, budget)?;
         polynomial.poles = polynomial.poles.iter().filter_map(|pole| pole_beside(pole, &symbols)).collect();
         let closed_loop = Some(closed_loop);
         Ok(Evaluated { polynomial, complex, closed_loop, sample_time, symbols }.without_unused_symbols())
@@ -580,18 +577,16 @@ impl ClosedLoop {
     /// # Errors
     /// `E-unknown-signal`.
     pub(crate) fn ports(&self, input: &str, output: &str) -> Result<(usize, usize), Error> {
-        let find = |names: &[String], name: &str, what: &str| {
-            names.iter().position(|n| n == name).ok_or_else(|| {
-                let message = format!("the loop has no {what} '{}'", shorten(name));
-                let mut error = Diagnostic::error(Code::UnknownSignal, message);
-                let names = || names.iter().map(String::as_str);
-                error.help = did_you_mean(name, names()).or_else(|| known_names(names()));
-                Error::from(error)
-            })
-        };
-        let j = find(&self.inputs, input, "input")?;
-        let i = find(&self.outputs, output, "output")?;
-        Ok((i, j))
+        ports((&self.inputs, input), (&self.outputs, output))
+    }
+
+    /// The numbers of two complex signals, each of which stands as its real and its imaginary part.
+    ///
+    /// # Errors
+    /// `E-unknown-signal`.
+    pub(crate) fn complex_ports(&self, input: &str, output: &str) -> Result<(usize, usize), Error> {
+        let [inputs, outputs] = [&self.inputs, &self.outputs].map(|names| names_of_wholes(names));
+        ports((&inputs, input), (&outputs, output))
     }
 
     /// The transfer function from input `j` to output `i`, nothing cancelled.
@@ -648,6 +643,22 @@ impl ClosedLoop {
         let pairs = other.coefficients.iter().zip(denominator);
         Ok(pairs.map(|(b, a)| &(b - a) + &(direct * a)).collect())
     }
+}
+
+/// The places of an input and of an output in their lists: first that of the output.
+fn ports((inputs, input): (&[String], &str), (outputs, output): (&[String], &str)) -> Result<(usize, usize), Error> {
+    let find = |names: &[String], name: &str, what: &str| {
+        names.iter().position(|n| n == name).ok_or_else(|| {
+            let message = format!("the loop has no {what} '{}'", shorten(name));
+            let mut error = Diagnostic::error(Code::UnknownSignal, message);
+            let names = || names.iter().map(String::as_str);
+            error.help = did_you_mean(name, names()).or_else(|| known_names(names()));
+            Error::from(error)
+        })
+    };
+    let j = find(inputs, input, "input")?;
+    let i = find(outputs, output, "output")?;
+    Ok((i, j))
 }
 
 /// All numbers below `n` that steps lead to from those to begin with.

@@ -2,19 +2,18 @@
 //! such loops.
 
 use super::closed_loop::{Answer, ClosedLoop, Evaluated, add_pole, merged, poles_in, substituted};
-use super::complex::ComplexPolynomial;
+use super::complex::{ComplexPolynomial, parts_of};
 use super::definition::Model;
 use super::evaluate::symbolic::Values;
 use super::evaluate::zpoly::ZPoly;
 use super::symbols::Symbols;
 use super::text::UNIT;
-use crate::coverage::Refusal;
-use crate::coverage::refusals::COMPLEX;
+use crate::coverage::Asked;
 use crate::error::{Diagnostics, Error};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::{CharacteristicPolynomial, RationalMatrix};
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::RationalFunction;
+use jurist_algebra::poly::{MultiPoly, RationalFunction};
 
 impl Answer<'_> {
     /// The characteristic polynomial that the model gives.
@@ -45,25 +44,77 @@ impl Answer<'_> {
 }
 
 impl ClosedLoop {
-    /// The characteristic polynomial of a complex loop with conjugate roots, and the polynomial itself where it is complex.
-    pub(super) fn complex_polynomial(
+    /// The entries of a matrix of real and imaginary parts as complex numbers, with the imaginary unit as the variable beyond all others.
+    fn complex_matrix(&self, parts: &RationalMatrix) -> RationalMatrix {
+        let j = RationalFunction::variable(self.variables.len());
+        let entry = |i: usize, k: usize| &parts[(2 * i, 2 * k)] + &(&j * &parts[(2 * i + 1, 2 * k)]);
+        RationalMatrix::from_fn(parts.rows() / 2, parts.columns() / 2, entry)
+    }
+
+    /// The coefficients of the characteristic polynomial of a complex matrix.
+    fn complex_coefficients(
+        &self,
+        matrix: &RationalMatrix,
+        budget: &Budget,
+    ) -> Result<(ComplexPolynomial, Vec<MultiPoly>), Error> {
+        let variables = self.variables.iter().cloned().chain([UNIT.to_owned()]).collect();
+        let own = matrix.characteristic_polynomial(variables, budget)?;
+        let whole = budget.enter(|| ComplexPolynomial::of(&own.coefficients, self.variables.len()))?;
+        Ok((whole.ok_or_else(|| Error::Undefined("division by zero".into()))?, own.poles))
+    }
+
+    /// The denominator and the numerator of a complex loop's transfer function from an input to an output, both complex signals, nothing cancelled: as
+    /// [`ClosedLoop::transfer_function_at`].
+    ///
+    /// Cost: two characteristic polynomials.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`].
+    pub(crate) fn complex_transfer(
+        &self,
+        output: usize,
+        input: usize,
+        budget: &Budget,
+    ) -> Result<[ComplexPolynomial; 2], Error> {
+        let unit = self.variables.len();
+        let [a, e, c, d] = [&self.a, &self.e, &self.c, &self.d].map(|m| self.complex_matrix(m));
+        let n = a.rows();
+        let (below, _) = self.complex_coefficients(&a, budget)?;
+        // Powers of the imaginary unit are put in, so that entries stay small.
+        let short = |f: RationalFunction| Some(parts_of(&f, Some(unit))?.joined(unit));
+        let entry = |r: usize, k: usize| short(&a[(r, k)] - &(&e[(r, input)] * &c[(output, k)]));
+        let entries = (0..n * n).map(|at| entry(at / n, at % n)).collect::<Option<Vec<_>>>();
+        let entries = entries.ok_or_else(|| Error::Undefined("division by zero".into()))?;
+        let changed = RationalMatrix::from_fn(n, n, |r, k| entries[r * n + k].clone());
+        let (other, _) = self.complex_coefficients(&changed, budget)?;
+        let direct =
+            parts_of(&d[(output, input)], Some(unit)).ok_or_else(|| Error::Undefined("division by zero".into()))?;
+        Ok([below.clone(), other.minus(&below).plus_multiple(&direct, &below)])
+    }
+
+    /// The characteristic polynomial, of a complex loop with conjugate roots; and then the polynomial itself where it is complex.
+    pub(crate) fn real_polynomial(
         &self,
         symbols: &Symbols,
         budget: &Budget,
     ) -> Result<(CharacteristicPolynomial, Option<ComplexPolynomial>), Error> {
-        let unit = self.variables.len();
-        let j = RationalFunction::variable(unit);
-        let entry = |i: usize, k: usize| &self.a[(2 * i, 2 * k)] + &(&j * &self.a[(2 * i + 1, 2 * k)]);
-        let n = self.a.rows() / 2;
-        let matrix = RationalMatrix::from_fn(n, n, entry);
-        let variables = self.variables.iter().cloned().chain([UNIT.to_owned()]).collect();
-        let own = matrix.characteristic_polynomial(variables, budget)?;
-        let whole = ComplexPolynomial::of(&own.coefficients, unit);
-        let whole = whole.ok_or_else(|| Error::Undefined("division by zero".into()))?;
+        match self.is_complex {
+            false => Ok((self.characteristic_polynomial(budget)?, None)),
+            true => self.complex_polynomial(symbols, budget),
+        }
+    }
+
+    /// The same of a complex loop.
+    fn complex_polynomial(
+        &self,
+        symbols: &Symbols,
+        budget: &Budget,
+    ) -> Result<(CharacteristicPolynomial, Option<ComplexPolynomial>), Error> {
+        let (whole, found) = self.complex_coefficients(&self.complex_matrix(&self.a), budget)?;
         let on_circle = |f: &RationalFunction| budget.enter(|| symbols.on_circle(f)).ok().flatten();
         let whole = whole.try_map(on_circle).unwrap_or(whole);
         let mut poles = self.poles.clone();
-        own.poles.iter().for_each(|pole| add_pole(&mut poles, pole));
+        found.iter().for_each(|pole| add_pole(&mut poles, pole));
         let (coefficients, complex) = budget.enter(|| whole.real_or_complex())?;
         let short = coefficients.iter().map(on_circle).collect::<Option<Vec<_>>>();
         let coefficients = short.unwrap_or(coefficients);
@@ -82,13 +133,16 @@ impl Model {
         given: &[(String, Rational)],
         budget: &Budget,
     ) -> Result<(), Error> {
-        self.refuse_complex(&self.answer(kept, given, budget)?, &COMPLEX)
+        self.refuse_complex(&self.answer(kept, given, budget)?)
     }
 
     /// Refuses a complex loop.
-    pub(super) fn refuse_complex(&self, answer: &Answer<'_>, how: &Refusal) -> Result<(), Error> {
+    pub(super) fn refuse_complex(&self, answer: &Answer<'_>) -> Result<(), Error> {
         match answer.wiring.is_complex {
-            true => Err(Diagnostics::new(Some(self.source().clone()), vec![how.diagnostic(&[])]).into()),
+            true => {
+                let refused = Asked::refused_of_complex_loops();
+                Err(Diagnostics::new(Some(self.source().clone()), vec![refused]).into())
+            }
             false => Ok(()),
         }
     }

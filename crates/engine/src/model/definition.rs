@@ -360,12 +360,13 @@ impl Discretization {
     /// assert_eq!(words(&turning), "zero-order hold in the frame of K");
     /// ```
     pub fn words(&self) -> String {
-        let method = self.method.words;
-        let Some(pulses) = &self.pulses else {
-            let turns =
-                self.frame.as_ref().filter(|speed| !matches!(&speed.node, Node::Number(zero) if zero.is_zero()));
-            return turns.map_or(method.to_owned(), |speed| format!("{method} in the frame of {speed}"));
-        };
+        let turns = self.frame.as_ref().filter(|speed| !matches!(&speed.node, Node::Number(zero) if zero.is_zero()));
+        let words = self.words_at_rest();
+        turns.map_or(words.clone(), |speed| format!("{words} in the frame of {speed}"))
+    }
+
+    fn words_at_rest(&self) -> String {
+        let Some(pulses) = &self.pulses else { return self.method.words.to_owned() };
         // A number as a decimal where it is a short one.
         let decimal = |duty: &Expression| match &duty.node {
             Node::Number(value) => Some(to_decimal(value, 15)).filter(|d| parse_number(d).as_ref() == Ok(value)),

@@ -6,7 +6,6 @@ use super::definition::{Block, Diagram, Form, Model};
 use super::evaluate::symbolic::{DiscretizationValues, PortValues, Row, Values};
 use super::symbols::Symbols;
 use super::text::names::{did_you_mean, list, shorten};
-use crate::coverage::refusals::COMPLEX;
 use crate::error::{Code, Diagnostic, Diagnostics, Error};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
@@ -57,7 +56,7 @@ const PLANT_INPUT: &str = "u";
 
 /// The open loop from the cut to the cut, and the sample time, in the kept names.
 pub(crate) struct Opened {
-    /// One input and one output; the output is what comes back, with its sign.
+    /// One input and one output, of which a complex loop has the real and the imaginary part; the output is what comes back, with its sign.
     pub system: ClosedLoop,
     /// The sample time.
     pub sample_time: Option<RationalFunction>,
@@ -226,13 +225,12 @@ impl Model {
     }
 
     fn opened_in(&self, mut answer: Answer<'_>, cut: &Cut, budget: &Budget) -> Result<Opened, Error> {
-        self.refuse_complex(&answer, &COMPLEX)?;
         if let Values::Feedback { a, b, c, k, .. } = &answer.values {
             let (a, b, returned) = (a.clone(), b.clone(), product(k, c));
-            let row: Row = (0..a.rows()).map(|j| (j, -&returned[(0, j)])).collect();
-            let ports = PortValues { input_matrix: Some(b), outputs: vec![row] };
+            let row = |i: usize| -> Row { (0..a.rows()).map(|j| (j, -&returned[(i, j)])).collect() };
+            let ports = PortValues { input_matrix: Some(b), outputs: (0..returned.rows()).map(row).collect() };
             answer.values = Values::Matrix { matrix: a, ports };
-            answer.wiring.inputs = vec![PLANT_INPUT.to_owned()];
+            answer.wiring.inputs = answer.wiring.parts_of(PLANT_INPUT);
             return self.opened_with(answer, PLANT_INPUT, budget);
         }
         answer.start = self.start_at(cut)?;
@@ -294,7 +292,7 @@ impl Model {
         let (Some((block, hold)), None) = (holds.next(), holds.next()) else { return Ok(None) };
         let number = |f: &RationalFunction| answer.substituted(f).and_then(|f| f.as_constant());
         let (Some(period), Some(delay)) = (number(&hold.time), number(&hold.delay)) else { return Ok(None) };
-        let one_input = block.inputs.len() == 1;
+        let one_input = block.inputs.len() == answer.wiring.parts_of("").len();
         let Some(samples) = delay.checked_div(&period).filter(|_| one_input) else { return Ok(None) };
         let edges = hold.pulses.iter().flatten().flat_map(|pulse| pulse.edges.iter().flatten());
         let Some(edges) = edges.map(number).collect::<Option<Vec<Rational>>>() else { return Ok(None) };
@@ -353,22 +351,26 @@ fn open_diagram(answer: &mut Answer<'_>, cut: &Cut, model: &Model) -> Result<(),
     };
     let new = answer.wiring.driven + answer.wiring.inputs.len();
     let one = |i: usize| Row::from([(i, RationalFunction::one())]);
+    let names = answer.wiring.parts_of("the cut");
+    let parts = 0..names.len();
     *outputs = match cut {
         Cut::Input(name) => {
             let place = diagram.blocks.iter().position(|b| b.name == *name).expect("the cut is one of the diagram's");
-            vec![std::mem::replace(&mut blocks[place].inputs[0], one(new))]
+            parts.map(|part| std::mem::replace(&mut blocks[place].inputs[part], one(new + part))).collect()
         }
         _ => {
-            let cut = answer.wiring.numbers[cut.name()];
+            let cut = names.len() * answer.wiring.numbers[cut.name()];
             for row in blocks.iter_mut().flat_map(|b| &mut b.inputs) {
-                if let Some(c) = row.remove(&cut) {
-                    row.insert(new, c);
+                for part in parts.clone() {
+                    if let Some(c) = row.remove(&(cut + part)) {
+                        row.insert(new + part, c);
+                    }
                 }
             }
-            vec![one(cut)]
+            parts.map(|part| one(cut + part)).collect()
         }
     };
-    answer.wiring.inputs.push("the cut".to_owned());
+    answer.wiring.inputs.extend(names);
     Ok(())
 }
 

@@ -5,7 +5,6 @@ use super::connect::state_space::{Connecting, System, part, realised};
 use super::definition::Model;
 use super::evaluate::symbolic::Values;
 use super::symbols::Symbols;
-use crate::coverage::refusals::COMPLEX;
 use crate::error::Error;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::RationalMatrix;
@@ -39,7 +38,7 @@ impl Model {
         budget: &Budget,
     ) -> Result<Option<RealisedBlocks>, Error> {
         let answer = self.answer(kept, values, budget)?;
-        self.refuse_complex(&answer, &COMPLEX)?;
+        self.refuse_complex(&answer)?;
         let Values::Blocks { blocks, outputs } = &answer.values else { return Ok(None) };
         let symbols = RefCell::new(answer.symbols.borrow().clone().keeping_flows());
         let set = |f: &RationalFunction| substituted(f, &answer.images);

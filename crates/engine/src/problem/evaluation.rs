@@ -189,6 +189,25 @@ impl Algebra {
     }
 }
 
+impl Problem {
+    /// The characteristic polynomial `D` itself with the region's bound put in, where it is complex.
+    ///
+    /// Cost: that of [`Problem::algebra_over_symbols`].
+    ///
+    /// # Errors
+    /// As [`Problem::algebra_over_symbols`].
+    pub(crate) fn complex_in_region(&self, budget: &Budget) -> Result<Option<ComplexPolynomial>, Error> {
+        let algebra = self.algebra_over_symbols(budget)?;
+        let (Some(whole), Some(product)) = (algebra.complex(), algebra.polynomial()) else { return Ok(None) };
+        let bound = self.free().iter().position(|f| self.region().is_free() && f.name == self.region().bound_name());
+        let part = |list: &[RationalFunction]| {
+            let coefficients = list.to_vec();
+            in_region(CharacteristicPolynomial { coefficients, ..product.clone() }, self.region(), bound).coefficients
+        };
+        Ok(Some(ComplexPolynomial { re: part(&whole.re), im: part(&whole.im) }))
+    }
+}
+
 impl Algebra {
     /// What is left where all free parameters move along the line `base + t step`; `t` is the only variable.
     pub(super) fn on_ray(&self, name: &str, base: &[Rational], step: &[Rational]) -> Algebra {

@@ -3,8 +3,8 @@
 use super::delayed::DelayedLoop;
 use super::evaluation::{Algebra, parametric};
 use super::{Plan, Region};
-use crate::coverage::CoefficientRing;
-use crate::coverage::refusals::COMPLEX;
+use crate::coverage::{Asked, CoefficientRing};
+
 use crate::error::{Code, Diagnostic, Error};
 use crate::model::{ClosedLoop, InNumbers, Model, Symbols, Time};
 use crate::stability::plane::PlanePolynomial;
@@ -256,7 +256,7 @@ impl Problem {
     /// `E-complex`.
     pub fn refuse_written_complex(&self) -> Result<(), Error> {
         match self.is_written_complex() {
-            true => Err(COMPLEX.diagnostic(&[]).into()),
+            true => Err(Asked::refused_of_complex_loops().into()),
             false => Ok(()),
         }
     }

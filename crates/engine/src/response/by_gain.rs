@@ -1,8 +1,10 @@
 //! A parameter as the loop's gain.
 
 use super::ground::Integers;
-use super::open_loop::{Over, Parts, WithTimes, integral};
+use super::open_loop::{Over, WithTimes};
+use super::parts::{Parts, integral, without_denominators};
 use crate::error::{Code, Diagnostic, Error};
+use crate::model::ComplexPolynomial;
 use crate::problem::Problem;
 use crate::stability::ParametricPolynomial;
 use jurist_algebra::limits::Budget;
@@ -24,9 +26,10 @@ fn affine(problem: &Problem, name: &str, budget: &Budget) -> Result<Option<WithT
         return Ok(None);
     }
     let d = &evaluated.polynomial;
-    let over = match evaluated.symbols.is_empty() {
-        true => over_integers(d, &nominal, problem)?,
-        false => over_constants(d, &nominal, &evaluated.symbols, problem)?,
+    let over = match (&evaluated.complex, evaluated.symbols.is_empty()) {
+        (Some(whole), _) => over_complex(whole, &d.poles, &nominal, &evaluated.symbols, problem)?,
+        (None, true) => over_integers(d, &nominal, problem)?,
+        (None, false) => over_constants(d, &nominal, &evaluated.symbols, problem)?,
     };
     Ok(over.map(|over| (over, sample_time.flatten())))
 }
@@ -83,6 +86,32 @@ fn over_constants(
     let above = parts.iter().map(|c| scaled(c.coeff(1))).collect();
     let poles = d.poles.iter().chain([&denominator]).filter(|p| p.degree_in(0) > 0).map(in_parameter).collect();
     Over::new(below, above, poles, symbols, problem.shape()).map(Some)
+}
+
+/// The same of a polynomial with complex coefficients.
+fn over_complex(
+    whole: &ComplexPolynomial,
+    poles: &[MultiPoly],
+    nominal: &Rational,
+    symbols: &crate::model::Symbols,
+    problem: &Problem,
+) -> Result<Option<(Over, Option<Rational>)>, Error> {
+    if whole.re.iter().chain(&whole.im).any(|f| f.denominator().degree_in(0) > 0) {
+        return Ok(None);
+    }
+    let beside = |c: &MultiPoly| c.map_variables(|i| i.saturating_sub(1));
+    let cleared = without_denominators([whole.re.clone(), whole.im.clone()]);
+    let parts = cleared.map(|p| p.coeffs().iter().map(|c| c.as_poly_in(0).map(beside)).collect::<Vec<_>>());
+    let all = || parts.iter().flatten();
+    if all().any(|c| c.coeffs().len() > 2) || all().all(|c| c.coeff(0).is_zero()) {
+        return Ok(None);
+    }
+    let factor = RationalFunction::from(nominal.clone());
+    let below = |part: &[Poly<MultiPoly>]| part.iter().map(|c| c.coeff(0).into()).collect();
+    let above = |part: &[Poly<MultiPoly>]| part.iter().map(|c| &RationalFunction::from(c.coeff(1)) * &factor).collect();
+    let lists = [below(&parts[0]), below(&parts[1]), above(&parts[0]), above(&parts[1])];
+    let poles = poles.iter().filter(|p| p.degree_in(0) > 0).map(|p| in_factor(&p.as_poly_in(0).map(beside), nominal));
+    Over::of_complex(lists, poles.collect(), symbols, problem.shape()).map(Some)
 }
 
 pub(super) fn by_gain(problem: &Problem, name: &str, budget: &Budget) -> Result<WithTimes, Error> {

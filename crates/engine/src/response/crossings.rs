@@ -1,9 +1,9 @@
 //! Where the open loop has modulus one, and where it is real and negative.
 
 use super::ground::{Ground, at_end};
-use super::open_loop::{OpenLoop, Parts, with_parts};
-use super::place::inner;
-use super::{Place, Value};
+use super::open_loop::OpenLoop;
+use super::parts::{Parts, with_parts};
+use super::{Frequencies, Place, Value};
 use crate::stability::{RealInterval, Shape};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
@@ -84,51 +84,70 @@ fn gain_crossings<G: Ground>(
     excess: &Poly<G::Number>,
     budget: &Budget,
 ) -> Result<Vec<GainCrossing>, Exhausted> {
-    let (r, shape, ground) = (&parts.reduced, parts.shape, &parts.ground);
-    let one = |place: &Place| -> Result<bool, Exhausted> {
-        let (excess, below) = at_end(excess, &r.denominator_squared, place, shape);
-        Ok(ground.sign(&excess, budget)?.is_eq() && ground.sign(&below, budget)?.is_ne())
-    };
+    let (r, frequencies, ground) = (&parts.reduced, parts.frequencies(), &parts.ground);
+    let zeros = ground.zeros(excess, &frequencies.inner(), budget)?;
+    let mut signs = Vec::with_capacity(zeros.len() + 1);
+    for sample in samples_between(&zeros, frequencies, budget)? {
+        signs.push(ground.sign_at(excess, &Real::from(sample), budget)?);
+    }
+    let signs = frequencies.ascending(signs);
     let mut found = Vec::new();
-    let mut add = |place: Place, direction| -> Result<(), Exhausted> {
-        let tangent_squared = ground.value(&r.sum_squared, &r.difference_squared, &place, shape, budget)?;
+    let mut passed = 0;
+    for place in frequencies.places(zeros) {
+        let direction = match &place {
+            Place::Inside(_) => {
+                passed += 1;
+                Direction::of(signs[passed - 1], signs[passed])
+            }
+            // At z = -1 both ends of the range of frequencies meet.
+            Place::Highest if frequencies == Frequencies::Signed(Shape::UnitDisc) => {
+                Direction::of(signs[passed], signs[0])
+            }
+            _ => Direction::Touching,
+        };
+        if !matches!(place, Place::Inside(_)) {
+            let (excess, below) = at_end(excess, &r.denominator_squared, &place, frequencies);
+            if ground.sign(&excess, budget)?.is_ne() || ground.sign(&below, budget)?.is_eq() {
+                continue;
+            }
+        }
+        let tangent_squared = ground.value(&r.sum_squared, &r.difference_squared, &place, frequencies, budget)?;
+        // -L has the opposite imaginary part.
         let side = match &place {
-            // -L has the opposite imaginary part.
             Place::Inside(x) => ground.sign_at(&r.imaginary, x, budget)?.reverse(),
+            Place::Highest if frequencies.are_signed() => {
+                let (imaginary, _) = at_end(&r.imaginary, &r.denominator_squared, &place, frequencies);
+                ground.sign(&imaginary, budget)?.reverse()
+            }
             _ => Ordering::Equal,
         };
         found.push(GainCrossing { place, tangent_squared, side, direction, dead_time: None });
-        Ok(())
-    };
-    if one(&Place::Lowest)? {
-        add(Place::Lowest, Direction::Touching)?;
-    }
-    let zeros = ground.zeros(excess, &inner(shape), budget)?;
-    let mut signs = Vec::with_capacity(zeros.len() + 1);
-    for sample in samples_between(&zeros, shape, budget)? {
-        signs.push(ground.sign_at(excess, &Real::from(sample), budget)?);
-    }
-    for (i, x) in zeros.into_iter().enumerate().rev() {
-        let direction = match (signs[i + 1], signs[i]) {
-            (Ordering::Greater, Ordering::Less) => Direction::Falling,
-            (Ordering::Less, Ordering::Greater) => Direction::Rising,
-            _ => Direction::Touching,
-        };
-        add(Place::Inside(x), direction)?;
-    }
-    if one(&Place::Highest)? {
-        add(Place::Highest, Direction::Touching)?;
     }
     Ok(found)
 }
 
+impl Direction {
+    /// From the signs of the modulus less one before and after a crossing.
+    fn of(before: Sign, after: Sign) -> Direction {
+        match (before, after) {
+            (Ordering::Greater, Ordering::Less) => Direction::Falling,
+            (Ordering::Less, Ordering::Greater) => Direction::Rising,
+            _ => Direction::Touching,
+        }
+    }
+}
+
 /// A rational number below, between and above ascending zeros, all in the range of `x`.
-pub(super) fn samples_between(zeros: &[Real], shape: Shape, budget: &Budget) -> Result<Vec<Rational>, Exhausted> {
-    RealInterval::from(inner(shape)).cut(zeros).iter().map(|cell| cell.sample(budget)).collect()
+pub(super) fn samples_between(
+    zeros: &[Real],
+    frequencies: Frequencies,
+    budget: &Budget,
+) -> Result<Vec<Rational>, Exhausted> {
+    RealInterval::from(frequencies.inner()).cut(zeros).iter().map(|cell| cell.sample(budget)).collect()
 }
 
 fn phase_crossings<G: Ground>(parts: &Parts<G>, budget: &Budget) -> Result<Vec<PhaseCrossing>, Exhausted> {
-    let (r, shape, ground) = (&parts.reduced, parts.shape, &parts.ground);
+    let (r, frequencies, ground) = (&parts.reduced, parts.frequencies(), &parts.ground);
     // Where the open loop is zero or infinite both parts of N conj(D0) vanish.
     let common = budget.enter(|| r.imaginary.gcd(&r.twice_real))?;
     let divided = |p: &Poly<G::Number>| p.div_exact(&common).expect("a gcd divides");
@@ -136,26 +155,39 @@ fn phase_crossings<G: Ground>(parts: &Parts<G>, budget: &Budget) -> Result<Vec<P
     let imaginary = budget.enter(|| imaginary.div_exact(&imaginary.gcd(&common)).expect("a gcd divides"))?;
     // k = -1/L = -|D0|^2 / Re(N conj(D0))
     let above = r.denominator_squared.scaled(&G::Number::from_integer(&Integer::from(-2)));
-    let zeros = ground.zeros(&imaginary, &inner(shape), budget)?;
+    let zeros = ground.zeros(&imaginary, &frequencies.inner(), budget)?;
     let mut found = Vec::new();
-    let inside = zeros.into_iter().rev().map(Place::Inside);
-    for place in std::iter::once(Place::Lowest).chain(inside).chain([Place::Highest]) {
+    for place in frequencies.places(zeros) {
         let negative = match &place {
             Place::Inside(x) => match ground.sign_at(&common, x, budget)? {
                 Ordering::Equal => false,
                 Ordering::Greater => ground.sign_at(&real, x, budget)?.is_lt(),
                 Ordering::Less => ground.sign_at(&real, x, budget)?.is_gt(),
             },
-            end => {
-                let (above, below) = r.at_end(&r.numerator, end, shape);
-                ground.sign(&above.times(&below), budget)?.is_lt()
-            }
+            end => is_negative_at_end(parts, end, budget)?,
         };
-        if negative && let Some(factor) = ground.value(&above, &r.twice_real, &place, shape, budget)? {
+        if negative && let Some(factor) = ground.value(&above, &r.twice_real, &place, frequencies, budget)? {
             found.push(PhaseCrossing { place, factor });
         }
     }
     Ok(found)
+}
+
+/// Whether the open loop is real and negative at an end of the range of frequencies.
+fn is_negative_at_end<G: Ground>(parts: &Parts<G>, end: &Place, budget: &Budget) -> Result<bool, Exhausted> {
+    let (r, frequencies, ground) = (&parts.reduced, parts.frequencies(), &parts.ground);
+    let (_, below) = at_end(&r.numerator_squared, &r.denominator_squared, end, frequencies);
+    if ground.sign(&below, budget)?.is_eq() {
+        return Ok(false);
+    }
+    if frequencies.are_signed() {
+        let (imaginary, _) = at_end(&r.imaginary, &r.denominator_squared, end, frequencies);
+        if ground.sign(&imaginary, budget)?.is_ne() {
+            return Ok(false);
+        }
+    }
+    let (real, below) = at_end(&r.twice_real, &r.denominator_squared, end, frequencies);
+    Ok(ground.sign(&real.times(&below), budget)?.is_lt())
 }
 
 impl GainCrossing {
@@ -204,14 +236,46 @@ impl GainCrossing {
         }
     }
 
-    /// The lag divided by the frequency: in samples, or in units of time; `None` at the ends of the range.
-    pub fn delay(&self, shape: Shape, bits: u64) -> Option<Enclosure> {
+    /// The first dead time with which the open loop is -1 there, in samples, or in units of time; `None` at the ends of the range, and at the
+    /// frequency 0, which dead time does not turn.
+    pub fn delay(&self, frequencies: impl Into<Frequencies>, bits: u64) -> Option<Enclosure> {
+        let [angle, rate] = self.turning(frequencies.into(), bits + 16)?;
+        angle.div(&rate, bits)
+    }
+
+    /// By how much the open loop has to turn to be -1, and how fast dead time turns it: at a negative frequency it leads.
+    pub(super) fn turning(&self, frequencies: Frequencies, bits: u64) -> Option<[Enclosure; 2]> {
         if !matches!(self.place, Place::Inside(_)) {
             return None;
         }
-        let working = bits + 16;
-        let frequency = self.place.frequency(shape, None, working)?;
+        let frequency = self.place.frequency(frequencies, None, bits)?;
         let rate = frequency.angle.or(frequency.radians_per_second)?;
-        self.lag(working).div(&rate, bits)
+        match rate.lower().sign() {
+            Ordering::Less => Some([self.lead(bits), rate.neg()]),
+            Ordering::Greater => Some([self.lag(bits), rate]),
+            Ordering::Equal => None,
+        }
+    }
+
+    /// How the modulus goes through one where the size of the frequency grows.
+    pub(super) fn outward(&self, frequencies: Frequencies) -> Direction {
+        let is_lower = match &self.place {
+            Place::Inside(x) => frequencies.are_signed() && x.sign().is_lt(),
+            _ => false,
+        };
+        match self.direction {
+            Direction::Falling if is_lower => Direction::Rising,
+            Direction::Rising if is_lower => Direction::Falling,
+            direction => direction,
+        }
+    }
+
+    /// By how much the open loop has to lead to be -1, in radians in `(0, 2 pi)`; 0 where it is -1.
+    pub fn lead(&self, bits: u64) -> Enclosure {
+        let lag = self.lag(bits + 16);
+        if lag.lower().is_zero() && lag.upper().is_zero() {
+            return lag;
+        }
+        Enclosure::pi(bits + 16).mul(&Enclosure::from_rational(Rational::from(2)), bits + 16).sub(&lag, bits)
     }
 }

@@ -9,7 +9,7 @@ use super::crossings::{Crossings, PhaseCrossing};
 use super::enclosed::enclosed;
 use super::ground::Integers;
 use super::margins::{GainMargin, PhaseMargin, StableMargins};
-use super::open_loop::Parts;
+use super::parts::Parts;
 use super::value::{reciprocal, square_root};
 use super::{DelayMargin, DiskMargin, Extreme, Place, Value};
 use crate::answer::stable_factors;
@@ -81,7 +81,7 @@ impl<'a> DeadTime<'a> {
         let r = &self.parts.reduced;
         let square = Integer::from(ratio) * &Integer::from(ratio);
         let excess = r.numerator_squared.scaled(&square).minus(&r.denominator_squared);
-        if r.numerator.degree() >= r.denominator.degree() {
+        if r.numerator_squared.degree() >= r.denominator_squared.degree() {
             let help = "such a loop bears no delay, or its margins are those of its modulus alone";
             return Err(refused("margins with dead time are known where the open loop's modulus falls to zero", help));
         }
@@ -153,7 +153,7 @@ impl<'a> DeadTime<'a> {
     /// The margins of a stable loop.
     pub fn margins(&self, crossings: &Crossings, skew: &Rational, budget: &Budget) -> Result<StableMargins, Error> {
         let zero = UniPoly::zero();
-        let (d, n) = (self.parts.denominator.clone(), self.parts.numerator.clone());
+        let (d, n) = (self.parts.denominator.re.clone(), self.parts.numerator.re.clone());
         budget.step("gain margin");
         let gain = GainLoop::new(vec![d, zero.clone()], vec![zero, n], self.tau.clone());
         let gain = GainMargin::of_set(stable_factors(&gain, budget)?);
@@ -179,6 +179,7 @@ impl<'a> DeadTime<'a> {
         Ok(StableMargins {
             gain,
             phase,
+            one_sided: None,
             delay,
             modulus,
             peak_sensitivity,

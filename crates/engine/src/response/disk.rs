@@ -2,8 +2,8 @@
 
 use super::extreme::extreme_over;
 use super::ground::Ground;
-use super::open_loop::{OpenLoop, Parts, with_parts};
-use super::place::modulus_squared;
+use super::open_loop::OpenLoop;
+use super::parts::{Parts, with_parts};
 use super::value::square_root;
 use super::{Extreme, Value};
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -36,17 +36,16 @@ impl DiskMargin {
 
     fn over<G: Ground>(parts: &Parts<G>, skew: &Rational, budget: &Budget) -> Result<DiskMargin, Exhausted> {
         // alpha^2 = min 4 |D0 + N|^2 / |(1 + skew) D0 - (1 - skew) N|^2, both multiplied by the denominator of the skew.
-        let (r, shape) = (&parts.reduced, parts.shape);
+        let r = &parts.reduced;
         let (p, q) = (skew.numerator(), skew.denominator());
         let number = |n: Integer| G::Number::from_integer(&n);
-        let mixed = r.denominator.scaled(&number(&q + &p)).minus(&r.numerator.scaled(&number(&q - &p)));
-        let below = modulus_squared(&mixed, r.degree, shape);
+        let below = r.combined_squared(&(&q + &p), &(&p - &q));
         let skew = skew.clone();
         if below.is_zero() {
             return Ok(DiskMargin { skew, alpha: None, extreme: None });
         }
         let above = r.sum_squared.scaled(&number(Integer::from(4) * &(&q * &q)));
-        let extreme = extreme_over(&parts.ground, &above, &below, shape, Ordering::Less, budget)?;
+        let extreme = extreme_over(&parts.ground, &above, &below, r.frequencies, Ordering::Less, budget)?;
         let alpha = match extreme.value() {
             None => None,
             Some(value) => Some(square_root(&value.number(budget)?, budget)?),

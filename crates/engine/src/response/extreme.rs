@@ -1,9 +1,10 @@
 //! The least and the greatest value of a modulus over all frequencies.
 
 use super::ground::{Ground, Integers};
-use super::place::inner;
+use super::open_loop::OpenLoop;
+use super::parts::with_parts;
 use super::value::square_root;
-use super::{Place, Value};
+use super::{Frequencies, Place, Value};
 use crate::stability::Shape;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
@@ -54,7 +55,7 @@ impl Extreme {
     /// # Panics
     /// When `b` is zero.
     pub fn greatest(a: &UniPoly, b: &UniPoly, shape: Shape, budget: &Budget) -> Result<Extreme, Exhausted> {
-        extreme_over(&Integers, a, b, shape, Ordering::Greater, budget)
+        extreme_over(&Integers, a, b, shape.into(), Ordering::Greater, budget)
     }
 
     /// The least value, of a quotient that is not infinite at all frequencies.
@@ -67,7 +68,7 @@ impl Extreme {
     /// # Panics
     /// When `b` is zero.
     pub fn least(a: &UniPoly, b: &UniPoly, shape: Shape, budget: &Budget) -> Result<Extreme, Exhausted> {
-        extreme_over(&Integers, a, b, shape, Ordering::Less, budget)
+        extreme_over(&Integers, a, b, shape.into(), Ordering::Less, budget)
     }
 
     /// The value; `None` where it is infinite.
@@ -97,7 +98,7 @@ pub(crate) fn extreme_over<G: Ground>(
     ground: &G,
     a: &Poly<G::Number>,
     b: &Poly<G::Number>,
-    shape: Shape,
+    frequencies: Frequencies,
     wanted: Ordering,
     budget: &Budget,
 ) -> Result<Extreme, Exhausted> {
@@ -116,13 +117,11 @@ pub(crate) fn extreme_over<G: Ground>(
     // have, since a and b have nothing.
     let poles = budget.enter(|| b.derivative().gcd(&b))?;
     let slope = slope.div_exact(&poles).expect("a gcd divides");
-    let infinite = if poles.is_constant() { Vec::new() } else { ground.zeros(&poles, &inner(shape), budget)? };
-    let critical = ground.zeros(&slope, &inner(shape), budget)?;
-    let places = critical.into_iter().rev().map(Place::Inside);
-    let places = std::iter::once(Place::Lowest).chain(places).chain(std::iter::once(Place::Highest));
+    let infinite = if poles.is_constant() { Vec::new() } else { ground.zeros(&poles, &frequencies.inner(), budget)? };
+    let critical = ground.zeros(&slope, &frequencies.inner(), budget)?;
     let mut best: Option<(Place, Value, bool)> = None;
-    for (i, place) in places.enumerate() {
-        let Some(value) = ground.value(&a, &b, &place, shape, budget)? else {
+    for (i, place) in frequencies.places(critical).into_iter().enumerate() {
+        let Some(value) = ground.value(&a, &b, &place, frequencies, budget)? else {
             if wanted == Ordering::Greater {
                 return Ok(Extreme::Infinite(place));
             }
@@ -131,7 +130,7 @@ pub(crate) fn extreme_over<G: Ground>(
         if let (Ordering::Greater, 0, Some(pole)) = (wanted, i, infinite.last()) {
             return Ok(Extreme::Infinite(Place::Inside(pole.clone())));
         }
-        let attained = !matches!((&place, shape), (Place::Highest, Shape::LeftHalfPlane));
+        let attained = !matches!((&place, frequencies.shape()), (Place::Highest, Shape::LeftHalfPlane));
         let better = match &best {
             None => true,
             Some((_, known, _)) => value.compare(known, budget)? == wanted,
@@ -142,4 +141,20 @@ pub(crate) fn extreme_over<G: Ground>(
     }
     let (place, value, attained) = best.expect("not infinite at all frequencies");
     Ok(Extreme::At { place, value, attained })
+}
+
+/// The least value of `|1 + L|^2`.
+pub(super) fn modulus_extreme(open_loop: &OpenLoop, budget: &Budget) -> Result<Extreme, Exhausted> {
+    with_parts!(open_loop, parts => {
+        let r = &parts.reduced;
+        extreme_over(&parts.ground, &r.sum_squared, &r.denominator_squared, parts.frequencies(), Ordering::Less, budget)
+    })
+}
+
+/// The greatest value of `|L/(1 + L)|^2`.
+pub(super) fn complementary_extreme(open_loop: &OpenLoop, budget: &Budget) -> Result<Extreme, Exhausted> {
+    with_parts!(open_loop, parts => {
+        let r = &parts.reduced;
+        extreme_over(&parts.ground, &r.numerator_squared, &r.sum_squared, parts.frequencies(), Ordering::Greater, budget)
+    })
 }

@@ -1,7 +1,7 @@
 //! What the coefficients of an open loop are: integers, or polynomials in the constants of a plant behind a hold.
 
 use super::enclosed::enclosed;
-use super::{Place, Value};
+use super::{Frequencies, Place, Value};
 use crate::precisions::SIGN_AT_NUMBER;
 use crate::stability::{
     AtPoint, ParametricPolynomial, Range, Shape, StableSet, SymbolicPolynomial, is_stable, stable_set,
@@ -13,7 +13,7 @@ use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
 use jurist_algebra::real::Real;
-use jurist_algebra::symbols::{SymbolicPoly, Symbols};
+use jurist_algebra::symbols::{MovingSymbols, SymbolicPoly, Symbols};
 use std::fmt;
 use std::sync::Arc;
 
@@ -43,15 +43,21 @@ pub(crate) trait Ground: Clone + fmt::Debug + Send + Sync {
     /// Whether all roots are inside of the boundary.
     fn is_stable(&self, p: &Poly<Self::Number>, shape: Shape, budget: &Budget) -> Result<bool, Exhausted>;
 
-    /// The factors `k` for which `d + k n` is stable; where one of `poles`, in `k`, is zero, the loop is undefined.
+    /// The factors `k` for which the sum of these polynomials times powers of `k`, from the zeroth up, is stable; where one of `poles`, in `k`, is zero,
+    /// the loop is undefined.
     fn stable_factors(
         &self,
-        d: &Poly<Self::Number>,
-        n: &Poly<Self::Number>,
+        powers: &[Poly<Self::Number>],
         poles: &[Poly<Self::Number>],
         shape: Shape,
         budget: &Budget,
     ) -> Result<StableSet, Exhausted>;
+
+    /// A polynomial in the factor, which is variable 0; variables of symbols follow.
+    fn in_factor(&self, p: &Poly<Self::Number>) -> RationalFunction;
+
+    /// The symbols beside the factor.
+    fn beside_factor(&self) -> MovingSymbols;
 
     /// The value of a quotient of polynomials without a common factor at a frequency; `None` where it is infinite.
     fn value(
@@ -59,7 +65,7 @@ pub(crate) trait Ground: Clone + fmt::Debug + Send + Sync {
         a: &Poly<Self::Number>,
         b: &Poly<Self::Number>,
         place: &Place,
-        shape: Shape,
+        frequencies: Frequencies,
         budget: &Budget,
     ) -> Result<Option<Value>, Exhausted> {
         let (above, below) = match place {
@@ -78,7 +84,7 @@ pub(crate) trait Ground: Clone + fmt::Debug + Send + Sync {
                     return Ok(Some(self.quotient_at(a, b, x)));
                 }
             },
-            end => at_end(a, b, end, shape),
+            end => at_end(a, b, end, frequencies),
         };
         if self.sign(&below, budget)?.is_eq() {
             return Ok(None);
@@ -91,11 +97,11 @@ pub(crate) trait Ground: Clone + fmt::Debug + Send + Sync {
 }
 
 /// Two polynomials at an end of the range of frequencies, multiplied by the same positive number.
-pub(crate) fn at_end<R: Domain>(a: &Poly<R>, b: &Poly<R>, end: &Place, shape: Shape) -> (R, R) {
-    let x = match (end, shape) {
-        (Place::Lowest, Shape::UnitDisc) => 2,
-        (Place::Highest, Shape::UnitDisc) => -2,
-        (Place::Highest, Shape::LeftHalfPlane) => {
+pub(crate) fn at_end<R: Domain>(a: &Poly<R>, b: &Poly<R>, end: &Place, frequencies: Frequencies) -> (R, R) {
+    let x = match (end, frequencies) {
+        (Place::Lowest, Frequencies::Positive(Shape::UnitDisc)) => 2,
+        (Place::Highest, Frequencies::Positive(Shape::UnitDisc)) => -2,
+        (Place::Highest, _) => {
             let degree = a.coeffs().len().max(b.coeffs().len()).saturating_sub(1);
             return (a.coeff(degree), b.coeff(degree));
         }
@@ -110,6 +116,16 @@ fn at_rational<R: Domain>(p: &Poly<R>, x: &Rational, degree: usize) -> R {
     let (up, down) = (x.numerator(), x.denominator());
     let term = |(i, c): (usize, &R)| c.times(&R::from_integer(&(up.pow(i as u64) * down.pow((degree - i) as u64))));
     p.coeffs().iter().enumerate().map(term).fold(R::zero(), |sum, t| sum.plus(&t))
+}
+
+/// The greatest degree of polynomials.
+fn degree_of<R: Domain>(powers: &[Poly<R>]) -> usize {
+    powers.iter().map(|p| p.coeffs().len()).max().unwrap_or(0).saturating_sub(1)
+}
+
+/// A coefficient of the sum of polynomials times powers of the factor, as a polynomial in the factor.
+fn coefficient_in_factor<R: Domain>(powers: &[Poly<R>], i: usize) -> Poly<R> {
+    Poly::new(powers.iter().map(|p| p.coeff(i)).collect())
 }
 
 /// The integers.
@@ -150,17 +166,24 @@ impl Ground for Integers {
 
     fn stable_factors(
         &self,
-        d: &UniPoly,
-        n: &UniPoly,
+        powers: &[UniPoly],
         poles: &[UniPoly],
         shape: Shape,
         budget: &Budget,
     ) -> Result<StableSet, Exhausted> {
-        let degree = d.coeffs().len().max(n.coeffs().len()).saturating_sub(1);
-        let coefficient = |i| (Poly::new(vec![d.coeff(i), n.coeff(i)]), UniPoly::one());
+        let degree = degree_of(powers);
+        let coefficient = |i| (coefficient_in_factor(powers, i), UniPoly::one());
         let coefficients: Vec<_> = (0..=degree).map(coefficient).collect();
         let p = ParametricPolynomial::new(&coefficients, degree, poles.to_vec());
         stable_set(&p, &Range::all(), shape, budget)
+    }
+
+    fn in_factor(&self, p: &UniPoly) -> RationalFunction {
+        MultiPoly::from_terms(p.coeffs().iter().enumerate().map(|(k, c)| (vec![k as u32], c.clone()))).into()
+    }
+
+    fn beside_factor(&self) -> MovingSymbols {
+        MovingSymbols::new(Vec::new())
     }
 }
 
@@ -265,16 +288,25 @@ impl Ground for Constants {
 
     fn stable_factors(
         &self,
-        d: &Poly<MultiPoly>,
-        n: &Poly<MultiPoly>,
+        powers: &[Poly<MultiPoly>],
         poles: &[Poly<MultiPoly>],
         shape: Shape,
         budget: &Budget,
     ) -> Result<StableSet, Exhausted> {
-        let degree = d.coeffs().len().max(n.coeffs().len()).saturating_sub(1);
-        let coefficient = |i| Constants::over_unknown(&Poly::new(vec![d.coeff(i), n.coeff(i)]));
+        let degree = degree_of(powers);
+        let coefficient = |i| Constants::over_unknown(&coefficient_in_factor(powers, i));
         let poles = poles.iter().map(Constants::over_unknown).collect();
         let p = self.symbolic((0..=degree).map(coefficient).collect(), 1, poles);
         symbolic_stable_set(&p, &Range::all(), shape, budget)
+    }
+
+    fn in_factor(&self, p: &Poly<MultiPoly>) -> RationalFunction {
+        Constants::over_unknown(p).into()
+    }
+
+    fn beside_factor(&self) -> MovingSymbols {
+        let place = |f: &RationalFunction| f.map_variables(|i| i + 1);
+        let definition = |i: usize| self.0.definition(i).try_map(place).expect("variables are only renamed");
+        MovingSymbols::new(self.0.names().into_iter().zip((0..self.0.len()).map(definition)).collect())
     }
 }

@@ -1,10 +1,10 @@
 //! How much dead time a loop bears at the input of a plant behind a hold.
 
 use super::open_loop::OpenLoop;
-use crate::answer::Frequency;
+use crate::answer::{Frequency, Sides};
 use crate::error::Error;
 use crate::model::MoreDeadTime;
-use crate::problem::{Problem, fixed_symbols, moving_symbols};
+use crate::problem::{Problem, Region, fixed_symbols, moving_symbols};
 use crate::stability::{AtPoint, ComplexPair, Range, StableSet, SymbolicPolynomial, symbolic_stable_set};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Enclosure, Rational};
@@ -105,13 +105,20 @@ impl HeldDelay {
 /// For which dead times, in samples, the loop is stable.
 fn stable_fractions(problem: &Problem, more: &MoreDeadTime, range: Range, budget: &Budget) -> Result<StableSet, Error> {
     let (closed_loop, symbols) = problem.model().with_dead_time(more, problem.set(), budget)?;
-    let mut d = closed_loop.characteristic_polynomial(budget)?;
+    let (mut d, complex) = closed_loop.real_polynomial(&symbols, budget)?;
     d.poles = Vec::new();
     let p = match symbols.is_moving() {
         true => SymbolicPolynomial::with_moving(&d, &Arc::new(moving_symbols(&symbols)?)),
         false => SymbolicPolynomial::new(&d, 1, &Arc::new(fixed_symbols(&symbols)?)),
     };
-    Ok(symbolic_stable_set(&p, &range, problem.shape(), budget)?)
+    let mut set = symbolic_stable_set(&p, &range, problem.shape(), budget)?;
+    if let Some(whole) = complex {
+        let sides = Sides::new(&whole, moving_symbols(&symbols)?, Region::of(problem.time()));
+        for end in set.ends_mut() {
+            budget.enter(|| sides.name(end))?;
+        }
+    }
+    Ok(set)
 }
 
 /// Whether the loop is stable with a dead time that is a number of samples; `None` where a sample stands on an edge of a pulse.
@@ -121,7 +128,7 @@ fn is_stable_with(problem: &Problem, samples: &Rational, budget: &Budget) -> Res
         Err(Error::Undefined(_)) => return Ok(None),
         found => found?,
     };
-    let mut d = closed_loop.characteristic_polynomial(budget)?;
+    let (mut d, _) = closed_loop.real_polynomial(&symbols, budget)?;
     d.poles = Vec::new();
     let p = SymbolicPolynomial::new(&d, 0, &Arc::new(fixed_symbols(&symbols)?));
     let found = p.at(&Rational::ZERO, problem.shape(), budget)?;

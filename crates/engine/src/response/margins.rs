@@ -2,11 +2,12 @@
 
 use super::crossings::Crossings;
 use super::dead_time::DeadTime;
-use super::extreme::extreme_over;
+use super::extreme::{complementary_extreme, extreme_over, modulus_extreme};
 use super::ground::Ground;
-use super::open_loop::{OpenLoop, Over, Parts, with_parts};
+use super::open_loop::{OpenLoop, Over};
+use super::parts::{Parts, with_parts};
 use super::value::{reciprocal, square_root};
-use super::{DelayMargin, DiskMargin, Extreme, HeldDelay, Place, Value};
+use super::{DelayMargin, DiskMargin, Extreme, HeldDelay, OneSided, Place, Value};
 use crate::answer::{Answer, Frequency, PointVerdict, Verdict};
 use crate::error::Error;
 use crate::problem::{Problem, Question};
@@ -59,6 +60,8 @@ pub struct StableMargins {
     pub gain: GainMargin,
     /// By how much the open loop may turn, either way.
     pub phase: PhaseMargin,
+    /// The same each way, of a loop with complex coefficients.
+    pub one_sided: Option<OneSided>,
     /// How much delay is borne.
     pub delay: DelayMargin,
     /// The modulus margin: the least value of `|1 + L|`.
@@ -162,6 +165,24 @@ impl Problem {
         self.margins_with(at, skew, true, budget)
     }
 
+    /// The same without the dead time behind a hold ([`Margins::held_delay`]), which takes the longest.
+    ///
+    /// Cost: that of [`Problem::margins`] but for that dead time.
+    ///
+    /// # Errors
+    /// As [`Problem::margins`].
+    ///
+    /// # Panics
+    /// When a parameter is free.
+    pub fn margins_without_held_delay(
+        self: &Arc<Self>,
+        at: Option<&str>,
+        skew: &Rational,
+        budget: &Budget,
+    ) -> Result<Answer<Margins>, Error> {
+        self.margins_with(at, skew, false, budget)
+    }
+
     /// The dead time behind a hold takes the longest, and is left out where nobody asks for it.
     pub(super) fn margins_with(
         self: &Arc<Self>,
@@ -232,7 +253,7 @@ impl Margins {
     pub fn delay_seconds(&self, bits: u64) -> Option<Enclosure> {
         match (&self.stable.as_ref()?.delay, &self.held_delay) {
             (DelayMargin::Zero, _) => Some(Enclosure::from_rational(Rational::ZERO)),
-            (DelayMargin::DeadTime(i), _) => self.crossings.gain[*i].delay(self.open_loop.shape(), bits),
+            (DelayMargin::DeadTime(i), _) => self.crossings.gain[*i].delay(self.open_loop.frequencies(), bits),
             (_, Some(held)) => held.seconds(bits),
             _ => None,
         }
@@ -240,7 +261,7 @@ impl Margins {
 
     /// A frequency with the loop's sample time; `None` in the limit of high frequencies.
     pub fn frequency(&self, place: &Place, bits: u64) -> Option<Frequency> {
-        place.frequency(self.open_loop.shape(), self.open_loop.sample_time(), bits)
+        place.frequency(self.open_loop.frequencies(), self.open_loop.sample_time(), bits)
     }
 }
 
@@ -254,7 +275,8 @@ impl StableMargins {
         budget.step("gain margin");
         let gain = GainMargin::of(open_loop, budget)?;
         budget.step("phase margin");
-        let phase = PhaseMargin::of(open_loop, crossings, budget)?;
+        let one_sided = OneSided::of(open_loop, crossings, budget)?;
+        let phase = PhaseMargin::with(open_loop, crossings, one_sided.as_ref(), budget)?;
         budget.step("delay margin");
         let delay = DelayMargin::of(open_loop, crossings, budget)?;
         budget.step("modulus margin");
@@ -270,6 +292,7 @@ impl StableMargins {
         Ok(StableMargins {
             gain,
             phase,
+            one_sided,
             delay,
             modulus,
             peak_sensitivity,
@@ -284,8 +307,11 @@ impl StableMargins {
 impl GainMargin {
     pub(super) fn of(open_loop: &OpenLoop, budget: &Budget) -> Result<Self, Exhausted> {
         let set = with_parts!(open_loop, parts => {
-            let Parts { ground, denominator, numerator, poles, shape, .. } = parts;
-            ground.stable_factors(denominator, numerator, poles, *shape, budget)?
+            let mut set = parts.ground.stable_factors(&parts.in_factor(), &parts.poles, parts.shape, budget)?;
+            if parts.frequencies().are_signed() {
+                GainMargin::sided(parts, &mut set, budget)?;
+            }
+            set
         });
         Ok(GainMargin::of_set(set))
     }
@@ -306,8 +332,22 @@ impl GainMargin {
 }
 
 impl PhaseMargin {
-    /// The rotation at which a stable loop first meets -1 belongs to a crossing, the one with the least angle.
+    /// Of any loop.
     pub(super) fn of(open_loop: &OpenLoop, crossings: &Crossings, budget: &Budget) -> Result<Self, Exhausted> {
+        let one_sided = OneSided::of(open_loop, crossings, budget)?;
+        PhaseMargin::with(open_loop, crossings, one_sided.as_ref(), budget)
+    }
+
+    /// The rotation at which a stable loop first meets -1 belongs to a crossing, the one with the least angle.
+    fn with(
+        open_loop: &OpenLoop,
+        crossings: &Crossings,
+        one_sided: Option<&OneSided>,
+        budget: &Budget,
+    ) -> Result<Self, Exhausted> {
+        if let Some(one_sided) = one_sided {
+            return one_sided.smaller(budget);
+        }
         if crossings.gain_everywhere {
             return with_parts!(open_loop, parts => PhaseMargin::of_modulus_one(parts, budget));
         }
@@ -339,25 +379,9 @@ impl PhaseMargin {
             return Ok(PhaseMargin::Angle { tangent: None, place: None });
         }
         let (above, below) = (&r.sum_squared, &r.difference_squared);
-        let least = extreme_over(&parts.ground, above, below, parts.shape, Ordering::Less, budget)?;
+        let least = extreme_over(&parts.ground, above, below, parts.frequencies(), Ordering::Less, budget)?;
         let square = least.value().expect("not infinite everywhere").number(budget)?;
         let tangent = Some(Box::new(square_root(&square, budget)?));
         Ok(PhaseMargin::Angle { tangent, place: least.place().cloned() })
     }
-}
-
-/// The least value of `|1 + L|^2`.
-fn modulus_extreme(open_loop: &OpenLoop, budget: &Budget) -> Result<Extreme, Exhausted> {
-    with_parts!(open_loop, parts => {
-        let r = &parts.reduced;
-        extreme_over(&parts.ground, &r.sum_squared, &r.denominator_squared, parts.shape, Ordering::Less, budget)
-    })
-}
-
-/// The greatest value of `|L/(1 + L)|^2`.
-fn complementary_extreme(open_loop: &OpenLoop, budget: &Budget) -> Result<Extreme, Exhausted> {
-    with_parts!(open_loop, parts => {
-        let r = &parts.reduced;
-        extreme_over(&parts.ground, &r.numerator_squared, &r.sum_squared, parts.shape, Ordering::Greater, budget)
-    })
 }

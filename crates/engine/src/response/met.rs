@@ -3,11 +3,12 @@
 use super::crossings::Crossings;
 use super::extreme::{Extreme, extreme_over};
 use super::margins::{GainMargin, Margins, PhaseMargin, StableMargins};
-use super::open_loop::{OpenLoop, with_parts};
-use super::place::modulus_squared;
+use super::open_loop::OpenLoop;
+use super::parts::with_parts;
 use super::requirement::{Circle, Found, Requirement, Rule};
 use super::value::{Value, square_root};
 use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::Integer;
 use jurist_algebra::poly::{Domain, RealAlgebraic, UniPoly};
 use jurist_algebra::real::Real;
 use std::cmp::Ordering;
@@ -101,7 +102,13 @@ impl Requirement {
     ) -> Result<Option<bool>, Exhausted> {
         Ok(match self.rule() {
             Rule::Factors(factor) => Some(has_gain_margin(&margins.gain, factor, budget)?),
-            Rule::Turned { twice_cosine } => Some(has_phase_margin(&margins.phase, twice_cosine, budget)?),
+            Rule::Turned { twice_cosine } => Some(match &margins.one_sided {
+                Some(both) => {
+                    let greatest = super::value::reciprocal(&half_tangent(twice_cosine, budget)?, budget)?;
+                    both.are_at_least(&greatest, budget)?
+                }
+                None => has_phase_margin(&margins.phase, twice_cosine, budget)?,
+            }),
             Rule::Circle(circle) => match self.found(all, margins) {
                 Some(Found::Number(number)) => {
                     let order = budget.enter(|| number.compare_rational(circle.asked()))?;
@@ -118,11 +125,11 @@ impl Requirement {
 fn circle_extreme(open_loop: &OpenLoop, circle: &Circle, budget: &Budget) -> Result<Option<Extreme>, Exhausted> {
     with_parts!(open_loop, parts => {
         let r = &parts.reduced;
-        let combined = circle.combination(&r.denominator, &r.numerator);
-        let below = modulus_squared(&combined, r.degree, parts.shape);
+        let [u, v] = circle.combined().map(Integer::from);
+        let below = r.combined_squared(&u, &v);
         if below.is_zero() {
             return Ok(None);
         }
-        extreme_over(&parts.ground, &r.sum_squared, &below, parts.shape, Ordering::Less, budget).map(Some)
+        extreme_over(&parts.ground, &r.sum_squared, &below, r.frequencies, Ordering::Less, budget).map(Some)
     })
 }

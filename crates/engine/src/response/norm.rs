@@ -1,19 +1,18 @@
 //! The peak gain of a closed-loop transfer function.
 
-use super::Extreme;
 use super::extreme::extreme_over;
 use super::ground::Ground;
-use super::open_loop::{Over, Parts};
-use super::place::modulus_squared;
+use super::open_loop::Over;
+use super::parts::Parts;
 use super::value::square_root;
+use super::{Extreme, Frequencies};
 use crate::answer::{Answer, Frequency, PointVerdict, Verdict};
 use crate::coverage::refusals::FEEDBACK;
 use crate::error::{Code, Diagnostic, Error};
 use crate::problem::{Problem, Question};
-use crate::stability::Shape;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::{Domain, Poly, RationalFunction};
+use jurist_algebra::poly::RationalFunction;
 use jurist_algebra::real::Real;
 use std::cmp::Ordering;
 use std::sync::Arc;
@@ -44,6 +43,8 @@ pub struct Norm {
     pub verdict: PointVerdict,
     /// The peak of a stable loop.
     pub peak: Option<PeakGain>,
+    /// The frequencies that were looked at.
+    pub frequencies: Frequencies,
     /// The sample time.
     pub sample_time: Option<Rational>,
 }
@@ -60,20 +61,16 @@ pub struct PeakGain {
 
 impl Norm {
     /// Where the peak is; `None` without one, in the limit of high frequencies, and where it is everywhere.
-    pub fn frequency(&self, shape: Shape, bits: u64) -> Option<Frequency> {
-        self.peak.as_ref()?.extreme.place()?.frequency(shape, self.sample_time.as_ref(), bits)
+    pub fn frequency(&self, bits: u64) -> Option<Frequency> {
+        self.peak.as_ref()?.extreme.place()?.frequency(self.frequencies, self.sample_time.as_ref(), bits)
     }
 }
 
 impl PeakGain {
     /// Of a stable transfer function.
     fn over<G: Ground>(parts: &Parts<G>, budget: &Budget) -> Result<PeakGain, Exhausted> {
-        let n = parts.denominator.coeffs().len().saturating_sub(1);
-        let common = budget.enter(|| parts.numerator.gcd(&parts.denominator))?;
-        let squared =
-            |p: &Poly<G::Number>| modulus_squared(&p.div_exact(&common).expect("a gcd divides"), n, parts.shape);
-        let (above, below) = (squared(&parts.numerator), squared(&parts.denominator));
-        let extreme = extreme_over(&parts.ground, &above, &below, parts.shape, Ordering::Greater, budget)?;
+        let (above, below) = (&parts.reduced.numerator_squared, &parts.reduced.denominator_squared);
+        let extreme = extreme_over(&parts.ground, above, below, parts.frequencies(), Ordering::Greater, budget)?;
         let square = extreme.value().expect("no pole of a stable loop is on the boundary").number(budget)?;
         Ok(PeakGain { value: square_root(&square, budget)?, extreme })
     }
@@ -120,15 +117,20 @@ impl Problem {
     /// When a parameter is free.
     pub fn norm(self: &Arc<Self>, input: &str, output: &str, budget: &Budget) -> Result<Answer<Norm>, Error> {
         of_one_rate(self)?;
-        self.refuse_complex(budget)?;
         budget.enter(|| {
             let verdict = self.verdict(budget)?.into_value();
             let (closed_loop, symbols) = self.closed_loop_over_symbols(budget)?;
-            let transfer = closed_loop.transfer_function(input, output, budget)?;
-            let (above, below) = (transfer.numerator, transfer.denominator.coefficients);
-            // Dead time alone does not change the modulus.
-            let (over, _) =
-                Over::of_quotient(below, above, Vec::new(), symbols, self.shape(), dead_time_in_the_feedback)?;
+            let shape = self.shape();
+            let (over, _) = if closed_loop.is_complex {
+                let (row, column) = closed_loop.complex_ports(input, output)?;
+                let [below, above] = closed_loop.complex_transfer(row, column, budget)?;
+                Over::of_complex([below.re, below.im, above.re, above.im], Vec::new(), symbols, shape)?
+            } else {
+                let transfer = closed_loop.transfer_function(input, output, budget)?;
+                let (above, below) = (transfer.numerator, transfer.denominator.coefficients);
+                // Dead time alone does not change the modulus.
+                Over::of_quotient(below, above, Vec::new(), symbols, shape, dead_time_in_the_feedback)?
+            };
             let peak = if verdict.verdict == Verdict::Stable {
                 budget.step("peak gain");
                 Some(match &over {
@@ -140,7 +142,8 @@ impl Problem {
             };
             let sample_time = self.algebra_over_symbols(budget)?.sample_time().and_then(RationalFunction::as_constant);
             let (input, output) = (input.to_owned(), output.to_owned());
-            Ok(Answer::new(Arc::clone(self), Norm { input, output, verdict, peak, sample_time }))
+            let frequencies = over.frequencies();
+            Ok(Answer::new(Arc::clone(self), Norm { input, output, verdict, peak, frequencies, sample_time }))
         })?
     }
 }

@@ -1,10 +1,10 @@
 //! The open loop as two polynomials.
 
-use super::Place;
+use super::Frequencies;
 use super::by_gain::{by_gain, only_gain};
 use super::family::nothing_comes_back;
 use super::ground::{Constants, Ground, Integers};
-use super::place::{modulus_squared, product};
+use super::parts::{Parts, Reduced, integral, with_parts, without_denominators};
 use crate::coverage::refusals::ONE_FACTOR;
 use crate::error::{Code, Error};
 use crate::model::{ClosedLoop, Cut, Opened};
@@ -12,7 +12,7 @@ use crate::problem::{EnclosedQuotient, Problem, exact_or_enclosed, fixed_symbols
 use crate::stability::Shape;
 use jurist_algebra::ball::{Ball, cos_sin};
 use jurist_algebra::limits::Budget;
-use jurist_algebra::number::{Enclosure, Integer, Rational};
+use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
 use jurist_algebra::symbols::{Definition, Symbols};
 use std::sync::Arc;
@@ -56,46 +56,6 @@ pub(crate) enum Over {
 
 /// The polynomials and the dead time of a factor `exp(-tau s)`, and the sample time.
 pub(super) type WithTimes = ((Over, Option<Rational>), Option<Rational>);
-
-/// Evaluates an expression with the parts of an open loop, whatever their coefficients are.
-macro_rules! with_parts {
-    ($open_loop:expr, $parts:ident => $value:expr) => {
-        match $open_loop.over() {
-            crate::response::open_loop::Over::Integers($parts) => $value,
-            crate::response::open_loop::Over::Constants($parts) => $value,
-        }
-    };
-}
-pub(crate) use with_parts;
-
-/// `D0` and `N`, primitive together; hidden modes stay.
-#[derive(Clone, Debug)]
-pub(crate) struct Parts<G: Ground> {
-    pub ground: G,
-    pub denominator: Poly<G::Number>,
-    pub numerator: Poly<G::Number>,
-    /// Polynomials in the factor at whose zeros the model is undefined.
-    pub poles: Vec<Poly<G::Number>>,
-    pub shape: Shape,
-    pub reduced: Reduced<G::Number>,
-}
-
-/// `L` in lowest terms, and its products on the boundary, in `x`.
-#[derive(Clone, Debug)]
-pub(crate) struct Reduced<R: Domain> {
-    pub numerator: Poly<R>,
-    pub denominator: Poly<R>,
-    /// The greater degree of the two.
-    pub degree: usize,
-    /// `|N|^2`, `|D0|^2`, `|D0 + N|^2`, `|D0 - N|^2`.
-    pub numerator_squared: Poly<R>,
-    pub denominator_squared: Poly<R>,
-    pub sum_squared: Poly<R>,
-    pub difference_squared: Poly<R>,
-    /// Twice the real part of `N conj(D0)`, and its imaginary part over `sin theta` or `omega`.
-    pub twice_real: Poly<R>,
-    pub imaginary: Poly<R>,
-}
 
 impl OpenLoop {
     /// The loop of a problem without free parameters, cut at a name as in [`Model::cut`](crate::model::Model::cut).
@@ -146,6 +106,9 @@ impl OpenLoop {
                 |budget| opened_exactly(problem, &cut, budget),
                 |budget| {
                     let opened = model.opened_in_numbers(&cut, problem.set(), budget)?;
+                    if opened.system.is_complex {
+                        return Ok(None);
+                    }
                     let sample_time = opened.sample_time.as_ref().and_then(RationalFunction::as_constant);
                     let over = budget.enter(|| Some(Over::of_enclosed(EnclosedQuotient::of(&opened)?, shape)))?;
                     Ok(over.map(|over| ((over, None), sample_time)))
@@ -203,34 +166,42 @@ impl OpenLoop {
         &self.cut
     }
 
-    /// `D0`, primitive together with `N`; hidden modes stay. `None` of a loop whose coefficients are not rational.
+    /// `D0`, primitive together with `N`; hidden modes stay. `None` where its coefficients are not rational numbers.
     pub fn denominator(&self) -> Option<&UniPoly> {
         match &self.over {
-            Over::Integers(parts) => Some(&parts.denominator),
-            Over::Constants(_) => None,
+            Over::Integers(parts) if parts.denominator.is_real() => Some(&parts.denominator.re),
+            _ => None,
         }
     }
 
-    /// `N`; `None` of a loop whose coefficients are not rational.
+    /// `N`; `None` where its coefficients are not rational numbers.
     pub fn numerator(&self) -> Option<&UniPoly> {
         match &self.over {
-            Over::Integers(parts) => Some(&parts.numerator),
-            Over::Constants(_) => None,
+            Over::Integers(parts) if parts.numerator.is_real() => Some(&parts.numerator.re),
+            _ => None,
         }
     }
 
-    /// The coefficients of `D0` and of `N` from the constant term up, with an absolute error of at most about `2^-bits`.
+    /// The coefficients of `D0` and of `N` from the constant term up, with an absolute error of at most about `2^-bits`. Of complex ones, those of
+    /// the polynomial with the conjugate roots.
     pub fn coefficients(&self, bits: u64) -> [Vec<Rational>; 2] {
         fn middles<G: Ground>(ground: &G, p: &Poly<G::Number>, bits: u64) -> Vec<Rational> {
             let value = |c: &G::Number| ground.values(&Poly::constant(c.clone()), bits)(&Rational::ZERO);
             p.coeffs().iter().map(value).map(|e| e.lower().midpoint(e.upper())).collect()
         }
-        with_parts!(self, parts => [&parts.denominator, &parts.numerator].map(|p| middles(&parts.ground, p, bits)))
+        with_parts!(self, parts => {
+            [&parts.denominator, &parts.numerator].map(|p| middles(&parts.ground, &p.with_conjugate(), bits))
+        })
     }
 
     /// The disc or the half plane.
     pub fn shape(&self) -> Shape {
         self.shape
+    }
+
+    /// The frequencies that are looked at, and their variable `x`.
+    pub fn frequencies(&self) -> Frequencies {
+        self.over.frequencies()
     }
 
     /// The sample time, of a discrete loop that has one.
@@ -243,8 +214,9 @@ impl OpenLoop {
         self.dead_time.as_ref()
     }
 
-    /// `L` at a point of the boundary, given by `x = z + 1/z` or `x = s^2`: the real part, and the imaginary part divided by
-    /// `sin theta` or `omega`, computed with some bits; `None` at a pole. Exact where the coefficients are rational.
+    /// `L` at a point of the boundary, given by the variable of its [`Frequencies`]: the real part, and the imaginary part, computed with some bits;
+    /// `None` at a pole. For `x = z + 1/z` and `x = s^2` the imaginary part is divided by `sin theta` or `omega`. Exact where the coefficients are
+    /// rational.
     ///
     /// ```
     /// use jurist_algebra::limits::Budget;
@@ -303,7 +275,10 @@ impl OpenLoop {
     /// Whether this is the same function of frequency: the same loop, cut elsewhere.
     pub(crate) fn is_same(&self, other: &OpenLoop) -> bool {
         fn equal<R: Domain>(a: &Reduced<R>, b: &Reduced<R>) -> bool {
-            a.numerator.times(&b.denominator) == b.numerator.times(&a.denominator)
+            let is_same = |p: &Poly<R>, q: &Poly<R>| p.times(&b.denominator_squared) == q.times(&a.denominator_squared);
+            a.frequencies == b.frequencies
+                && is_same(&a.twice_real, &b.twice_real)
+                && is_same(&a.imaginary, &b.imaginary)
         }
         if self.dead_time != other.dead_time {
             return false;
@@ -317,6 +292,13 @@ impl OpenLoop {
 }
 
 impl Over {
+    pub(super) fn frequencies(&self) -> Frequencies {
+        match self {
+            Over::Integers(parts) => parts.frequencies(),
+            Over::Constants(parts) => parts.frequencies(),
+        }
+    }
+
     /// Whether nothing comes back.
     pub(super) fn is_open(&self) -> bool {
         match self {
@@ -351,7 +333,7 @@ impl Over {
         shape: Shape,
         not_a_factor: fn() -> Error,
     ) -> Result<(Over, Option<Rational>), Error> {
-        let (denominator, mut numerator) = polynomial(denominator, numerator);
+        let [denominator, mut numerator] = without_denominators([denominator, numerator]);
         let mut dead_time = None;
         if !symbols.delays().is_empty() {
             let (rest, tau) = split_delay(&denominator, &numerator, symbols).ok_or_else(not_a_factor)?;
@@ -406,60 +388,18 @@ fn split_delay(
     denominator.coeffs().iter().all(is_free).then_some((rest, tau))
 }
 
-impl<G: Ground> Parts<G> {
-    pub fn new(
-        ground: G,
-        denominator: Poly<G::Number>,
-        numerator: Poly<G::Number>,
-        poles: Vec<Poly<G::Number>>,
-        shape: Shape,
-    ) -> Parts<G> {
-        let reduced = Reduced::of(&numerator, &denominator, shape);
-        Parts { ground, denominator, numerator, poles, shape, reduced }
-    }
-}
-
-impl<R: Domain> Reduced<R> {
-    fn of(numerator: &Poly<R>, denominator: &Poly<R>, shape: Shape) -> Reduced<R> {
-        let common = numerator.gcd(denominator);
-        let divided = |p: &Poly<R>| p.div_exact(&common).expect("a gcd divides");
-        let (numerator, denominator) = (divided(numerator), divided(denominator));
-        let degree = numerator.coeffs().len().max(denominator.coeffs().len()) - 1;
-        let squared = |p: &Poly<R>| modulus_squared(p, degree, shape);
-        let (twice_real, imaginary) = product(&numerator, &denominator, degree, shape);
-        Reduced {
-            numerator_squared: squared(&numerator),
-            denominator_squared: squared(&denominator),
-            sum_squared: squared(&denominator.plus(&numerator)),
-            difference_squared: squared(&denominator.minus(&numerator)),
-            degree,
-            twice_real,
-            imaginary,
-            numerator,
-            denominator,
-        }
-    }
-
-    /// A polynomial at an end of the range of frequencies, and `D0` there.
-    pub fn at_end(&self, p: &Poly<R>, end: &Place, shape: Shape) -> (R, R) {
-        let x = match (end, shape) {
-            (Place::Lowest, Shape::UnitDisc) => 1,
-            (Place::Highest, Shape::UnitDisc) => -1,
-            (Place::Highest, Shape::LeftHalfPlane) => {
-                return (p.coeff(self.degree), self.denominator.coeff(self.degree));
-            }
-            _ => 0,
-        };
-        let x = R::from_integer(&Integer::from(x));
-        (p.eval(&x), self.denominator.eval(&x))
-    }
-}
-
 /// The loop opened at a signal, with polynomials over the constants of holds, and the sample time.
 fn opened_exactly(problem: &Problem, cut: &Cut, budget: &Budget) -> Result<WithTimes, Error> {
     let Opened { system, sample_time, symbols } = problem.model().opened(cut, &[], problem.set(), budget)?;
-    let (denominator, numerator) = returned(&system, budget)?;
-    let over = budget.enter(|| Over::new(denominator, numerator, Vec::new(), &symbols, problem.shape()))??;
+    let shape = problem.shape();
+    let over = if system.is_complex {
+        let [denominator, numerator] = system.complex_transfer(0, system.inputs.len() / 2 - 1, budget)?;
+        let lists = [denominator.re, denominator.im, negated(&numerator.re), negated(&numerator.im)];
+        budget.enter(|| Over::of_complex(lists, Vec::new(), &symbols, shape))??
+    } else {
+        let (denominator, numerator) = returned(&system, budget)?;
+        budget.enter(|| Over::new(denominator, numerator, Vec::new(), &symbols, shape))??
+    };
     Ok((over, sample_time.and_then(|t| t.as_constant())))
 }
 
@@ -467,40 +407,9 @@ fn opened_exactly(problem: &Problem, cut: &Cut, budget: &Budget) -> Result<WithT
 fn returned(system: &ClosedLoop, budget: &Budget) -> Result<(Vec<RationalFunction>, Vec<RationalFunction>), Error> {
     let column = system.inputs.len().max(system.e.columns()) - 1;
     let transfer = system.transfer_function_at(0, column, budget)?;
-    Ok((transfer.denominator.coefficients, transfer.numerator.iter().map(|f| -f).collect()))
+    Ok((transfer.denominator.coefficients, negated(&transfer.numerator)))
 }
 
-/// Two polynomials without denominators, primitive together over the integers.
-fn polynomial(a: Vec<RationalFunction>, b: Vec<RationalFunction>) -> (Poly<MultiPoly>, Poly<MultiPoly>) {
-    let split = a.len();
-    let all: Vec<RationalFunction> = a.into_iter().chain(b).collect();
-    let common = all.iter().fold(MultiPoly::one(), |l, f| {
-        let d = f.denominator();
-        l.times(&d.div_exact(&l.gcd(d)).expect("a gcd divides"))
-    });
-    let cleared =
-        |f: &RationalFunction| f.numerator().times(&common.div_exact(f.denominator()).expect("a common multiple"));
-    let mut all: Vec<MultiPoly> = all.iter().map(cleared).collect();
-    let content = all.iter().fold(Integer::ZERO, |g, c| g.gcd(&c.integer_content()));
-    if !content.is_zero() {
-        let divided = |c: &MultiPoly| c.div_exact_integer(&content).expect("the content divides");
-        all = all.iter().map(divided).collect();
-    }
-    let b = all.split_off(split);
-    (Poly::new(all), Poly::new(b))
-}
-
-/// Two polynomials with integer coefficients, primitive together.
-pub(crate) fn integral(a: Vec<Rational>, b: Vec<Rational>) -> (UniPoly, UniPoly) {
-    let split = a.len();
-    let all: Vec<Rational> = a.into_iter().chain(b).collect();
-    let denominator = all.iter().fold(Integer::ONE, |l, c| l.lcm(&c.denominator()));
-    let cleared = |c: &Rational| c.numerator() * denominator.div_exact(&c.denominator());
-    let mut all: Vec<Integer> = all.iter().map(cleared).collect();
-    let content = all.iter().fold(Integer::ZERO, |g, c| g.gcd(c));
-    if !content.is_zero() {
-        all = all.iter().map(|c| c.div_exact(&content)).collect();
-    }
-    let b = all.split_off(split);
-    (Poly::new(all), Poly::new(b))
+fn negated(list: &[RationalFunction]) -> Vec<RationalFunction> {
+    list.iter().map(|f| -f).collect()
 }

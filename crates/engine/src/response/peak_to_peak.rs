@@ -1,7 +1,7 @@
 //! The peak-to-peak gain of a closed-loop transfer function in discrete time.
 
 use super::norm::of_one_rate;
-use super::open_loop::integral;
+use super::parts::integral;
 use crate::answer::{Answer, PointVerdict, Verdict};
 use crate::coverage::refusals::NOT_OF_SAMPLES;
 use crate::error::Error;

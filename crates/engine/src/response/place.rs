@@ -1,12 +1,75 @@
 //! Frequencies as points of the boundary of stability, and polynomials there.
 
+use super::Value;
 use crate::answer::Frequency;
 use crate::stability::{ComplexPair, HalfSizePair, Range, Shape};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{Domain, Poly};
 use jurist_algebra::real::Real;
 
-/// A frequency: a point of the upper half of the unit circle or of the imaginary axis.
+/// The frequencies that are looked at, and the variable that runs along them.
+///
+/// ```
+/// use jurist_engine::response::Frequencies;
+/// use jurist_engine::stability::Shape;
+/// assert_eq!(Frequencies::from(Shape::UnitDisc), Frequencies::Positive(Shape::UnitDisc));
+/// assert!(Frequencies::Signed(Shape::UnitDisc).are_signed());
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Frequencies {
+    /// From 0 up, as of a loop with real coefficients, whose response at negative frequencies is the conjugate one: `x = z + 1/z` from 2
+    /// down to -2, or `x = s^2` from 0 down.
+    Positive(Shape),
+    /// Of either sign, as of a loop with complex coefficients: `x = tan(theta/2)` or `x = omega`, from minus to plus infinity. Both ends are one
+    /// point, `z = -1` or the limit of high frequencies.
+    Signed(Shape),
+}
+
+impl From<Shape> for Frequencies {
+    fn from(shape: Shape) -> Frequencies {
+        Frequencies::Positive(shape)
+    }
+}
+
+impl Frequencies {
+    /// The disc or the half plane.
+    pub fn shape(self) -> Shape {
+        match self {
+            Frequencies::Positive(shape) | Frequencies::Signed(shape) => shape,
+        }
+    }
+
+    /// Whether negative frequencies are looked at.
+    pub fn are_signed(self) -> bool {
+        matches!(self, Frequencies::Signed(_))
+    }
+
+    /// The values of `x` strictly inside of the range of frequencies.
+    pub(crate) fn inner(self) -> Range {
+        match self {
+            Frequencies::Positive(Shape::UnitDisc) => Range::between(Some(Rational::from(-2)), Some(Rational::from(2))),
+            Frequencies::Positive(Shape::LeftHalfPlane) => Range::between(None, Some(Rational::ZERO)),
+            Frequencies::Signed(_) => Range::all(),
+        }
+    }
+
+    /// Values of `x` that ascend, by ascending frequency.
+    pub(crate) fn ascending<T>(self, mut values: Vec<T>) -> Vec<T> {
+        if !self.are_signed() {
+            values.reverse();
+        }
+        values
+    }
+
+    /// The lowest frequency, if it is an end of the range, these values of `x`, which ascend, and the highest frequency.
+    pub(crate) fn places(self, inside: Vec<Real>) -> Vec<Place> {
+        let lowest = (!self.are_signed()).then_some(Place::Lowest);
+        let inside = self.ascending(inside).into_iter().map(Place::Inside);
+        lowest.into_iter().chain(inside).chain([Place::Highest]).collect()
+    }
+}
+
+/// A frequency: a point of the unit circle or of the imaginary axis.
 ///
 /// ```
 /// use jurist_algebra::number::Rational;
@@ -23,7 +86,8 @@ use jurist_algebra::real::Real;
 pub enum Place {
     /// `z = 1`, `s = 0`.
     Lowest,
-    /// Between the ends, given by `x = z + 1/z` in `(-2, 2)`, or by `x = s^2 < 0`.
+    /// Between the ends, given by the variable of [`Frequencies`]: `x = z + 1/z` in `(-2, 2)` or `x = s^2 < 0`, or where frequencies have a
+    /// sign `x = tan(theta/2)` or `x = omega`.
     Inside(Real),
     /// `z = -1`, half the sampling frequency; the limit of high frequencies in continuous time.
     Highest,
@@ -31,7 +95,14 @@ pub enum Place {
 
 impl Place {
     /// Angle and frequency, enclosed with about `bits` significant bits; `None` for the limit of high frequencies.
-    pub fn frequency(&self, shape: Shape, sample_time: Option<&Rational>, bits: u64) -> Option<Frequency> {
+    pub fn frequency(
+        &self,
+        frequencies: impl Into<Frequencies>,
+        sample_time: Option<&Rational>,
+        bits: u64,
+    ) -> Option<Frequency> {
+        let frequencies = frequencies.into();
+        let shape = frequencies.shape();
         let working = bits + 16;
         let step = sample_time.filter(|t| t.sign().is_gt()).map(|t| Enclosure::from_rational(t.clone()));
         let zero = || Enclosure::from_rational(Rational::ZERO);
@@ -41,20 +112,19 @@ impl Place {
             (Place::Lowest, Shape::LeftHalfPlane) => Some(Frequency::new(None, None, Some(zero()), bits)),
             (Place::Highest, Shape::UnitDisc) => of(Enclosure::pi(working)),
             (Place::Highest, Shape::LeftHalfPlane) => None,
+            (Place::Inside(x), Shape::UnitDisc) if frequencies.are_signed() => {
+                let half = Value::Number(x.clone()).enclosure(working).atan(working);
+                of(half.mul(&Enclosure::from_rational(Rational::from(2)), working))
+            }
+            (Place::Inside(x), Shape::LeftHalfPlane) if frequencies.are_signed() => {
+                Some(Frequency::new(None, None, Some(Value::Number(x.clone()).enclosure(working)), bits))
+            }
             (Place::Inside(x), Shape::UnitDisc) => of(ComplexPair::at_half_size_root(shape, x.clone()).angle(working)?),
             (Place::Inside(x), Shape::LeftHalfPlane) => {
                 let rate = ComplexPair::at_half_size_root(shape, x.clone()).angular_frequency(working)?;
                 Some(Frequency::new(None, None, Some(rate), bits))
             }
         }
-    }
-}
-
-/// The values of `x` strictly inside of the range of frequencies.
-pub(crate) fn inner(shape: Shape) -> Range {
-    match shape {
-        Shape::UnitDisc => Range::between(Some(Rational::from(-2)), Some(Rational::from(2))),
-        Shape::LeftHalfPlane => Range::between(None, Some(Rational::ZERO)),
     }
 }
 

@@ -282,7 +282,6 @@ impl Problem {
         if requirements.is_empty() {
             return Ok(Vec::new());
         }
-        self.refuse_complex(budget)?;
         budget.enter(|| {
             let stable = self.verdict(budget)?.value().verdict == Verdict::Stable;
             let (margins, zero_loop) = match requirements.iter().any(Requirement::needs_cut) {
@@ -359,7 +358,7 @@ fn bears(margins: &Margins, least: &Rational, budget: &Budget) -> Result<bool, E
         (DelayMargin::Zero, _) => Ok(false),
         (DelayMargin::DeadTime(i), _) => {
             let crossing = &margins.crossings.gain[*i];
-            let enclose = |bits| crossing.delay(margins.open_loop.shape(), bits);
+            let enclose = |bits| crossing.delay(margins.open_loop.frequencies(), bits);
             Ok(is_at_least(enclose, least, budget)?)
         }
         (_, Some(HeldDelay { samples, period, .. })) => {

@@ -1,9 +1,10 @@
 //! How far the open loop has turned at a frequency: its phase, continued from the lowest frequency on.
 
+use super::Frequencies;
 use super::crossings::samples_between;
 use super::ground::Ground;
-use super::open_loop::{OpenLoop, Parts, with_parts};
-use super::place::inner;
+use super::open_loop::OpenLoop;
+use super::parts::{Parts, with_parts};
 use crate::stability::Shape;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational, Sign};
@@ -16,7 +17,7 @@ use jurist_algebra::real::Real;
 /// point tells the quarter, and at one zero only one of the parts changes its sign, so that the quarters follow one another without
 /// doubt. Where both vanish the open loop has poles or zeros on the boundary: these count as inside of it, so that each
 /// pole takes half a turn off and each zero adds one; at the lowest frequency each integrator takes a quarter off, so that three of them
-/// begin at -270 degrees.
+/// begin at -270 degrees. Where frequencies have a sign the phase is continued from 0 on in both directions; below 0 an integrator adds a quarter.
 ///
 /// ```
 /// use jurist_algebra::limits::Budget;
@@ -32,7 +33,7 @@ use jurist_algebra::real::Real;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Turning {
-    /// Where the phase leaves its quarter, ascending in `x = z + 1/z` or `x = s^2`.
+    /// Where the phase leaves its quarter, ascending in the variable of [`Frequencies`].
     zeros: Vec<Rational>,
     /// Between them: the quarter from 90 degrees times this number on.
     quarters: Vec<i64>,
@@ -52,28 +53,46 @@ impl Turning {
         with_parts!(open_loop, parts => Turning::over(parts, budget))
     }
 
-    /// The middle of the quarter, in degrees, at a point of the boundary given by `x = z + 1/z` or `x = s^2`: the phase is at most 45
+    /// The middle of the quarter, in degrees, at a point of the boundary given by the variable of [`Frequencies`]: the phase is at most 45
     /// degrees away, or one quarter more next to a zero.
     pub fn middle(&self, x: &Rational) -> i64 {
         90 * self.quarters[self.zeros.partition_point(|zero| zero < x)] + 45
     }
 
     fn over<G: Ground>(parts: &Parts<G>, budget: &Budget) -> Result<Turning, Exhausted> {
-        let (r, ground, shape) = (&parts.reduced, &parts.ground, parts.shape);
+        let (r, ground, frequencies) = (&parts.reduced, &parts.ground, parts.frequencies());
         let sides = budget.enter(|| Sides::of([&r.twice_real, &r.imaginary], &r.denominator_squared))?;
         let all = sides.product();
-        let zeros = if all.is_constant() { Vec::new() } else { ground.zeros(&all, &inner(shape), budget)? };
+        let zeros = if all.is_constant() { Vec::new() } else { ground.zeros(&all, &frequencies.inner(), budget)? };
         let mut found = Vec::with_capacity(zeros.len() + 1);
-        for sample in samples_between(&zeros, shape, budget)? {
+        for sample in samples_between(&zeros, frequencies, budget)? {
             found.push(Cell::at(&sides, &Real::from(sample), ground, budget)?);
         }
-        // From the lowest frequency on, where x is greatest.
         let mut quarters = vec![0; found.len()];
-        let mut last = found.len() - 1;
-        quarters[last] = found[last].first(integrators(parts));
-        for next in (0..last).rev() {
-            quarters[next] = quarters[last] + found[last].turn_to(&found[next]);
-            last = next;
+        let integrators = integrators(parts);
+        if frequencies.are_signed() {
+            // From the frequency 0 on, where x is 0, both ways.
+            let mut below = 0;
+            while below < zeros.len() && budget.enter(|| zeros[below].sign())?.is_lt() {
+                below += 1;
+            }
+            let is_zero = below < zeros.len() && budget.enter(|| zeros[below].sign())?.is_eq();
+            let above = below + usize::from(is_zero);
+            quarters[below] = found[below].first(-integrators);
+            for next in (0..below).rev() {
+                quarters[next] = quarters[next + 1] - found[next].turn_to(&found[next + 1]);
+            }
+            quarters[above] = found[above].first(integrators);
+            for next in above + 1..found.len() {
+                quarters[next] = quarters[next - 1] + found[next - 1].turn_to(&found[next]);
+            }
+        } else {
+            // From the lowest frequency on, where x is greatest.
+            let last = found.len() - 1;
+            quarters[last] = found[last].first(integrators);
+            for next in (0..last).rev() {
+                quarters[next] = quarters[next + 1] + found[next + 1].turn_to(&found[next]);
+            }
         }
         let middle = |zero: &Real| {
             let (lo, hi) = zero.refined_to_digits(DIGITS).enclosure();
@@ -86,19 +105,21 @@ impl Turning {
 
 /// How many more poles than zeros an open loop has at the lowest frequency, `z = 1` or `s = 0`.
 fn integrators<G: Ground>(parts: &Parts<G>) -> i64 {
-    let at = match parts.shape {
-        Shape::UnitDisc => 1,
-        Shape::LeftHalfPlane => 0,
+    // |z - 1|^2 = 2 - x; where frequencies have a sign a root there is a double zero at 0.
+    let (at, power) = match parts.frequencies() {
+        Frequencies::Positive(Shape::UnitDisc) => (2, 1),
+        Frequencies::Positive(Shape::LeftHalfPlane) => (0, 1),
+        Frequencies::Signed(_) => (0, 2),
     };
     let root = Poly::new(vec![G::Number::from_integer(&Integer::from(-at)), G::Number::one()]);
     let count = |p: &Poly<G::Number>| {
         let quotients = std::iter::successors(Some(p.clone()), |p| p.div_exact(&root).filter(|q| !q.is_zero()));
         quotients.count() as i64 - 1
     };
-    count(&parts.reduced.denominator) - count(&parts.reduced.numerator)
+    (count(&parts.reduced.denominator_squared) - count(&parts.reduced.numerator_squared)) / power
 }
 
-/// Twice the real part of `N conj(D0)` and its imaginary part over `sin theta` or `omega`, in factors.
+/// Twice the real part of `N conj(D0)` and its imaginary part as an open loop has them, in factors.
 struct Sides<R: Domain> {
     /// Both without what they have in common.
     real: Poly<R>,

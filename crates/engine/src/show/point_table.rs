@@ -1,12 +1,12 @@
 //! The classical table at a point: its entries and conditions are numbers.
 
+use super::documents::TableKind;
 use super::layout::{Columns, called, named_values};
 use super::region;
 use super::table::{
     entries_text, entry_label, jury_scheme, meanings, order, relative, routh_scheme, scheme, table_name,
 };
 use crate::answer::{Answer, PointTable, Verdict};
-use crate::model::Time;
 use crate::problem::Problem;
 use crate::stability::{Comparison, Condition, EnclosedTable, Inequality, ScaledPoly};
 use jurist_algebra::number::{Enclosure, Rational, enclosed_decimal, to_decimal};
@@ -23,13 +23,14 @@ impl Answer<PointTable> {
 fn point_table_text(problem: &Problem, answer: &PointTable, digits: usize) -> String {
     let title = called(problem.title());
     let region = region::goal(problem).map(|goal| relative(problem.time(), &goal)).unwrap_or_default();
-    let mut out = format!("{} table of {title}{}", table_name(problem.time()), region.trim_end_matches(','));
+    let kind = TableKind::from(problem);
+    let mut out = format!("{} of {title}{}", table_name(kind), region.trim_end_matches(','));
     if !problem.set().is_empty() {
         out.push_str(&format!(", {}", named_values(problem.set())));
     }
     out.push('\n');
     if let Some(table) = &answer.enclosed {
-        out.push_str(&enclosed_text(table, problem.time(), digits));
+        out.push_str(&enclosed_text(table, kind, digits));
         out.push_str(&decided_text(enclosed_conditions(table, digits), answer));
         return out;
     }
@@ -38,9 +39,11 @@ fn point_table_text(problem: &Problem, answer: &PointTable, digits: usize) -> St
         return out;
     };
     out.push_str(&scheme(test));
-    out.push_str(&format!("\nEntries, rounded to {digits} digits (--json has them exactly)\n"));
-    out.push_str(&entries_text(test, None, digits));
-    out.push_str(&format!("\nConditions\n{}", meanings(problem.time(), order(test))));
+    if kind.has_rows() {
+        out.push_str(&format!("\nEntries, rounded to {digits} digits (--json has them exactly)\n"));
+        out.push_str(&entries_text(test, None, digits));
+    }
+    out.push_str(&format!("\nConditions\n{}", meanings(kind, order(test))));
     out.push_str(&decided_text(test.conditions.iter().map(|c| decided(c, digits)), answer));
     out
 }
@@ -112,24 +115,29 @@ fn decided_text<'a>(conditions: impl Iterator<Item = Decided<'a>>, table: &Point
 }
 
 /// A table whose entries are enclosed.
-fn enclosed_text(table: &EnclosedTable, time: Time, digits: usize) -> String {
-    let order = match time {
-        Time::Discrete => table.rows.first().map_or(0, |row| row.entries.len().saturating_sub(1)),
-        Time::Continuous => table.rows.iter().take(2).map(|row| row.entries.len()).sum::<usize>().saturating_sub(1),
-    };
-    let mut out = match time {
-        Time::Discrete => {
-            jury_scheme(order, table.rows.iter().map(|r| (r.name.clone(), r.entries.len(), r.divided_by.clone())))
+fn enclosed_text(table: &EnclosedTable, kind: TableKind, digits: usize) -> String {
+    let lengths = || table.rows.iter().map(|row| row.entries.len());
+    let (order, mut out) = match kind {
+        TableKind::Jury => {
+            let order = lengths().next().unwrap_or(0).saturating_sub(1);
+            let rows = table.rows.iter().map(|r| (r.name.clone(), r.entries.len(), r.divided_by.clone()));
+            (order, jury_scheme(order, rows))
         }
-        Time::Continuous => routh_scheme(order, table.rows.iter().map(|r| r.entries.len())),
+        TableKind::Routh => {
+            let order = lengths().take(2).sum::<usize>().saturating_sub(1);
+            (order, routh_scheme(order, lengths()))
+        }
+        TableKind::SchurCohn | TableKind::Hermite => (table.conditions.len(), String::new()),
     };
-    out.push_str(&format!("\nEntries, rounded to {digits} digits (--json has enclosures)\n"));
+    if kind.has_rows() {
+        out.push_str(&format!("\nEntries, rounded to {digits} digits (--json has enclosures)\n"));
+    }
     for (i, row) in table.rows.iter().enumerate() {
         for (k, entry) in row.entries.iter().enumerate() {
             let decimal = enclosed_number(entry, digits);
-            out.push_str(&format!("  {} = {decimal}\n", entry_label(time, i, &row.name, k)));
+            out.push_str(&format!("  {} = {decimal}\n", entry_label(kind, i, &row.name, k)));
         }
     }
-    out.push_str(&format!("\nConditions\n{}", meanings(time, order)));
+    out.push_str(&format!("\nConditions\n{}", meanings(kind, order)));
     out
 }

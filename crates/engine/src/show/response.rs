@@ -10,8 +10,8 @@ use crate::answer::{Answer, Frequency};
 use crate::model::Cut;
 use crate::problem::Problem;
 use crate::response::{
-    self, DelayMargin, Direction, Extreme, GainCrossing, HeldDelay, Margins, Norm, PeakToPeak, PhaseMargin, Place,
-    StableMargins,
+    self, DelayMargin, Direction, Extreme, GainCrossing, HeldDelay, Margins, Norm, OneSided, PeakToPeak, PhaseMargin,
+    Place, Rotation, StableMargins,
 };
 use crate::stability::{AbsoluteSum, End, Shape};
 use jurist_algebra::number::{Enclosure, Rational, enclosed_decimal, to_decimal};
@@ -124,9 +124,12 @@ impl Writer<'_> {
             Some(end) if end.value.sign().is_eq() => "none, every lower gain above 0 is stable".to_owned(),
             Some(end) => self.end(end),
         };
-        let phase = match &margins.phase {
-            PhaseMargin::Unbounded => "none, the open loop's magnitude is nowhere 1".to_owned(),
-            angle @ PhaseMargin::Angle { place, .. } => {
+        let phase = match (&margins.phase, &margins.one_sided) {
+            (PhaseMargin::Angle { .. }, Some(OneSided { lag: Some(lag), lead: Some(lead), .. })) => {
+                format!("{}; {}", self.rotation(lag, "lag"), self.rotation(lead, "lead"))
+            }
+            (PhaseMargin::Unbounded, _) => "none, the open loop's magnitude is nowhere 1".to_owned(),
+            (angle @ PhaseMargin::Angle { place, .. }, _) => {
                 format!("{} degrees {}", decimal(digits, |bits| angle.degrees(bits)), self.at(place.as_ref()))
             }
         };
@@ -147,6 +150,11 @@ impl Writer<'_> {
             ("peak of the complementary sensitivity", complementary),
             ("disk margin", self.disk(&margins.disk)),
         ]
+    }
+
+    fn rotation(&self, rotation: &Rotation, sense: &str) -> String {
+        let degrees = decimal(self.digits, |bits| Some(rotation.degrees(bits)));
+        format!("{degrees} degrees of {sense} {}", self.at(rotation.place.as_ref()))
     }
 
     fn extreme(&self, extreme: &Extreme) -> String {
@@ -175,7 +183,7 @@ impl Writer<'_> {
             }
             DelayMargin::DeadTime(i) => {
                 let crossing = &self.margins.crossings.gain[*i];
-                let seconds = decimal(self.digits, |bits| crossing.delay(self.shape(), bits));
+                let seconds = decimal(self.digits, |bits| crossing.delay(self.margins.open_loop.frequencies(), bits));
                 format!("less than {seconds} s of dead time, {}", self.at(Some(&crossing.place)))
             }
         }
@@ -209,7 +217,7 @@ impl Writer<'_> {
 
     /// The phase divided by the frequency, in samples and in seconds.
     fn delay_at(&self, c: &GainCrossing) -> Option<String> {
-        let delay = |bits| c.delay(self.shape(), bits);
+        let delay = |bits| c.delay(self.margins.open_loop.frequencies(), bits);
         let narrow = delay(real::bits_for(PLACES) + 16)?;
         let text = real::enclosed_in(PLACES, &narrow, delay)?;
         if self.shape() == Shape::LeftHalfPlane {
@@ -272,7 +280,7 @@ fn norm_line(problem: &Problem, norm: &Norm, digits: usize) -> String {
         Extreme::At { attained: false, .. } => "approached as the frequency grows without end".to_owned(),
         Extreme::Constant(_) => "at all frequencies".to_owned(),
         Extreme::At { place: Place::Lowest, .. } => "at frequency 0".to_owned(),
-        _ => format!("at {}", frequency_text(|bits| norm.frequency(problem.shape(), bits)).unwrap_or_default()),
+        _ => format!("at {}", frequency_text(|bits| norm.frequency(bits)).unwrap_or_default()),
     };
     let value = real::rounded(&peak.value, digits).decimal;
     let decibels = margin(&peak.value, Some(&Rational::ONE), PLACES).and_then(|m| m.decibels);

@@ -8,7 +8,7 @@ use super::region;
 use crate::answer::{Answer, ParametricTable};
 use crate::model::Time;
 use crate::problem::Problem;
-use crate::stability::{ClassicalTest, ScaledPoly, SymbolicTest, Table, UNDIVIDED_ORDER, row_name};
+use crate::stability::{ClassicalTest, Inequality, ScaledPoly, SymbolicTest, Table, UNDIVIDED_ORDER, row_name};
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::{Enclosure, Rational, enclosed_decimal, parse_number};
 use jurist_algebra::poly::UniPoly;
@@ -47,6 +47,7 @@ pub(super) fn rows(test: &ClassicalTest) -> Vec<Row> {
             };
             table.rows.iter().enumerate().map(row).collect()
         }
+        Table::Hermitian(_) => Vec::new(),
     }
 }
 
@@ -58,6 +59,7 @@ pub(super) fn order(test: &ClassicalTest) -> usize {
             let (first, second) = (table.rows.first().map_or(0, Vec::len), table.rows.get(1).map_or(0, Vec::len));
             (first + second).saturating_sub(1)
         }
+        Table::Hermitian(order) => *order,
     }
 }
 
@@ -73,8 +75,9 @@ impl Answer<ParametricTable> {
     }
 }
 
-pub(super) fn table_name(time: Time) -> &'static str {
-    TableKind::from(time).name()
+/// `Jury table`, `Schur-Cohn conditions`.
+pub(super) fn table_name(kind: TableKind) -> String {
+    format!("{} {}", kind.name(), if kind.has_rows() { "table" } else { "conditions" })
 }
 
 /// The table, its conditions and their solutions for people, also of a table that the budget did not allow.
@@ -89,7 +92,7 @@ pub fn table_text(problem: &Problem, answer: Result<&ParametricTable, &Exhausted
         Ok(table) => table,
     };
     if let Some(test) = &table.enclosed {
-        out.push_str(&symbolic_text(test, problem.time(), name, digits));
+        out.push_str(&symbolic_text(test, problem.into(), name, digits));
         return out;
     }
     let Some(test) = &table.test else {
@@ -102,9 +105,19 @@ pub fn table_text(problem: &Problem, answer: Result<&ParametricTable, &Exhausted
         let text = entry_text(&factor, Some(name), digits);
         out.push_str(&format!("coefficients multiplied by {text}\n"));
     }
-    out.push_str(&format!("\nEntries, rounded to {digits} digits (--json has them exactly)\n"));
-    out.push_str(&entries_text(test, Some(name), digits));
-    out.push_str(&format!("\nConditions, each with its exact solution set\n{}", meanings(problem.time(), order(test))));
+    let kind = TableKind::from(problem);
+    if kind.has_rows() {
+        out.push_str(&format!("\nEntries, rounded to {digits} digits (--json has them exactly)\n"));
+        out.push_str(&entries_text(test, Some(name), digits));
+    }
+    out.push_str(&format!("\nConditions, each with its exact solution set\n{}", meanings(kind, order(test))));
+    if !kind.has_rows() {
+        let minors = test.conditions.iter().filter_map(|c| match &c.inequality {
+            Inequality::Positive(minor) => Some(entry_text(minor, Some(name), digits)),
+            Inequality::Dominates { .. } => None,
+        });
+        out.push_str(&minors_text(minors, digits, "them exactly"));
+    }
     out.push_str(&conditions_text(test, name, digits));
     out
 }
@@ -112,7 +125,7 @@ pub fn table_text(problem: &Problem, answer: Result<&ParametricTable, &Exhausted
 fn heading(problem: &Problem) -> String {
     let (title, free) = (called(problem.title()), problem.parameter());
     let region = region::goal(problem).map(|goal| relative(problem.time(), &goal)).unwrap_or_default();
-    let mut line = format!("{} table of {title}{region} in {}", table_name(problem.time()), free.name);
+    let mut line = format!("{} of {title}{region} in {}", table_name(problem.into()), free.name);
     if !problem.set().is_empty() {
         line.push_str(&format!(", {}", named_values(problem.set())));
     }
@@ -154,21 +167,24 @@ fn solutions_text<'a>(solutions: impl Iterator<Item = (&'a str, Vec<String>)>) -
 }
 
 /// A table in one parameter whose coefficients are enclosed.
-fn symbolic_text(test: &SymbolicTest, time: Time, name: &str, digits: usize) -> String {
-    let mut out = match time {
-        Time::Discrete => {
+fn symbolic_text(test: &SymbolicTest, kind: TableKind, name: &str, digits: usize) -> String {
+    let mut out = match kind {
+        TableKind::Jury => {
             jury_scheme(test.order, test.rows.iter().map(|r| (r.name.clone(), r.entries.len(), r.divided_by.clone())))
         }
-        Time::Continuous => routh_scheme(test.order, test.rows.iter().map(|r| r.entries.len())),
+        TableKind::Routh => routh_scheme(test.order, test.rows.iter().map(|r| r.entries.len())),
+        TableKind::SchurCohn | TableKind::Hermite => String::new(),
     };
     if let Some(factor) = &test.cleared_by {
         out.push_str(&format!("coefficients multiplied by {}\n", enclosed_polynomial(factor, name, digits)));
     }
-    out.push_str(&format!("\nEntries, rounded to {digits} digits (--json has enclosures)\n"));
+    if kind.has_rows() {
+        out.push_str(&format!("\nEntries, rounded to {digits} digits (--json has enclosures)\n"));
+    }
     let mut is_open = false;
     for (i, row) in test.rows.iter().enumerate() {
         for (k, entry) in row.entries.iter().enumerate() {
-            let label = entry_label(time, i, &row.name, k);
+            let label = entry_label(kind, i, &row.name, k);
             let text = format!("{label} = {}", enclosed_polynomial(entry, name, digits));
             out.push_str(&format!("  {}\n", wrapped(&text, WIDTH - 2, "      ")));
             is_open |= entry.iter().any(is_not_told);
@@ -177,7 +193,11 @@ fn symbolic_text(test: &SymbolicTest, time: Time, name: &str, digits: usize) -> 
     if is_open {
         out.push_str("  (coefficients that are not told from zero are left out)\n");
     }
-    out.push_str(&format!("\nConditions, each with its exact solution set\n{}", meanings(time, test.order)));
+    out.push_str(&format!("\nConditions, each with its exact solution set\n{}", meanings(kind, test.order)));
+    if !kind.has_rows() {
+        let minors = test.conditions.iter().map(|c| enclosed_polynomial(&c.left, name, digits));
+        out.push_str(&minors_text(minors, digits, "enclosures"));
+    }
     let sets = test.conditions.iter().map(|c| (c.name.as_str(), &c.solution));
     let sets = sets.chain([("all together", &test.intersection)]);
     out.push_str(&solutions_text(sets.map(|(label, set)| (label, real_lines(name, set, digits)))));
@@ -203,22 +223,38 @@ fn enclosed_polynomial(p: &[Enclosure], name: &str, digits: usize) -> String {
 }
 
 /// `b_1`, or in Routh's table `r_1,1`.
-pub(super) fn entry_label(time: Time, row: usize, name: &str, k: usize) -> String {
-    match time {
-        Time::Discrete => format!("{name}_{k}"),
-        Time::Continuous => format!("r_{row},{k}"),
+pub(super) fn entry_label(kind: TableKind, row: usize, name: &str, k: usize) -> String {
+    match kind {
+        TableKind::Routh => format!("r_{row},{k}"),
+        _ => format!("{name}_{k}"),
     }
 }
 
+/// The minors of a loop with complex coefficients.
+fn minors_text(minors: impl Iterator<Item = String>, digits: usize, in_json: &str) -> String {
+    let mut out = format!("  rounded to {digits} digits (--json has {in_json})\n");
+    for (k, minor) in minors.enumerate() {
+        out.push_str(&format!("  {}\n", wrapped(&format!("H_{} = {minor}", k + 1), WIDTH - 2, "      ")));
+    }
+    out + "\n"
+}
+
 /// What the names in the conditions mean.
-pub(super) fn meanings(time: Time, order: usize) -> String {
-    match (time, order) {
-        (Time::Continuous, _) => {
+pub(super) fn meanings(kind: TableKind, order: usize) -> String {
+    match (kind, order) {
+        (TableKind::Routh, _) => {
             "  (H_k is the first entry r_k,0 of row k, the Hurwitz determinant of order k)\n".to_owned()
         }
-        (Time::Discrete, 0) => "  (Q = a_0 is the characteristic polynomial)\n".to_owned(),
-        (Time::Discrete, 1) => "  (Q(z) = a_1*z + a_0 is the characteristic polynomial)\n".to_owned(),
-        (Time::Discrete, n) => {
+        (TableKind::SchurCohn, _) => {
+            "  (H_k is the leading principal minor of order k of the Hermitian matrix of Schur and Cohn)\n".to_owned()
+        }
+        (TableKind::Hermite, _) => {
+            "  (H_k is the leading principal minor of order k of Hermite's matrix, the highest powers of s first)\n"
+                .to_owned()
+        }
+        (TableKind::Jury, 0) => "  (Q = a_0 is the characteristic polynomial)\n".to_owned(),
+        (TableKind::Jury, 1) => "  (Q(z) = a_1*z + a_0 is the characteristic polynomial)\n".to_owned(),
+        (TableKind::Jury, n) => {
             let between = if n > 2 { "... + " } else { "" };
             format!("  (Q(z) = a_{n}*z^{n} + {between}a_1*z + a_0 is the characteristic polynomial)\n")
         }
@@ -231,6 +267,7 @@ pub(super) fn scheme(test: &ClassicalTest) -> String {
     match &test.table {
         Table::Jury(_) => jury_scheme(n, rows(test).into_iter().map(|r| (r.name, r.entries.len(), r.divided_by))),
         Table::Routh(table) => routh_scheme(n, table.rows.iter().map(Vec::len)),
+        Table::Hermitian(_) => String::new(),
     }
 }
 

@@ -67,7 +67,7 @@ impl Pieces {
                 (Some(_), Some(_)) if is_zero(&lower) && is_zero(&reach.lower) => {
                     "values this close to 0 are not decided"
                 }
-                (Some(_), Some(_)) => "touching or crossing",
+                (Some(_), Some(_)) => "a root on the boundary, or close to it",
                 _ => "values of this size are not decided: give the domain bounds",
             };
             UndecidedBracket::new(lower, upper, why)

@@ -17,7 +17,7 @@ use jurist_algebra::symbols::{SymbolicPoly, Symbols};
 use std::sync::Arc;
 
 /// Determinants with no more terms than this are expanded: order 6 over two symbols takes 30 ms, order 7 over three ten seconds.
-const MOST_EXPANDED: u64 = 800;
+pub(super) const MOST_EXPANDED: u64 = 800;
 
 /// A union of disjoint open intervals, ascending. Two may share an end, which is then not in the set.
 #[derive(Clone, Debug, Default)]
@@ -298,10 +298,10 @@ fn seem_simple(functions: &[Minor], most: u64, budget: &Budget) -> Result<bool, 
 }
 
 /// Where each condition holds, and where all do and the loop is defined.
-type Solutions = (Vec<RealIntervals>, RealIntervals);
+pub(super) type Solutions = (Vec<RealIntervals>, RealIntervals);
 
 /// The solutions, and the degrees of the functions.
-fn solved(
+pub(super) fn solved(
     p: &SymbolicPolynomial,
     conditions: &Conditions,
     symbols: &Arc<Symbols>,

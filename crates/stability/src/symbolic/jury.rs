@@ -1,6 +1,6 @@
 //! The tables of Jury and of Routh of a loop whose coefficients are numbers over symbols, with enclosed entries.
 
-use super::{SymbolicCondition, SymbolicPolynomial, SymbolicRow, Table};
+use super::{SymbolicCondition, SymbolicPolynomial, SymbolicRow, SymbolicTest, Table};
 use crate::precisions::JURY_TABLE;
 use crate::{Range, Shape, UNDIVIDED_ORDER, row_name};
 use jurist_algebra::ball::Ball;
@@ -62,6 +62,29 @@ impl EnclosedTable {
     /// Whether all conditions hold: the loop is stable.
     pub fn holds(&self) -> bool {
         self.conditions.iter().all(|c| c.holds)
+    }
+}
+
+impl From<SymbolicTest> for EnclosedTable {
+    /// Of a test without parameter.
+    fn from(test: SymbolicTest) -> EnclosedTable {
+        let zero = Enclosure::from_rational(Rational::ZERO);
+        let number = |p: &Vec<Enclosure>| p.first().unwrap_or(&zero).clone();
+        let row = |row: SymbolicRow| EnclosedRow {
+            entries: row.entries.iter().map(number).collect(),
+            name: row.name,
+            divided_by: row.divided_by,
+        };
+        let condition = |c: SymbolicCondition| EnclosedCondition {
+            comparison: c.comparison,
+            left: number(&c.left),
+            right: number(&c.right),
+            row: c.row,
+            holds: !c.solution.intervals.is_empty(),
+            name: c.name,
+        };
+        let rows = test.rows.into_iter().map(row).collect();
+        EnclosedTable { rows, conditions: test.conditions.into_iter().map(condition).collect() }
     }
 }
 
@@ -138,24 +161,7 @@ impl SymbolicPolynomial {
         if self.is_undefined_without_parameter(budget)? {
             return Ok(None);
         }
-        let test = self.classical_test(&Range::all(), Shape::LeftHalfPlane, digits, budget)?;
-        let zero = Enclosure::from_rational(Rational::ZERO);
-        let number = |p: &Vec<Enclosure>| p.first().unwrap_or(&zero).clone();
-        let row = |row: SymbolicRow| EnclosedRow {
-            entries: row.entries.iter().map(number).collect(),
-            name: row.name,
-            divided_by: row.divided_by,
-        };
-        let condition = |c: SymbolicCondition| EnclosedCondition {
-            comparison: c.comparison,
-            left: number(&c.left),
-            right: number(&c.right),
-            row: c.row,
-            holds: !c.solution.intervals.is_empty(),
-            name: c.name,
-        };
-        let rows = test.rows.into_iter().map(row).collect();
-        Ok(Some(EnclosedTable { rows, conditions: test.conditions.into_iter().map(condition).collect() }))
+        Ok(Some(self.classical_test(&Range::all(), Shape::LeftHalfPlane, digits, budget)?.into()))
     }
 
     /// Whether a loop without parameter is undefined, or its degree lost.

@@ -11,6 +11,7 @@ mod conditions;
 mod count;
 mod deflated;
 mod factors;
+mod hermitian;
 mod interpolation;
 mod jury;
 mod minors;

@@ -72,6 +72,35 @@ pub(super) fn enclosed_rows(
     })
 }
 
+/// A polynomial in the parameter over a number, its coefficients known to so many digits.
+///
+/// # Errors
+/// [`Exhausted`] when the budget runs out, and where the divisor is not told from zero.
+pub(super) fn enclosed_quotient(
+    above: &MultiPoly,
+    below: &MultiPoly,
+    symbols: &Symbols,
+    digits: usize,
+    budget: &Budget,
+) -> Result<Enclosed, Exhausted> {
+    let number = |c: &MultiPoly| c.map_variables(|i| i.saturating_sub(1));
+    let coefficients: Vec<MultiPoly> = above.as_poly_in(0).coeffs().iter().map(number).collect();
+    let zeros: Vec<bool> = coefficients.iter().map(|c| symbols.is_zero(c, budget)).collect::<Result<_, _>>()?;
+    let below = number(below);
+    TABLE_ROWS.decide("the entries of the table", |bits| {
+        budget.check()?;
+        let all = budget.enter(|| {
+            let below = symbols.enclose(&below, bits);
+            let value = |(c, is_zero): (&MultiPoly, &bool)| match is_zero {
+                true => Some(Ball::zero(bits)),
+                false => symbols.enclose(c, bits).div(&below),
+            };
+            coefficients.iter().zip(&zeros).map(value).collect::<Option<Enclosed>>()
+        })?;
+        Ok(all.filter(|all| bits >= ENTRIES_AS_ZERO || all.iter().all(|c| is_narrow(c, digits))))
+    })
+}
+
 /// Whether the coefficient is zero, or known to so many digits.
 fn is_narrow(b: &Ball, digits: usize) -> bool {
     b.is_zero() || b.width_units() * Integer::from(10).pow(digits as u64 + 2) <= b.least_magnitude_units()

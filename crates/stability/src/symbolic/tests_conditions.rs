@@ -108,6 +108,7 @@ fn conditions_are_those_of_the_exact_table_in_a_scaled_parameter() {
                 let rows: Vec<Vec<UniPoly>> = match &exact.table {
                     Table::Jury(table) => table.rows.iter().map(|row| row.entries.clone()).collect(),
                     Table::Routh(table) => table.rows.clone(),
+                    Table::Hermitian(_) => unreachable!("the coefficients are real"),
                 };
                 assert_eq!(test.rows.len(), rows.len());
                 for ((found, known), scale) in test.rows.iter().zip(&rows).zip(&exact.scales) {

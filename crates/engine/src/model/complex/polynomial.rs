@@ -22,6 +22,20 @@ impl ComplexPolynomial {
         Some(ComplexPolynomial { re, im })
     }
 
+    /// `p - q` of two polynomials with as many coefficients.
+    pub(in crate::model) fn minus(&self, other: &ComplexPolynomial) -> ComplexPolynomial {
+        let difference = |a: &[RationalFunction], b: &[RationalFunction]| a.iter().zip(b).map(|(a, b)| a - b).collect();
+        ComplexPolynomial { re: difference(&self.re, &other.re), im: difference(&self.im, &other.im) }
+    }
+
+    /// `p + c q` of two polynomials with as many coefficients.
+    pub(in crate::model) fn plus_multiple(&self, c: &Parts, other: &ComplexPolynomial) -> ComplexPolynomial {
+        let pairs = || other.re.iter().zip(&other.im);
+        let re = self.re.iter().zip(pairs()).map(|(p, (x, y))| &(p + &(&c.re * x)) - &(&c.im * y)).collect();
+        let im = self.im.iter().zip(pairs()).map(|(p, (x, y))| &(p + &(&c.re * y)) + &(&c.im * x)).collect();
+        ComplexPolynomial { re, im }
+    }
+
     /// Whether no imaginary part is left.
     pub fn is_real(&self) -> bool {
         self.im.iter().all(RationalFunction::is_zero)

@@ -18,6 +18,11 @@ pub(in crate::model) struct Frame {
 }
 
 impl Frame {
+    /// Whether it does not turn at all, and commands are not turned either.
+    pub fn is_at_rest(&self) -> bool {
+        [&self.turn, &self.enters, &self.direct].into_iter().all(|[cosine, sine]| cosine.is_one() && sine.is_zero())
+    }
+
     /// The frame with images in the place of cosines and sines.
     pub fn try_map<E>(&self, image: &dyn Fn(&RationalFunction) -> Result<RationalFunction, E>) -> Result<Frame, E> {
         let rotation = |[x, y]: &[RationalFunction; 2]| Ok([image(x)?, image(y)?]);

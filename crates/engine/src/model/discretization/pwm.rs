@@ -15,7 +15,7 @@ pub(super) const METHOD: Method = Method {
     about: "exact for small deviations from a periodic orbit, with one pulse in each sample time",
     spellings: &["chopper", "pulse-width modulation", "pulse"],
     advice: "",
-    keys: &["edge", "duty", "delay"],
+    keys: &["edge", "duty", "delay", "frame", "advance"],
     keeps_states: true,
     kind: Kind::Hold {
         inputs: Inputs::Pulses,

@@ -6,7 +6,7 @@ use super::transfer::{Fraction, MAX_ORDER, fraction, held_fraction, polynomial};
 use super::walk::{Failure, Meaning, division_by_zero};
 use super::zpoly::ZPoly;
 use crate::error::{Code, Diagnostic, Span};
-use crate::model::complex::{Frame, Lift, lifted};
+use crate::model::complex::{Frame, Lift, lifted, names_of_parts};
 use crate::model::definition::{
     Block, Discretization, Dynamics, Form, Matrix, Model, Output, Ports, Pulses, Rate, Time,
 };
@@ -47,6 +47,11 @@ impl<'m> Wiring<'m> {
         }
         let inputs = inputs.into_iter().map(str::to_owned).collect();
         Wiring { numbers, driven: own.len(), inputs, is_complex: false }
+    }
+
+    /// The names of a signal's parts: of a real one only its own.
+    pub fn parts_of(&self, name: &str) -> Vec<String> {
+        if self.is_complex { names_of_parts([name.to_owned()]) } else { vec![name.to_owned()] }
     }
 }
 
@@ -227,7 +232,8 @@ impl Evaluator<'_, '_> {
             if let (Some(pulses), Some(inputs)) =
                 (block.discretization.as_ref().and_then(|d| d.pulses.as_ref()), &inputs)
             {
-                hold.pulses = self.pulses(pulses, inputs, wiring.driven)?;
+                let turns = hold.frame.as_ref().is_some_and(|frame| !frame.is_at_rest());
+                hold.pulses = self.pulses(pulses, inputs, wiring.driven, turns)?;
             }
         }
         let modulator = match &block.pwm {
@@ -327,12 +333,21 @@ impl Evaluator<'_, '_> {
     }
 
     /// The pulses of inputs, which are these expressions in signals; with one word for all of them, an input that no signal of the
-    /// loop is in is held: nothing controls it.
-    fn pulses(&mut self, pulses: &Pulses, inputs: &[Row], driven: usize) -> Option<Vec<Option<Pulse>>> {
+    /// loop is in is held: nothing controls it. In a frame that turns against the block's own they are those of zero voltage.
+    fn pulses(&mut self, pulses: &Pulses, inputs: &[Row], driven: usize, turns: bool) -> Option<Vec<Option<Pulse>>> {
         let duties: Vec<RationalFunction> = match pulses.is_steady {
             true => vec![self.scope.duty()],
             false => pulses.duties.iter().map(|e| self.real(e)).collect::<Option<_>>()?,
         };
+        let half = RationalFunction::from(Rational::new(1.into(), 2.into()));
+        if let Some(at) = duties.iter().position(|duty| *duty != half).filter(|_| turns) {
+            let message = "pulses are seen from a frame that turns at the duty ratio 1/2 only, which is the voltage 0";
+            let error = Diagnostic::error(Code::Frame, message).at(pulses.duties[at].span, "not 1/2");
+            let help = "at another voltage the duty ratios of the legs turn with the angle, and no sample is like the one before: write duty = 0.5, \
+                        or hold the voltage: method = \"zoh\"";
+            (self.report)(error.help(help).into());
+            return None;
+        }
         let one_of = |len: usize, i: usize| if len == 1 { 0 } else { i };
         let of = |(i, row): (usize, &Row)| {
             let edges = pulses.edges[one_of(pulses.edges.len(), i)]?;

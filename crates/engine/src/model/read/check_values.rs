@@ -76,6 +76,8 @@ fn problems(model: &Model, symbol: &mut dyn FnMut(&str, bool) -> Option<Symbol>)
     let mut found = Vec::new();
     let mut is_exhausted = false;
     let mut report = |failure| match failure {
+        // A time of the loop is looked at once for each block that uses it.
+        Failure::Wrong(diagnostic) if found.contains(&*diagnostic) => {}
         Failure::Wrong(diagnostic) => found.push(*diagnostic),
         Failure::Exhausted(_) => is_exhausted = true,
         Failure::Poisoned => {}

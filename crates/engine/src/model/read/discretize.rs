@@ -110,7 +110,9 @@ fn from_table(entry: &Entry, table: &Table, reader: &mut Reader) -> Option<Discr
     let mut part = |key: &str| table.get(key).and_then(|v| reader.expression(v, &format!("'{key}'")));
     let (sample_time, factor, prewarp, delay) = (part("T"), part("c"), part("prewarp"), part("delay"));
     let (frame, advance) = (part("frame"), part("advance"));
-    if let (Some(entry), None) = (table.entry("advance"), table.entry("frame")) {
+    if let (Some(entry), None) = (table.entry("advance"), table.entry("frame"))
+        && !meant.includes("frame")
+    {
         let error = Diagnostic::error(Code::Frame, "'advance' turns a command ahead into a frame that is not given");
         let error = error.at(entry.key_span, "into which frame?");
         reader.report(error.help("give the speed of the controller's frame: frame = \"omega_e\""));

@@ -49,6 +49,8 @@ pub(super) enum Shape {
     TableOrFlag(&'static [Key]),
     /// A table with these keys, or one word.
     TableOrWord(&'static [Key]),
+    /// A table with these keys, or a number.
+    TableOrNumber(&'static [Key]),
     /// A constant: a number, an expression, an array of rows, or a table.
     Constant,
     /// An array of tables with these keys.
@@ -308,7 +310,7 @@ pub(super) const DISCRETIZE: [Key; 9] = [
     key(
         "frame",
         Shape::Expression,
-        "the speed, in radians per unit of time, at which the frame of the block's signals turns against that in which zoh holds its inputs; the signals are then complex, d + j q",
+        "the speed, in radians per unit of time, at which the frame of the block's signals turns against that in which its inputs are held, or pulses with the duty ratio 1/2; the signals are then complex, d + j q",
     ),
     key("advance", Shape::Expression, "the angle by which commands are turned ahead into that frame, 0 when missing"),
     key(
@@ -332,11 +334,15 @@ pub(super) const PWM: [Key; 3] = [
 
 /// The table `[simulation]`.
 pub(super) const SIMULATION: [Key; 4] = [
-    key("inputs", Shape::Named(&Shape::Number), "constant values of inputs; others are zero"),
-    key("initial", Shape::Named(&Shape::Number), "initial values of states; others are zero"),
+    key("inputs", Shape::Named(&Shape::TableOrNumber(&PARTS)), "constant values of inputs; others are zero"),
+    key("initial", Shape::Named(&Shape::TableOrNumber(&PARTS)), "initial values of states; others are zero"),
     key("duration", Shape::Number, "seconds, or samples when the loop has no sample time"),
     key("units", Shape::Named(&Shape::Text), "units of inputs, states, signals and outputs, for people"),
 ];
+
+/// The parts of a complex value.
+pub(super) const PARTS: [Key; 2] =
+    [key("re", Shape::Number, "the real part"), key("im", Shape::Number, "the imaginary part of a complex signal")];
 
 /// The table `[require]`: where margins are taken, and the list of requirements.
 pub(super) const REQUIRE: [Key; LIST.len() + 1] = {

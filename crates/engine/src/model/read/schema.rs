@@ -69,6 +69,7 @@ fn shape(shape: &Shape) -> Map<String, Value> {
             return constant;
         }
         Shape::TableOrWord(keys) => return table_or(keys, &["string"]),
+        Shape::TableOrNumber(keys) => return table_or(keys, &["number", "string"]),
         Shape::TableOrFlag(keys) => return table_or(keys, &["boolean"]),
         Shape::Parameter => return table_or(&PARAMETER, &["number", "string"]),
         Shape::Tolerance => {

@@ -5,16 +5,18 @@ use super::keys;
 use super::model_file::section;
 use super::reader::Reader;
 use crate::error::{Code, Diagnostic};
+use crate::model::complex::names_of_parts;
 use crate::model::definition::{Block, Dynamics, Form, Model, Name, Simulation};
 use crate::model::text::names::{did_you_mean, known_names, shorten};
-use crate::model::text::toml_value::{Entry, Table};
+use crate::model::text::toml_value::{Entry, Kind, Table};
+use jurist_algebra::number::Rational;
 
 /// Reads the section, if there is one.
 pub(super) fn read(root: &Table, reader: &mut Reader) -> Simulation {
     let Some(table) = section(root, "simulation", reader) else { return Simulation::default() };
     reader.unknown_keys(table, &keys::SIMULATION, "[simulation]");
-    let inputs = entries(table, "inputs", reader, Reader::number);
-    let initial = entries(table, "initial", reader, Reader::number);
+    let inputs = numbers(table, "inputs", reader);
+    let initial = numbers(table, "initial", reader);
     let units = entries(table, "units", reader, |reader, value, what| {
         reader.string(value, what).map(|text| text.as_str().to_owned())
     });
@@ -28,6 +30,27 @@ pub(super) fn read(root: &Table, reader: &mut Reader) -> Simulation {
         Some(number)
     });
     Simulation { inputs, initial, duration, units }
+}
+
+/// The names and numbers of a table in the section: of a complex signal a number, or its parts, as `i_ref.im = 1` or `i_ref = { re = 1, im = 2 }`.
+fn numbers(table: &Table, key: &str, reader: &mut Reader) -> Vec<(Name, Rational)> {
+    let Some(values) = section(table, key, reader) else { return Vec::new() };
+    let mut out = Vec::new();
+    for entry in values.iter() {
+        let mut add = |name: String, entry: &Entry, reader: &mut Reader| {
+            let value = reader.number(&entry.value, &format!("'{}'", shorten(&name)));
+            out.extend(value.map(|value| (Name { name, span: entry.key_span }, value)));
+        };
+        match &entry.value.kind {
+            Kind::Table(parts) => {
+                for part in parts.iter() {
+                    add(format!("{}.{}", entry.key, part.key), part, reader);
+                }
+            }
+            _ => add(entry.key.clone(), entry, reader),
+        }
+    }
+    out
 }
 
 /// The names and values of a table in the section.
@@ -65,6 +88,12 @@ pub(super) fn check(model: &Model, reader: &mut Reader) {
     let outputs = model.outputs().iter().map(|o| o.name.name.as_str());
     let signals: Vec<&str> = signals.into_iter().chain(outputs).collect();
     let simulation = &model.simulation;
+    let with_parts = |names: &[&str]| -> Vec<String> {
+        let parts = model.is_written_complex().then(|| names_of_parts(names.iter().map(|name| (*name).to_owned())));
+        names.iter().map(|name| (*name).to_owned()).chain(parts.into_iter().flatten()).collect()
+    };
+    let [inputs, states] = [with_parts(&inputs), with_parts(&states)];
+    let [inputs, states]: [Vec<&str>; 2] = [&inputs, &states].map(|names| names.iter().map(String::as_str).collect());
     unknown(simulation.inputs.iter().map(|(n, _)| n), &inputs, "input", reader);
     unknown(simulation.initial.iter().map(|(n, _)| n), &states, "state", reader);
     unknown(simulation.units.iter().map(|(n, _)| n), &signals, "signal", reader);

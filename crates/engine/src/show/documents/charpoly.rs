@@ -3,10 +3,10 @@
 use super::schema_name;
 use super::{Exact, Named, Open, PointQuestion, to_text};
 use crate::problem::Problem;
-use crate::show::notation::{self, PolynomialReport, plain_number};
+use crate::show::notation::{self, PolynomialReport, Terms, plain_number, terms};
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::RationalFunction;
+use jurist_algebra::poly::{Domain, RationalFunction};
 use serde::{Deserialize, Serialize};
 
 schema_name!(CharpolyName, "jurist/charpoly/1");
@@ -85,11 +85,19 @@ pub struct OpenPolynomials<N> {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Coefficients {
-    /// From the constant term up. Of a complex loop the real parts.
-    pub coefficients: Vec<Coefficient>,
-    /// The imaginary parts, as many; left out where the polynomial is real.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub imaginary: Option<Vec<Coefficient>>,
+    /// From the constant term up.
+    pub coefficients: CoefficientList,
+}
+
+/// Real or complex coefficients.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(untagged)]
+pub enum CoefficientList {
+    /// Of a real polynomial.
+    Real(Vec<Coefficient>),
+    /// Of a polynomial that is not real.
+    Complex(Vec<ComplexCoefficient>),
 }
 
 /// `1 + parameter * numerator/denominator = 0`.
@@ -159,6 +167,46 @@ impl Coefficient {
     }
 }
 
+/// The same with complex numbers in the numerator.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ComplexCoefficient {
+    /// The numerator; empty for 0.
+    pub numerator: Vec<ComplexTerm>,
+    /// The denominator, which is real: 1 where it is a number.
+    pub denominator: Vec<Term>,
+}
+
+/// The powers of the kept parameters, and the number before them: its real and its imaginary part.
+pub type ComplexTerm = (Vec<u32>, [String; 2]);
+
+impl ComplexCoefficient {
+    fn new(re: &RationalFunction, im: &RationalFunction, parameters: usize, digits: Option<usize>) -> Self {
+        let (a, b) = (re.denominator(), im.denominator());
+        let common = a.times(&b.div_exact(&a.gcd(b)).expect("a gcd divides"));
+        let divisor = common.as_constant().map_or(Rational::ONE, Rational::from);
+        let over = |f: &RationalFunction| {
+            let factor = common.div_exact(f.denominator()).expect("a common multiple");
+            terms(&f.numerator().times(&factor), parameters, &divisor)
+        };
+        let parts = [over(re), over(im)];
+        let mut powers: Vec<&Vec<u32>> = parts.iter().flatten().map(|(powers, _)| powers).collect();
+        powers.sort_by(|a, b| b.cmp(a));
+        powers.dedup();
+        let number = |part: &Terms, powers: &Vec<u32>| {
+            let found = part.iter().find(|(p, _)| p == powers).map_or(Rational::ZERO, |(_, value)| value.clone());
+            plain_number(&found, digits)
+        };
+        let numerator = powers.into_iter().map(|p| (p.clone(), parts.each_ref().map(|part| number(part, p)))).collect();
+        let denominator = match common.as_constant() {
+            Some(_) => vec![(vec![0; parameters], Rational::ONE)],
+            None => terms(&common, parameters, &Rational::ONE),
+        };
+        let denominator = denominator.into_iter().map(|(powers, v)| (powers, plain_number(&v, digits))).collect();
+        ComplexCoefficient { numerator, denominator }
+    }
+}
+
 impl<S: Default, P, N> Polynomials<S, P, N> {
     fn known(report: &PolynomialReport, digits: Option<usize>, polynomials: P) -> Self {
         Polynomials {
@@ -194,18 +242,21 @@ impl<S: Default, P, N> Polynomials<S, P, N> {
 
 /// The document that a report is, as text; exact, or with numbers of so many significant digits.
 pub(in crate::show) fn report_text(report: &PolynomialReport, digits: Option<usize>) -> String {
-    let list = |name: &str| {
+    let parameters = report.parameters.len();
+    let functions = |name: &str| {
         let polynomial = report.polynomials.iter().find(|p| p.name == name);
-        let coefficients = polynomial.map(|p| p.coefficients.as_slice()).unwrap_or_default();
-        coefficients.iter().map(|c| Coefficient::new(c, report.parameters.len(), digits)).collect()
+        polynomial.map(|p| p.coefficients.as_slice()).unwrap_or_default()
     };
+    let list = |name: &str| functions(name).iter().map(|c| Coefficient::new(c, parameters, digits)).collect();
     match &report.relation {
         notation::Relation::Characteristic => {
-            let polynomial = Coefficients { coefficients: list("Q"), imaginary: None };
+            let polynomial = Coefficients { coefficients: CoefficientList::Real(list("Q")) };
             to_text(&Charpoly::known(report, digits, polynomial))
         }
         notation::Relation::Complex => {
-            let polynomial = Coefficients { coefficients: list("re"), imaginary: Some(list("im")) };
+            let pairs = functions("re").iter().zip(functions("im"));
+            let list = pairs.map(|(re, im)| ComplexCoefficient::new(re, im, parameters, digits)).collect();
+            let polynomial = Coefficients { coefficients: CoefficientList::Complex(list) };
             to_text(&Charpoly::known(report, digits, polynomial))
         }
         notation::Relation::RootLocus { parameter } => {

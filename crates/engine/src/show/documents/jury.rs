@@ -78,23 +78,38 @@ pub enum TableKind {
     Jury,
     /// Continuous time.
     Routh,
+    /// Discrete time and complex coefficients: no rows, and the conditions are that the leading principal minors of the Hermitian matrix of Schur and Cohn
+    /// are positive.
+    #[serde(rename = "Schur-Cohn")]
+    SchurCohn,
+    /// Continuous time and complex coefficients: the same of the Hermitian matrix of Hermite.
+    Hermite,
 }
 
-impl From<Time> for TableKind {
-    fn from(time: Time) -> Self {
-        match time {
-            Time::Discrete => TableKind::Jury,
-            Time::Continuous => TableKind::Routh,
+impl From<&Problem> for TableKind {
+    fn from(problem: &Problem) -> Self {
+        match (problem.time(), problem.is_complex()) {
+            (Time::Discrete, false) => TableKind::Jury,
+            (Time::Continuous, false) => TableKind::Routh,
+            (Time::Discrete, true) => TableKind::SchurCohn,
+            (Time::Continuous, true) => TableKind::Hermite,
         }
     }
 }
 
 impl TableKind {
+    /// Whether there is a table, and not conditions alone.
+    pub fn has_rows(self) -> bool {
+        matches!(self, TableKind::Jury | TableKind::Routh)
+    }
+
     /// The name used in all output.
     pub fn name(self) -> &'static str {
         match self {
             TableKind::Jury => "Jury",
             TableKind::Routh => "Routh",
+            TableKind::SchurCohn => "Schur-Cohn",
+            TableKind::Hermite => "Hermite",
         }
     }
 }
@@ -223,7 +238,7 @@ pub struct Condition<E, R> {
     pub left: E,
     /// The right side.
     pub right: E,
-    /// The row of the table that it is on; `null` for the values at 1 and -1.
+    /// The row of the table that it is on; `null` for the values at 1 and -1, and for minors.
     pub row: Option<String>,
     /// Where it holds.
     #[serde(flatten)]
@@ -280,6 +295,7 @@ fn condition_row(test: &ClassicalTest, index: usize) -> Option<String> {
     match &test.table {
         Table::Jury(_) => index.checked_sub(2).map(row_name),
         Table::Routh(_) => Some(format!("s^{}", order(test).saturating_sub(index + 1))),
+        Table::Hermitian(_) => None,
     }
 }
 
@@ -332,7 +348,7 @@ impl JuryInParameter {
             schema: JuryName::V1,
             // The conditions are solved inside of the domain.
             question: ParameterQuestion { domain_closed: None, ..ParameterQuestion::new(problem) },
-            table: problem.time().into(),
+            table: problem.into(),
             answer: Answered::of(answer, solved),
         }
     }
@@ -371,7 +387,7 @@ fn point_table<E>(
         schema: JuryName::V1,
         title: title(problem),
         time: problem.time(),
-        table: problem.time().into(),
+        table: problem.into(),
         parameter: (),
         set: problem.set().into(),
         region: problem.into(),

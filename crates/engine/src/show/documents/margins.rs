@@ -4,7 +4,9 @@ use super::schema_name;
 use super::{Answered, Bounds, Enclosure, End, Exact, FrequencyOfPair, Number, PointQuestion, RootsByPlace};
 use crate::answer::{self, Answer};
 use crate::problem::Problem;
-use crate::response::{self, Crossings, DelayMargin, Direction, Extreme, PhaseMargin, Place, StableMargins, Value};
+use crate::response::{
+    self, Crossings, DelayMargin, Direction, Extreme, PhaseMargin, Place, Rotation, StableMargins, Value,
+};
 use crate::show::real;
 use crate::stability::{Shape, StableInterval};
 use jurist_algebra::limits::Exhausted;
@@ -87,6 +89,13 @@ pub struct PhaseMarginFound {
     pub degrees: Option<String>,
     /// `tan(phi/2)`; `null` also for 180 degrees.
     pub tangent: Option<Number>,
+    /// Of a loop with complex coefficients: the smallest rotation in the sense of a delay that brings it to the boundary, in degrees, correctly rounded.
+    /// `degrees` is the smaller of this and `lead`. Absent where any angle is borne.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lag: Option<String>,
+    /// The same in the other sense.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lead: Option<String>,
     /// Where it binds; all `null` where the modulus is one at all frequencies.
     #[serde(flatten)]
     pub frequency: FrequencyOfPair,
@@ -248,7 +257,12 @@ impl Writer<'_> {
         }
     }
 
-    fn phase(&self, phase: &PhaseMargin) -> PhaseMarginFound {
+    fn phase(&self, margins: &StableMargins) -> PhaseMarginFound {
+        let StableMargins { phase, one_sided, .. } = margins;
+        let side = |rotation: &Option<Rotation>| {
+            let rotation = rotation.as_ref()?;
+            self.decimal(|bits| Some(rotation.degrees(bits)))
+        };
         let (tangent, place) = match phase {
             PhaseMargin::Unbounded => (None, None),
             PhaseMargin::Angle { tangent, place } => (tangent.as_deref(), place.as_ref()),
@@ -256,6 +270,8 @@ impl Writer<'_> {
         PhaseMarginFound {
             degrees: self.decimal(|bits| phase.degrees(bits)),
             tangent: tangent.map(|t| self.number(t)),
+            lag: one_sided.as_ref().and_then(|both| side(&both.lag)),
+            lead: one_sided.as_ref().and_then(|both| side(&both.lead)),
             frequency: self.at(place),
         }
     }
@@ -291,9 +307,9 @@ impl Writer<'_> {
             DelayMargin::SamplesAtLeast(m) => DelayMarginFound { samples: Some(*m), at_least: true, ..none },
             DelayMargin::DeadTime(i) => {
                 let crossing = &self.margins.crossings.gain[*i];
-                let narrow = crossing.delay(self.shape(), real::bits_for(self.digits));
+                let narrow = crossing.delay(self.margins.open_loop.frequencies(), real::bits_for(self.digits));
                 DelayMarginFound {
-                    seconds: self.decimal(|bits| crossing.delay(self.shape(), bits)),
+                    seconds: self.decimal(|bits| crossing.delay(self.margins.open_loop.frequencies(), bits)),
                     enclosure: narrow.map(|e| super::number::enclosure(e.lower(), e.upper())),
                     frequency: self.at(Some(&crossing.place)),
                     ..none
@@ -336,11 +352,11 @@ impl Writer<'_> {
             phase_margin_degrees: self
                 .decimal(|bits| Some(response::degrees(&c.phase(bits + 16), bits)))
                 .unwrap_or_default(),
-            delay: self.decimal(|bits| c.delay(self.shape(), bits)),
+            delay: self.decimal(|bits| c.delay(self.margins.open_loop.frequencies(), bits)),
             delay_seconds: self.decimal(|bits| {
                 let period = self.margins.open_loop.sample_time().filter(|_| self.shape() == Shape::UnitDisc)?;
                 let period = number::Enclosure::from_rational(period.clone());
-                Some(c.delay(self.shape(), bits + 16)?.mul(&period, bits))
+                Some(c.delay(self.margins.open_loop.frequencies(), bits + 16)?.mul(&period, bits))
             }),
             direction: c.direction,
             frequency: self.at(Some(&c.place)),
@@ -377,7 +393,7 @@ impl Margins {
                 stable: margins.verdict.verdict == answer::Verdict::Stable,
                 roots: RootsByPlace::from(&margins.verdict),
                 gain: stable.map(|m| writer.gain(&m.gain)),
-                phase: stable.map(|m| writer.phase(&m.phase)),
+                phase: stable.map(|m| writer.phase(m)),
                 delay: stable.map(|m| writer.delay(&m.delay)),
                 modulus: stable.map(|m| writer.modulus(m)),
                 complementary: stable.map(|m| writer.complementary(m)),

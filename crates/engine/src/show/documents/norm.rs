@@ -93,7 +93,7 @@ impl Norm {
             norm: norm.peak.as_ref().map(|peak| PeakFound {
                 value: Number::new(&peak.value, digits),
                 attained: !matches!(peak.extreme, Extreme::At { attained: false, .. }),
-                frequency: FrequencyOfPair::new(digits, |bits| norm.frequency(problem.shape(), bits)),
+                frequency: FrequencyOfPair::new(digits, |bits| norm.frequency(bits)),
             }),
             l1: None,
         };

@@ -22,7 +22,7 @@ use jurist_algebra::poly::RationalFunction;
 pub use latex::symbol as latex_symbol;
 pub use root_locus::root_locus_form;
 pub use terms::Coefficient;
-pub(super) use terms::plain_number;
+pub(super) use terms::{Terms, plain_number, terms};
 pub use text::coefficient_text;
 
 /// How polynomials are written.

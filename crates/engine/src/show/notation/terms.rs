@@ -32,7 +32,8 @@ impl Coefficient {
     }
 }
 
-fn terms(polynomial: &MultiPoly, parameters: usize, divisor: &Rational) -> Terms {
+/// The terms of a polynomial, divided by a number.
+pub(in crate::show) fn terms(polynomial: &MultiPoly, parameters: usize, divisor: &Rational) -> Terms {
     let term = |(monomial, c): &(jurist_algebra::poly::Monomial, jurist_algebra::number::Integer)| {
         let exponents = (0..parameters).map(|i| monomial.exponent(i)).collect();
         (exponents, Rational::from(c) / divisor)

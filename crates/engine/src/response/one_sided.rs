@@ -1,0 +1,149 @@
+//! By how much an open loop with complex coefficients may turn in each sense.
+//!
+//! With `L = -exp(j phi)` the open loop is -1 after a lag of `phi`, from 0 to one turn, and after a lead of one turn less `phi`. The cotangent of `phi/2` is
+//! `-2 Im(N conj(D0))/|D0 + N|^2`, falls as `phi` grows, and is finite where the loop is stable. So the greatest cotangent is that of the least lag,
+//! and the least one is that of the least lead.
+
+use super::crossings::Crossings;
+use super::disk::degrees;
+use super::extreme::extreme_over;
+use super::ground::Ground;
+use super::open_loop::OpenLoop;
+use super::parts::{Parts, with_parts};
+use super::value::reciprocal;
+use super::{PhaseMargin, Place, Value};
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
+use jurist_algebra::poly::{Domain, Poly};
+use jurist_algebra::real::Real;
+use std::cmp::Ordering;
+
+/// The smallest rotations that bring a stable loop to the boundary.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct OneSided {
+    /// In the sense of a delay; `None` where the modulus is nowhere one.
+    pub lag: Option<Rotation>,
+    /// In the other sense.
+    pub lead: Option<Rotation>,
+}
+
+/// A rotation by less than one turn.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Rotation {
+    /// The cotangent of half its angle: negative beyond 180 degrees.
+    pub cotangent: Real,
+    /// The frequency at which it binds; `None` where that is all.
+    pub place: Option<Place>,
+}
+
+impl OneSided {
+    /// Of a stable loop; `None` where its coefficients are real.
+    pub(super) fn of(
+        open_loop: &OpenLoop,
+        crossings: &Crossings,
+        budget: &Budget,
+    ) -> Result<Option<OneSided>, Exhausted> {
+        if !open_loop.frequencies().are_signed() {
+            return Ok(None);
+        }
+        with_parts!(open_loop, parts => OneSided::over(parts, crossings, budget)).map(Some)
+    }
+
+    fn over<G: Ground>(parts: &Parts<G>, crossings: &Crossings, budget: &Budget) -> Result<OneSided, Exhausted> {
+        let greatest = |factor: i64| {
+            let above = parts.reduced.imaginary.scaled(&G::Number::from_integer(&Integer::from(factor)));
+            Rotation::of_greatest(&above, parts, crossings, budget)
+        };
+        Ok(OneSided { lag: greatest(-2)?, lead: greatest(2)? })
+    }
+
+    /// The smaller of both, which is at most 180 degrees; where enclosures do not tell which it is, as where both are the same, the lag.
+    pub(super) fn smaller(&self, budget: &Budget) -> Result<PhaseMargin, Exhausted> {
+        let (Some(lag), Some(lead)) = (&self.lag, &self.lead) else { return Ok(PhaseMargin::Unbounded) };
+        let is_lead = match lead.cotangent.compare(&lag.cotangent, budget) {
+            Err(stopped) if stopped.stop.is_precision() => false,
+            order => order?.is_gt(),
+        };
+        let Rotation { cotangent, place } = if is_lead { lead } else { lag };
+        let tangent = match budget.enter(|| cotangent.sign())? {
+            Sign::Equal => None,
+            _ => Some(Box::new(reciprocal(cotangent, budget)?)),
+        };
+        Ok(PhaseMargin::Angle { tangent, place: place.clone() })
+    }
+}
+
+impl OneSided {
+    /// Whether both are at least the angle whose half has this cotangent.
+    pub(super) fn are_at_least(&self, cotangent: &Real, budget: &Budget) -> Result<bool, Exhausted> {
+        for rotation in [&self.lag, &self.lead].into_iter().flatten() {
+            if rotation.cotangent.compare(cotangent, budget)?.is_gt() {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+}
+
+impl Rotation {
+    /// With the greatest cotangent `above/|D0 + N|^2` where the modulus is one.
+    fn of_greatest<G: Ground>(
+        above: &Poly<G::Number>,
+        parts: &Parts<G>,
+        crossings: &Crossings,
+        budget: &Budget,
+    ) -> Result<Option<Rotation>, Exhausted> {
+        const FINITE: &str = "a stable loop is nowhere -1";
+        let (r, ground) = (&parts.reduced, &parts.ground);
+        let mut best: Option<(Value, Option<Place>)> = None;
+        if crossings.gain_everywhere {
+            let extreme = extreme_over(ground, above, &r.sum_squared, r.frequencies, Ordering::Greater, budget)?;
+            best = Some((extreme.value().expect(FINITE), extreme.place().cloned()));
+        }
+        for crossing in &crossings.gain {
+            let value = ground.value(above, &r.sum_squared, &crossing.place, r.frequencies, budget)?.expect(FINITE);
+            let better = match &best {
+                None => true,
+                Some((known, _)) => value.compare(known, budget)?.is_gt(),
+            };
+            if better {
+                best = Some((value, Some(crossing.place.clone())));
+            }
+        }
+        best.map(|(value, place)| Ok(Rotation { cotangent: value.number(budget)?, place })).transpose()
+    }
+
+    /// The angle in degrees, in `(0, 360)`.
+    pub fn degrees(&self, bits: u64) -> Enclosure {
+        let working = bits + 16;
+        if let Some(degrees) = self.known_degrees() {
+            return Enclosure::from_rational(Rational::from(degrees));
+        }
+        let cotangent = Value::Number(self.cotangent.clone()).enclosure(working);
+        let one = Enclosure::from_rational(Rational::ONE);
+        let tangent = one.div(&cotangent, working).expect("digits tell a number from zero");
+        let half = tangent.atan(working);
+        let half = match half.upper().sign() {
+            Ordering::Less => Enclosure::pi(working).add(&half, working),
+            _ => half,
+        };
+        degrees(&half.mul(&Enclosure::from_rational(Rational::from(2)), working), bits)
+    }
+
+    /// The angle where its cosine is rational.
+    fn known_degrees(&self) -> Option<i64> {
+        let coefficients: Vec<Option<i64>> =
+            self.cotangent.algebraic()?.polynomial().coeffs().iter().map(|c| c.to_i64()).collect();
+        let is_negative = self.cotangent.sign().is_lt();
+        let within = match coefficients.as_slice() {
+            [Some(0), Some(1)] => 180,
+            [Some(-1), Some(1)] | [Some(1), Some(1)] => 90,
+            [Some(-3), Some(0), Some(1)] => 60,
+            [Some(-1), Some(0), Some(3)] => 120,
+            _ => return None,
+        };
+        Some(if is_negative { 360 - within } else { within })
+    }
+}

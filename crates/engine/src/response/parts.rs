@@ -1,0 +1,142 @@
+//! The polynomials of an open loop, and their products along the boundary.
+
+use super::Frequencies;
+use super::complex_poly::ComplexPoly;
+use super::ground::Ground;
+use super::place::{modulus_squared, product};
+use crate::stability::Shape;
+use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
+
+/// Evaluates an expression with the parts of an open loop, whatever their coefficients are.
+macro_rules! with_parts {
+    ($open_loop:expr, $parts:ident => $value:expr) => {
+        match $open_loop.over() {
+            crate::response::open_loop::Over::Integers($parts) => $value,
+            crate::response::open_loop::Over::Constants($parts) => $value,
+        }
+    };
+}
+pub(crate) use with_parts;
+
+/// `D0` and `N`, primitive together; hidden modes stay.
+#[derive(Clone, Debug)]
+pub(crate) struct Parts<G: Ground> {
+    pub ground: G,
+    pub denominator: ComplexPoly<G::Number>,
+    pub numerator: ComplexPoly<G::Number>,
+    /// Polynomials in the factor at whose zeros the model is undefined.
+    pub poles: Vec<Poly<G::Number>>,
+    pub shape: Shape,
+    pub reduced: Reduced<G::Number>,
+}
+
+/// The products of `L` in lowest terms on the boundary, in the variable `x` of its frequencies.
+#[derive(Clone, Debug)]
+pub(crate) struct Reduced<R: Domain> {
+    pub frequencies: Frequencies,
+    /// `|N|^2`, `|D0|^2`, `|D0 + N|^2`, `|D0 - N|^2`.
+    pub numerator_squared: Poly<R>,
+    pub denominator_squared: Poly<R>,
+    pub sum_squared: Poly<R>,
+    pub difference_squared: Poly<R>,
+    /// Twice the real part of `N conj(D0)`, and its imaginary part; over `sin theta` or `omega` where frequencies have no sign.
+    pub twice_real: Poly<R>,
+    pub imaginary: Poly<R>,
+}
+
+impl<G: Ground> Parts<G> {
+    /// With real coefficients.
+    pub fn new(
+        ground: G,
+        denominator: Poly<G::Number>,
+        numerator: Poly<G::Number>,
+        poles: Vec<Poly<G::Number>>,
+        shape: Shape,
+    ) -> Parts<G> {
+        let reduced = Reduced::of(&numerator, &denominator, shape);
+        Parts { ground, denominator: denominator.into(), numerator: numerator.into(), poles, shape, reduced }
+    }
+
+    /// The variable of frequencies.
+    pub fn frequencies(&self) -> Frequencies {
+        self.reduced.frequencies
+    }
+
+    /// A polynomial in the factor `k` for each power of the variable of the loop: that of `D0 + k N`, or of it with the conjugate roots, by powers of `k`.
+    pub fn in_factor(&self) -> Vec<Poly<G::Number>> {
+        let (d, n) = (&self.denominator, &self.numerator);
+        if d.is_real() && n.is_real() {
+            return vec![d.re.clone(), n.re.clone()];
+        }
+        let two = G::Number::from_integer(&Integer::from(2));
+        vec![d.squared(), d.times_conjugate(n)[0].scaled(&two), n.squared()]
+    }
+}
+
+impl<R: Domain> Reduced<R> {
+    fn of(numerator: &Poly<R>, denominator: &Poly<R>, shape: Shape) -> Reduced<R> {
+        let common = numerator.gcd(denominator);
+        let divided = |p: &Poly<R>| p.div_exact(&common).expect("a gcd divides");
+        let (numerator, denominator) = (divided(numerator), divided(denominator));
+        let degree = numerator.coeffs().len().max(denominator.coeffs().len()) - 1;
+        let squares = [&numerator, &denominator].map(|p| modulus_squared(p, degree, shape));
+        Reduced::of_products(squares, product(&numerator, &denominator, degree, shape).into(), shape.into())
+    }
+
+    /// From `|N|^2` and `|D0|^2`, and from twice the real part and the imaginary part of `N conj(D0)`.
+    pub(super) fn of_products(
+        [numerator_squared, denominator_squared]: [Poly<R>; 2],
+        [twice_real, imaginary]: [Poly<R>; 2],
+        frequencies: Frequencies,
+    ) -> Reduced<R> {
+        let sum = numerator_squared.plus(&denominator_squared);
+        Reduced {
+            sum_squared: sum.plus(&twice_real),
+            difference_squared: sum.minus(&twice_real),
+            frequencies,
+            numerator_squared,
+            denominator_squared,
+            twice_real,
+            imaginary,
+        }
+    }
+
+    /// `|u D0 + v N|^2`.
+    pub fn combined_squared(&self, u: &Integer, v: &Integer) -> Poly<R> {
+        let scaled = |p: &Poly<R>, c: &Integer| p.scaled(&R::from_integer(c));
+        scaled(&self.denominator_squared, &(u * u))
+            .plus(&scaled(&self.twice_real, &(u * v)))
+            .plus(&scaled(&self.numerator_squared, &(v * v)))
+    }
+}
+
+/// Polynomials without denominators, primitive together over the integers.
+pub(super) fn without_denominators<const N: usize>(lists: [Vec<RationalFunction>; N]) -> [Poly<MultiPoly>; N] {
+    let all = || lists.iter().flatten();
+    let common = all().fold(MultiPoly::one(), |l, f| {
+        let d = f.denominator();
+        l.times(&d.div_exact(&l.gcd(d)).expect("a gcd divides"))
+    });
+    let cleared =
+        |f: &RationalFunction| f.numerator().times(&common.div_exact(f.denominator()).expect("a common multiple"));
+    let lists = lists.each_ref().map(|list| list.iter().map(cleared).collect::<Vec<_>>());
+    let content = lists.iter().flatten().fold(Integer::ZERO, |g, c| g.gcd(&c.integer_content()));
+    let divided = |c: &MultiPoly| c.div_exact_integer(&content).expect("the content divides");
+    lists.map(|list| Poly::new(if content.is_zero() { list } else { list.iter().map(divided).collect() }))
+}
+
+/// Two polynomials with integer coefficients, primitive together.
+pub(crate) fn integral(a: Vec<Rational>, b: Vec<Rational>) -> (UniPoly, UniPoly) {
+    let split = a.len();
+    let all: Vec<Rational> = a.into_iter().chain(b).collect();
+    let denominator = all.iter().fold(Integer::ONE, |l, c| l.lcm(&c.denominator()));
+    let cleared = |c: &Rational| c.numerator() * denominator.div_exact(&c.denominator());
+    let mut all: Vec<Integer> = all.iter().map(cleared).collect();
+    let content = all.iter().fold(Integer::ZERO, |g, c| g.gcd(c));
+    if !content.is_zero() {
+        all = all.iter().map(|c| c.div_exact(&content)).collect();
+    }
+    let b = all.split_off(split);
+    (Poly::new(all), Poly::new(b))
+}
