@@ -70,20 +70,24 @@ export class OpenLoopPlot {
   private paintBode(svg: SVGSVGElement, width: number, height: number, data: any): void {
     const finite = (k: number) => data.response[k][0] !== null && data.response[k][1] !== null;
     const kept: number[] = data.frequency.map((_: number, k: number) => k).filter(finite);
-    const xs: Scale = { lower: data.frequency[0], upper: data.frequency.at(-1), log: true };
-    const decibels = kept.map((k) => [data.frequency[k], 20 * Math.log10(Math.hypot(data.response[k][0], data.response[k][1]))] as [number, number]).filter((p) => Number.isFinite(p[1]));
-    const phase = kept.map((k) => [data.frequency[k], data.phase_degrees[k]] as [number, number]);
+    const positive: number[] = data.frequency.filter((f: number) => f > 0);
+    const xs: Scale = { lower: positive[0]!, upper: positive.at(-1)!, log: true };
+    // Of a loop with complex coefficients negative frequencies have a curve of their own.
+    const curves = (value: (k: number) => number): [number, number][][] =>
+      [1, -1].map((sign) => kept.filter((k) => sign * data.frequency[k] > 0).map((k) => [Math.abs(data.frequency[k]), value(k)] as [number, number]).filter((p) => Number.isFinite(p[1])));
+    const decibels = curves((k) => 20 * Math.log10(Math.hypot(data.response[k][0], data.response[k][1])));
+    const phase = curves((k) => data.phase_degrees[k]);
     const room = Math.max(20, (height - ABOVE * 2 - BELOW) / 2);
     const top: Box = { ...whole(width, height), height: room };
     const bottom: Box = { ...top, top: top.top + room + ABOVE + 4 };
     const words = data.hertz ? "frequency (Hz)" : "frequency (rad/sample)";
-    const panels: [Box, [number, number][], string, string, number[]][] = [
+    const panels: [Box, [number, number][][], string, string, number[]][] = [
       [top, decibels, "gain (dB)", "", [0]],
       [bottom, phase, "phase (degrees)", words, [-180, 180]],
     ];
     for (const [box, points, name, below, levels] of panels) {
       const degrees = levels.length > 1;
-      const seen = points.map((p) => p[1]);
+      const seen = points.flat().map((p) => p[1]);
       const least = degrees ? -Infinity : Math.min(DEEP, Math.max(...seen) + DEEP / 2);
       const ys: Scale = { ...around([...seen.map((v) => Math.max(v, least)), levels[0]!]), degrees, decibels: !degrees };
       const view = axes(svg, box, xs, ys, { x: below, y: name }, levels);
@@ -94,7 +98,9 @@ export class OpenLoopPlot {
       for (const frequency of this.crossings()) {
         view.inside.append(s("line", { class: "cross", x1: view.x(frequency), x2: view.x(frequency), y1: box.top, y2: box.top + box.height }));
       }
-      view.inside.append(s("path", { class: "line c0", d: path(points, view) }));
+      for (const [k, half] of points.entries()) {
+        if (half.length > 0) view.inside.append(s("path", { class: k === 0 ? "line c0" : "line c0 mirrored", d: path(half, view) }));
+      }
     }
   }
 
@@ -103,7 +109,7 @@ export class OpenLoopPlot {
     if (!this.known("margins").now || !this.known("frequency response").now) return [];
     const { gain = [], phase = [] } = this.margins?.crossings ?? {};
     const of = (c: any) => (this.data.hertz ? c.frequency_hz : c.angle);
-    return [...gain, ...phase].map(of).filter((f: unknown): f is number => typeof f === "number");
+    return [...gain, ...phase].map(of).filter((f: unknown): f is number => typeof f === "number").map(Math.abs);
   }
 
   private paintNyquist(svg: SVGSVGElement, width: number, height: number, data: any): void {
@@ -113,9 +119,12 @@ export class OpenLoopPlot {
     const view = axes(svg, box, xs, ys, { x: "Re L", y: "Im L" });
     const { inside, x, y } = view;
     inside.append(s("circle", { class: "boundary", cx: x(0), cy: y(0), r: box.width / (xs.upper - xs.lower) }));
-    const upper: [number, number][] = data.response.filter((p: (number | null)[]) => p[0] !== null && p[1] !== null);
+    const branch = (sign: number): [number, number][] =>
+      data.response.filter((p: (number | null)[], k: number) => sign * data.frequency[k] > 0 && p[0] !== null && p[1] !== null);
+    const [upper, lower] = [branch(1), branch(-1)];
     inside.append(s("path", { class: "line c0", d: path(upper, view) }));
-    inside.append(s("path", { class: "line c0 mirrored", d: path(upper.map(([a, b]) => [a, -b] as const), view) }));
+    const mirrored = lower.length > 0 ? lower : upper.map(([a, b]): [number, number] => [a, -b]);
+    inside.append(s("path", { class: "line c0 mirrored", d: path(mirrored, view) }));
     inside.append(s("path", { class: "root", d: `M${x(-1) - 6} ${y(0)}h12m-6-6v12` }));
     inside.append(s("text", { class: "words", x: x(-1) + 6, y: y(0) - 6 }, "−1"));
   }
@@ -150,6 +159,8 @@ export class OpenLoopPlot {
     add("gain margin, upper", found.gain?.upper && `${found.gain.upper.decimal} (${found.gain.upper_db} dB)`, found.gain?.upper);
     add("gain margin, lower", found.gain?.lower && `${found.gain.lower.decimal} (${found.gain.lower_db} dB)`, found.gain?.lower);
     add("phase margin", found.phase && `${found.phase.degrees}°`, found.phase);
+    add("phase margin, lag", found.phase?.lag && `${found.phase.lag}°`, null);
+    add("phase margin, lead", found.phase?.lead && `${found.phase.lead}°`, null);
     const delay = found.delay;
     add("delay margin", delay && (delay.unbounded ? "unlimited" : delay.seconds != null ? `${delay.seconds} s` : delay.samples != null ? `${delay.at_least ? "at least " : ""}${delay.samples} samples` : null), delay);
     add("modulus margin, min |1 + L|", found.modulus?.value?.decimal, found.modulus);

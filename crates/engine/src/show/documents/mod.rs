@@ -20,6 +20,7 @@ mod body;
 mod boxes;
 mod charpoly;
 mod check;
+mod crossings;
 mod end;
 mod intervals;
 mod jury;
@@ -55,6 +56,7 @@ pub use charpoly::{
     TransferName, TransferQuotient,
 };
 pub use check::{Check, CheckName, Finding, FindingPlace, FindingSeverity};
+pub use crossings::{CrossingsFound, GainCrossingFound, PhaseCrossingFound};
 pub use end::{Bounds, End, FrequencyOfPair, PlainEnd};
 pub use intervals::{Intervals, IntervalsName, IntervalsOpen, SensitivityFound, Stable, UndecidedEnclosure};
 pub use jury::{
@@ -68,8 +70,8 @@ pub use map::{
     RegionEnd, RegionLimit, Regions, Strip, Wall,
 };
 pub use margins::{
-    ComplementaryPeak, CrossingsFound, DelayMarginFound, DiskMarginFound, GainCrossingFound, GainMargins, Margins,
-    MarginsFound, MarginsName, MarginsOpen, ModulusMargin, PhaseCrossingFound, PhaseMarginFound,
+    ComplementaryPeak, DelayMarginFound, DiskMarginFound, GainMargins, Margins, MarginsFound, MarginsName, MarginsOpen,
+    ModulusMargin, PhaseMarginFound,
 };
 pub use norm::{Norm, NormFound, NormName, NormOpen, PeakFound, PeakToPeakFound};
 pub use number::{Enclosure, Exact, Named, Number, NumberKind};
