@@ -132,6 +132,7 @@ mod certificates {
     mod prewarp;
     mod program;
     mod rates;
+    mod rates_held;
     mod readers;
     mod smt;
 }

@@ -778,15 +778,15 @@ class Loop:
                         if c and name != "":
                             turns, place = divmod(t + m * rate[0], steps)
                             lifted[name, place] = lifted.get((name, place), ZERO) + c * Z ** turns
-                equations.append(Value(lifted, equation.bottom))
+                equations.append((t, Value(lifted, equation.bottom)))
         for rate in rates:
             for name in rate[2]:
                 self.degree += not active(rate, start)
                 for t in range(steps):
                     if not active(rate, start + t):  # what it was one sample before
                         now = Value({(name, t): ONE if t else Z})
-                        equations.append(now + -Value({(name, (t - 1) % steps): ONE}))
-        self.equations = equations
+                        equations.append((t, now + -Value({(name, (t - 1) % steps): ONE})))
+        self.equations = [e for _, e in sorted(equations, key=lambda timed: timed[0])]  # neighbours share signals
         self.unknowns = [(name, t) for name in self.unknowns for t in range(steps) if active(of_states.get(name, (1, 0)), start + t)]
 
     def block(self, block, signals):
@@ -1379,6 +1379,142 @@ def expanded(rows):
         allow(len(minors) <= 20_000 and terms <= 400_000, "a loop with symbols is too large for the check")
     return next(iter(minors.values()), ZERO)
 
+class Enclosed:
+    """Determinants of numbers that are enclosed: pairs of a middle and a radius, in units of 2^-bits."""
+
+    def __init__(self, bits):
+        self.bits = bits
+
+    def times(self, f, g):
+        (a, r), (b, s) = f, g
+        return a * b >> self.bits, (-(-(abs(a) * s + (abs(b) + s) * r) >> self.bits)) + 1 if r or s else int(bool(a and b))
+
+    def shifted(self, f, left):
+        return (f[0] << left, f[1] << left) if left >= 0 else (f[0] >> -left, (f[1] >> -left) + 2 if f[1] or f[0] else 0)
+
+    def balanced(self, numbers, bits=None):
+        """All times a power of two, so that the longest has all bits; and by how much they were shifted."""
+        longest = max((abs(m) + r for m, r in numbers), default=0).bit_length()
+        left = (self.bits if bits is None else bits) - longest if longest else 0
+        return [self.shifted(f, left) for f in numbers], left
+
+    def inverse(self, f):
+        m, r = f  # |1/x - 1/m| <= r/(|m| (|m| - r))
+        return (1 << 2 * self.bits) // m, (r << 2 * self.bits) // (abs(m) * (abs(m) - r)) + 2
+
+    def determinant(self, rows):
+        """By elimination, with the exponent of a power of two by which it is multiplied; None where a pivot may be zero."""
+        rows, product, exponent, taken, n = dict(enumerate(rows)), (1 << self.bits, 0), 0, [], len(rows)
+        while rows:
+            order = sorted(rows, key=lambda r: len(rows[r]))  # the shortest row fills up least
+            if not rows[order[0]]:
+                return (0, 0), 0
+            for r in order:
+                column = max((c for c, (m, e) in rows[r].items() if abs(m) > e), key=lambda c: abs(rows[r][c][0]), default=None)
+                if column is not None:
+                    break
+            else:
+                if n > len(taken) + 1:
+                    return None
+                [r] = rows  # nothing is divided by the last one
+                column = next(iter(rows[r]))
+            row = rows.pop(r)
+            pivot = row.pop(column)
+            taken.append((r, column))
+            [product], left = self.balanced([self.times(product, pivot)])
+            exponent -= left
+            below = [other for other in rows.values() if column in other]
+            if not below:
+                continue
+            inverse = self.inverse(pivot)
+            spend((1 + len(below)) * len(row), self.bits, self.bits)
+            shares = [(c, self.times(f, inverse)) for c, f in row.items()]
+            for other in below:
+                factor = other.pop(column)
+                for c, share in shares:
+                    (m, e), (x, d) = other.get(c, (0, 0)), self.times(factor, share)
+                    other[c] = m - x, e + d
+        columns = [column for _, column in sorted(taken)]
+        for i in range(n):  # a permutation that is odd changes the sign
+            while columns[i] != i:
+                k = columns[i]
+                columns[i], columns[k], product = columns[k], k, (-product[0], product[1])
+        return product, exponent
+
+    def interpolated(self, nodes, values):
+        """From lists of values, each with its exponent, the lists of coefficients one after the other, with one exponent."""
+        def length(numbers):
+            return max(abs(m) + r for m, r in numbers).bit_length()
+
+        most = max((length(numbers) + exponent for numbers, exponent in values if length(numbers)), default=0) - self.bits
+        lists = [[self.shifted(f, exponent - most) if length(numbers) else f for f in numbers] for numbers, exponent in values]
+        out = [[] for _ in nodes]
+        spend(len(nodes) ** 2 * len(lists[0]), self.bits, 64)
+        for d in map(list, zip(*lists)):
+            for step in range(1, len(d)):
+                for i in range(len(d) - 1, step - 1, -1):
+                    (a, r), (b, s), gap = d[i], d[i - 1], nodes[i] - nodes[i - step]
+                    d[i] = (a - b) // gap, (r + s) // abs(gap) + 2 if r or s or a != b else 0
+            p = []
+            for (a, r), x in zip(d[::-1], nodes[::-1]):  # p (t - x) + d
+                p = [(a, r), *p]
+                for i in range(1, len(p)):
+                    p[i - 1] = p[i - 1][0] - x * p[i][0], p[i - 1][1] + abs(x) * p[i][1]
+            for list_, c in zip(out, p):
+                list_.append(c)
+        return [c for list_ in out for c in list_], most
+
+    def coefficients(self, rows, degree, known, asked, bits):
+        """Of z^k x^i y^j in the determinant, with so many of the variables from 2 on left and the values of the others; all times one number."""
+        entries = []
+        for row in rows:
+            out = {}
+            for column, p in enumerate(row):
+                for e, c in p.items():
+                    powers = [e >> FIELD * v & MASK if v < 2 + asked else 0 for v in (0, 2, 3)]
+                    term, e = (c << self.bits, 0), e >> FIELD * (2 + asked)
+                    for f in known[asked:]:
+                        for _ in range(e & MASK):
+                            spend(2, self.bits, size([term[0]]))
+                            term = self.times(term, f)
+                        e >>= FIELD
+                    old = out.setdefault(column, {}).get(tuple(powers), (0, 0))
+                    out[column][tuple(powers)] = old[0] + term[0], old[1] + term[1]
+            places = [(column, powers) for column in out for powers in out[column]]
+            for (column, powers), f in zip(places, self.balanced([out[column][powers] for column, powers in places])[0]):
+                out[column][powers] = f
+            entries.append(out)
+        counts = [degree + 1]
+        for v in (1, 2):
+            sizes = [{column: max(powers[v] for powers in e) for column, e in row.items()} for row in entries]
+            columns = [max((row.get(column, 0) for row in sizes), default=0) for column in range(len(rows))]
+            counts.append(1 + min(sum(max(row.values(), default=0) for row in sizes), sum(columns)))
+        allow(prod(counts) <= 800, "a determinant by enclosures has too many values")
+
+        def at(x, y):
+            nodes, values = [], []
+            for z in (sign * k for k in range(2, degree + 12) for sign in (1, -1)):  # usual roots are at none of them
+                if len(nodes) > degree:
+                    break
+                numbers = []
+                for row in entries:
+                    spend(sum(map(len, row.values())), self.bits, 64)
+                    powers = {c: [(f, z ** k * x ** i * y ** j) for (k, i, j), f in e.items()] for c, e in row.items()}
+                    sums = {c: (sum(f[0] * q for f, q in terms), sum(f[1] * abs(q) for f, q in terms)) for c, terms in powers.items()}
+                    numbers.append({c: f for c, f in sums.items() if f != (0, 0)})
+                found = self.determinant(numbers)
+                if found:
+                    nodes.append(z)
+                    values.append(([found[0]], found[1]))
+            need(len(nodes) > degree, "a determinant by enclosures is not told from zero")
+            return self.interpolated(nodes, values)
+
+        x_nodes, y_nodes = ([k // 2 + 1 if k % 2 else -k // 2 for k in range(count)] for count in counts[1:])
+        planes = [self.interpolated(x_nodes, [at(x, y) for x in x_nodes]) for y in y_nodes]
+        found, _ = self.balanced(self.interpolated(y_nodes, planes)[0], bits)
+        powers = [(k, i, j) for j in range(counts[2]) for i in range(counts[1]) for k in range(counts[0])]
+        return dict(zip(powers, found))
+
 def loop_of(text, kept, values, boxed=(), symbols=None):
     """The model, its loop with the parameters of a box behind those that have values, and these values."""
     model = Model(text)
@@ -1864,9 +2000,9 @@ def follow(tree, whole):
             need(all(c > off for c in product), "a leaf is not on one side")
     need(at == len(tree), "something follows a tree")
 
-def over_box(text, names, values, symbols=None):
+def over_box(text, names, values, symbols=None, enclosed=None):
     """The coefficients in the parameters of a box, which are the variables from 2 on, and lists of polynomials at whose common zeros
-    the loop is undefined."""
+    the loop is undefined.  By enclosures, over sides of a window and with a number of bits, each number in a coefficient is a variable of its own."""
     model, loop, values = loop_of(text, None, values, names, symbols)
     moving = loop.moving
     if moving:
@@ -1881,6 +2017,17 @@ def over_box(text, names, values, symbols=None):
         [equation], [name] = loop.equations, loop.unknowns
         d, below = cleared([equation.tops.get(name, ZERO).at(values), equation.bottom.at(values)])
         divisors.append([below])
+    elif enclosed:
+        sides, bits = enclosed
+        rows = [cleared([e.tops.get(name, ZERO).at(values) for name in loop.unknowns]) for e in loop.equations]
+        models, first = Models(1, 2 * bits + 128), moving.next - len(values)
+        known = moving.values([models.coordinate(*side, i) for i, side in enumerate(sides)], models)
+        known = [(f[0][0], beside_constant(f)) for f in known]
+        asked = sum(low != high for low, high in sides)
+        found = Enclosed(models.bits).coefficients(rows, loop.degree, known, asked, bits)
+        moving.sources.append(("numbers", list(found.values())))
+        d = sum((P({k | (i << 2 * FIELD | j << 3 * FIELD if sides else 0) | 1 << FIELD * (first + v): 1})
+                 for v, (k, i, j) in enumerate(found)), ZERO)
     else:
         d = system(loop.equations, loop.unknowns)
         need(d.degree(0) <= loop.degree, "a determinant has too high a degree")
@@ -2522,6 +2669,9 @@ class Moving:
             return models.quotient(top, bottom)
 
         for name, *of in self.sources:
+            if name == "numbers":  # of which enclosures are all that is known
+                known += [models.units(*f) for f in of[0]]
+                continue
             if name == "hold":
                 a, time, share, first_order = of
                 known += self.matrices([[over(f) for f in row] for row in a], over(time), share, first_order, models)
@@ -3247,10 +3397,11 @@ def check_boxes(model, document, statement, values, discrete, extent):
     is_line = sides[1][0] == sides[1][1]  # one parameter alone is asked about
     need(sides[0][0] < sides[0][1] and sides[1][0] <= sides[1][1], "the window is empty")
     sources, models = Moving(), Models(order, bits)
-    is_discrete, own, divisors = over_box(model, names, values, sources)
+    enclosed = (sides, bits) if has_several_rates(model) else None
+    is_discrete, own, divisors = over_box(model, names, values, sources, enclosed)
     need(is_discrete == discrete, "the model's time is another")
     has_delay = any(name == "delay" for name, *_ in sources.sources)
-    common = in_common(own, 4 if has_delay else 1 << FIELD)
+    common = ONE if enclosed else in_common(own, 4 if has_delay else 1 << FIELD)
     if any(common):  # where it vanishes, all coefficients do; the last divisor has a meaning of its own
         own, divisors = [c / common if c else c for c in own], [[common], *divisors]
     if has_delay:
@@ -3845,8 +3996,8 @@ def read(certificate):
     need(isinstance(document, dict) and document.get("schema") in SCHEMAS, "unknown schema")
     return document
 
-SCHEMAS = [f"jurist/certificate/{version}" for version in range(1, 9)]
-RATIONAL, WITH_SYMBOLS, WITH_DEAD_TIME, OF_BOXES, OF_MAPS, OF_CELLS, OF_MAPS_BY_BOXES, OF_BOXES_WITH_SYMBOLS = SCHEMAS
+SCHEMAS = [f"jurist/certificate/{version}" for version in range(1, 10)]
+RATIONAL, WITH_SYMBOLS, WITH_DEAD_TIME, OF_BOXES, OF_MAPS, OF_CELLS, OF_MAPS_BY_BOXES, OF_BOXES_WITH_SYMBOLS, BY_ENCLOSURES = SCHEMAS
 FURTHER = ["bits", "symbols", "modes"]
 
 def table_of(document):
@@ -3857,10 +4008,9 @@ def table_of(document):
 
 # ---------------------------------------------------------------- the check
 
-def several_rates(model):
-    """The blocks of a model."""
+def has_several_rates(model):
     blocks = Model(model).root.get("block", [])
-    return blocks if isinstance(blocks, list) else []
+    return isinstance(blocks, list) and any(type(block) is dict and str(block.get("every", 1)) != "1" for block in blocks)
 
 def check(model, certificate):
     """The proved statement as a sentence; raises an exception if it is not proved."""
@@ -3868,7 +4018,7 @@ def check(model, certificate):
     statement = document["statement"]
     kind, time, values, region = (statement[key] for key in ("kind", "time", "set", "region"))
     kinds = {OF_BOXES: ["tolerance"], OF_MAPS: ["map"], OF_CELLS: ["cells", "verdict"], OF_MAPS_BY_BOXES: ["boxes"],
-             OF_BOXES_WITH_SYMBOLS: ["tolerance"]}
+             OF_BOXES_WITH_SYMBOLS: ["tolerance"], BY_ENCLOSURES: ["verdict"]}
     need(kind in kinds.get(document["schema"], ["intervals", "verdict"]), "unknown kind of statement")
     need(time in ("discrete", "continuous"), "unknown time")
     discrete = time == "discrete"
@@ -3876,8 +4026,8 @@ def check(model, certificate):
     [extent] = parts(region, ["radius" if discrete else "decay"])
     extent = "parameter" if extent == "parameter" else rational(extent)
     need(not discrete or extent == "parameter" or extent > 0, "the radius is not positive")
-    if any(type(block) is dict and str(block.get("every", 1)) != "1" for block in several_rates(model)):
-        need(extent == 1 and document["schema"] not in (*kinds, WITH_DEAD_TIME, WITH_SYMBOLS),
+    if has_several_rates(model):
+        need(extent == 1 and document["schema"] in (RATIONAL, WITH_SYMBOLS, OF_MAPS_BY_BOXES, BY_ENCLOSURES),
              "a loop of several rates has certificates of stability without further wishes alone")
     if kind == "tolerance":
         return check_tolerance(model, document, statement, values, discrete, extent)
@@ -4018,12 +4168,31 @@ def walk(d, n, discrete, certain, identity, factors, line, low, high, ring):
         before, was_stable = after, stable
     return found
 
+def places_by_enclosures(model, values, extent, bits):
+    """The degree, and how many roots are inside and outside; none is on the boundary, and none at infinity."""
+    sources, models = Moving(), Models(1, bits)
+    is_discrete, d, divisors = over_box(model, [], values, sources, ([], bits))
+    need(is_discrete and not any(name == "delay" for name, *_ in sources.sources), "the model's time is another")
+    known = sources.values([], models)
+
+    def number(p):
+        f = sources.at(p, known, models)
+        return f[0][0] - beside_constant(f), f[0][0] + beside_constant(f)
+
+    need(all(any(0 < low or high < 0 for low, high in map(number, ways)) for ways in divisors), "a divisor is not shown to be other than zero")
+    inside = OverSymbols(Table(bits)).inside([number(c) for c in in_region(d, True, extent)], False)
+    return len(d) - 1, inside, len(d) - 1 - inside
+
 def check_verdict(model, document, statement, values, discrete, extent):
+    if document["schema"] == BY_ENCLOSURES:
+        _, _, bits = parts(document, ["schema", "statement", "bits"], ["model"])
+        need(64 <= count(bits) <= 1024, "bits: out of range")
+        need(extent != "parameter" and discrete, "the region has no parameter here, or the time is continuous")
+        n, inside, outside = places_by_enclosures(model, values, extent, bits)
+        return said_of_verdict(statement, values, discrete, extent, ["unstable" if outside else "stable", n, inside, 0, outside, 0])
     symbols, further = table_of(document)
     ring = OverSymbols(symbols) if symbols else Exact()
     _, _, characteristic, *_ = parts(document, ["schema", "statement", "characteristic"] + further, ["model"])
-    names = ["verdict", "degree", "inside", "on", "outside", "infinite"]
-    name, *counts = parts(statement, names, ["kind", "time", "set", "region"])
     need(extent != "parameter", "the region has no parameter here")
     is_discrete, n, d, poles = characteristic_polynomial(model, None, values, symbols)
     need(is_discrete == discrete, "the model's time is another")
@@ -4035,7 +4204,12 @@ def check_verdict(model, document, statement, values, discrete, extent):
         inside, on, outside = places(p, discrete) if p else (0, 0, 0)
     infinite = n - (inside + on + outside) if all(poles) else 0
     found = "unstable" if outside + infinite or not p else "marginal" if on else "stable"
-    found = [found if all(poles) else "undefined", n, inside, on, outside, infinite]
+    return said_of_verdict(statement, values, discrete, extent, [found if all(poles) else "undefined", n, inside, on, outside, infinite])
+
+def said_of_verdict(statement, values, discrete, extent, found):
+    """The sentence, if the statement is what was found."""
+    names = ["verdict", "degree", "inside", "on", "outside", "infinite"]
+    name, *counts = parts(statement, names, ["kind", "time", "set", "region"])
     need([name, *map(count, counts)] == found, f"stable: it is {dict(zip(names, found))}")
     at = f"At {at_values(values)}, the" if values else "The"
     if name == "undefined":

@@ -128,8 +128,8 @@ fn every_example_is_certified() {
         let model = std::fs::read_to_string(&file).unwrap();
         let lp = read(&model);
         if lp.hyperperiod() > 1 {
-            let refused = lp.ask().verdict(&Budget::unlimited()).unwrap().certificate(&Budget::unlimited());
-            assert!(refused.unwrap_err().to_string().contains("several rates"));
+            // Their sets are proved by boxes.
+            checkers::certified_verdict_of(lp.ask());
             continue;
         }
         if model.contains("frame = ") {

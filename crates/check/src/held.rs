@@ -71,7 +71,7 @@ pub(super) fn places(d: &[Over], poles: &[Over], table: &Table, clock: &Clock) -
     let enclosed =
         |c: &Over| Ok(table.enclosed(&c.polynomial, clock)?.into_iter().next().unwrap_or_else(Interval::zero));
     let n = d.len() - 1;
-    places.inside = inside(d.iter().map(enclosed).collect::<Result<_, String>>()?, false, table, clock)?;
+    places.inside = inside(d.iter().map(enclosed).collect::<Result<_, String>>()?, false, table.bits, clock)?;
     places.outside = n - places.inside;
     Ok(places)
 }

@@ -10,6 +10,7 @@
 mod bernstein;
 mod blocks;
 mod boxes;
+mod by_enclosures;
 mod characteristic;
 mod clock;
 mod coefficient;
@@ -19,6 +20,7 @@ mod declarations;
 mod descartes;
 mod determinant;
 mod digest;
+mod enclosed;
 mod exponentials;
 mod expression;
 pub mod format;
@@ -62,7 +64,7 @@ pub use report::{Names, report};
 
 use clock::{Clock, out_of_time};
 use format::{
-    Json, SCHEMA, SCHEMA_OF_BOXES, SCHEMA_OF_BOXES_WITH_SYMBOLS, SCHEMA_OF_CELLS, SCHEMA_OF_MAPS,
+    Json, SCHEMA, SCHEMA_BY_ENCLOSURES, SCHEMA_OF_BOXES, SCHEMA_OF_BOXES_WITH_SYMBOLS, SCHEMA_OF_CELLS, SCHEMA_OF_MAPS,
     SCHEMA_OF_MAPS_BY_BOXES, SCHEMA_WITH_DEAD_TIME, SCHEMA_WITH_SYMBOLS,
 };
 use num_traits::Zero;
@@ -309,6 +311,7 @@ fn by_kind(model: &str, certificate: &str, clock: Clock) -> Result<Proved, Rejec
         SCHEMA_OF_CELLS,
         SCHEMA_OF_MAPS_BY_BOXES,
         SCHEMA_OF_BOXES_WITH_SYMBOLS,
+        SCHEMA_BY_ENCLOSURES,
     ];
     if !known.contains(&schema) {
         let [rest @ .., last] = known.map(|name| format!("'{name}'"));
@@ -318,10 +321,11 @@ fn by_kind(model: &str, certificate: &str, clock: Clock) -> Result<Proved, Rejec
     let statement =
         Step::Format.of(json.get("statement").ok_or_else(|| "the certificate has no 'statement'".into()))?;
     let kind = Step::Statement.of(statement.get("kind").ok_or_else(|| "the statement has no 'kind'".into()))?;
-    // Of loops with several rates the unit disc is what is proved of, over polynomials with rational coefficients.
+    // Of loops with several rates the unit disc is what is proved of.
     if toml::read(model).is_ok_and(|model| blocks::has_several_rates(&model)) {
         let region = statement.get("region").and_then(|region| region.get("radius"));
-        if schema != SCHEMA || !matches!(region, Some(Json::Text(one)) if one == "1") {
+        let of_rates = [SCHEMA, SCHEMA_WITH_SYMBOLS, SCHEMA_OF_MAPS_BY_BOXES, SCHEMA_BY_ENCLOSURES];
+        if !of_rates.contains(&schema) || !matches!(region, Some(Json::Text(one)) if one == "1") {
             let reason = "a loop of several rates has certificates of stability without further wishes alone".into();
             return Err(Rejection { step: Step::Model, reason });
         }
@@ -338,7 +342,9 @@ fn by_kind(model: &str, certificate: &str, clock: Clock) -> Result<Proved, Rejec
         "intervals" if [SCHEMA, SCHEMA_WITH_SYMBOLS].contains(&schema) => {
             check_intervals(model, &json, statement, &clock)
         }
-        "verdict" if [SCHEMA, SCHEMA_WITH_SYMBOLS].contains(&schema) => verdict::check(model, &json, statement, &clock),
+        "verdict" if [SCHEMA, SCHEMA_WITH_SYMBOLS, SCHEMA_BY_ENCLOSURES].contains(&schema) => {
+            verdict::check(model, &json, statement, &clock)
+        }
         other => {
             let reason = format!("unknown kind of statement '{}'", shorten(other));
             Err(Rejection { step: Step::Statement, reason })

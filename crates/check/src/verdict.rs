@@ -6,16 +6,35 @@ use super::roots::{Places, is_hurwitz, is_schur, places_by_axis, places_by_circl
 use super::statement::{self, End, Extent, count, fixed_extent, list, object, polynomial, polynomials, text, values};
 use super::univariate::Uni;
 use super::words::{exact, shared_digits, with_decimal};
-use super::{Proved, Rejection, Step, further_keys, held, is_discrete, model, region, same_characteristic, table};
-use crate::format::Json;
+use super::{
+    Proved, Rejection, Step, by_enclosures, further_keys, held, is_discrete, model, region, same_characteristic, table,
+};
+use crate::format::{Json, SCHEMA_BY_ENCLOSURES};
 use num_traits::Zero;
 use std::fmt::Write;
 
+/// What shows a verdict.
+enum Shown<'j> {
+    /// The characteristic polynomial.
+    Polynomial(&'j Json),
+    /// Enclosures with so many bits.
+    Enclosures(usize),
+}
+
 pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -> Result<Proved, Rejection> {
     let table = table(json)?;
-    let parts = ["schema", "statement", "characteristic"];
-    let [_, _, characteristic] =
-        Step::Format.of(object(json, "the certificate", parts, further_keys(table.as_ref())))?;
+    let shown = Step::Format.of((|| {
+        if json.get("schema") == Some(&Json::Text(SCHEMA_BY_ENCLOSURES.into())) {
+            let [_, _, bits] = object(json, "the certificate", ["schema", "statement", "bits"], &["model"])?;
+            return match count(bits, "'bits'")? {
+                bits @ 64..=1024 => Ok(Shown::Enclosures(bits)),
+                _ => Err("'bits' is not from 64 to 1024".to_owned()),
+            };
+        }
+        let parts = ["schema", "statement", "characteristic"];
+        let [_, _, polynomial] = object(json, "the certificate", parts, further_keys(table.as_ref()))?;
+        Ok(Shown::Polynomial(polynomial))
+    })())?;
     let keys = ["kind", "time", "set", "region", "verdict", "degree", "inside", "on", "outside", "infinite"];
     let [_, time, set, region, verdict, degree, inside, on, outside, infinite] =
         Step::Statement.of(object(statement, "the statement", keys, &[]))?;
@@ -32,13 +51,17 @@ pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -
             count(infinite, "'infinite'")?,
         ])
     })())?;
-    let (degree, name, places, infinite) = match &table {
-        None => rational(model, discrete, &set, &extent, characteristic, clock)?,
-        Some(_) if !discrete => {
+    let (degree, name, places, infinite) = match (shown, &table) {
+        (Shown::Polynomial(characteristic), None) => rational(model, discrete, &set, &extent, characteristic, clock)?,
+        (Shown::Enclosures(_), _) | (_, Some(_)) if !discrete => {
             let reason = "the model's time is not that of the statement".into();
             return Err(Rejection { step: Step::Model, reason });
         }
-        Some(table) => {
+        (Shown::Enclosures(bits), _) => {
+            let (degree, places) = by_enclosures::places(model, &set, &extent, bits, clock)?;
+            (degree, named(&places, 0), places, 0)
+        }
+        (Shown::Polynomial(characteristic), Some(table)) => {
             let (d, poles) = held::characteristic(model, None, &set, &extent, characteristic, table, clock)?;
             let places = Step::Stable.of(held::places(&d, &poles, table, clock))?;
             (d.len() - 1, named(&places, 0), places, 0)

@@ -5,7 +5,7 @@ use super::line::{Line, Separator};
 use super::refuse_transcendental;
 use super::statement::{self, boundary, number, object};
 use super::text::to_text;
-use super::{dead_time, gain, held};
+use super::{dead_time, enclosed, gain, held};
 use crate::answer::{Answer, PointVerdict};
 use crate::error::Error;
 use crate::stability::{ParametricPolynomial, Shape, StableSet};
@@ -43,6 +43,9 @@ impl Answer<StableSet> {
             let problem = self.problem();
             problem.refuse_written_complex()?;
             statement::of_rates(problem)?;
+            if problem.model().hyperperiod() > 1 && statement::has_held_plant(problem) {
+                return held::of_few_samples(self, budget);
+            }
             if let Some(delayed) = problem.delayed(budget)? {
                 return dead_time::of_set(self, delayed, budget);
             }
@@ -87,6 +90,9 @@ impl Answer<PointVerdict> {
             let (problem, verdict) = (self.problem(), self.value());
             problem.refuse_written_complex()?;
             statement::of_rates(problem)?;
+            if enclosed::is_enclosed(problem, budget)? {
+                return enclosed::of_verdict(self);
+            }
             if let Some(delayed) = problem.delayed(budget)? {
                 return gain::of_verdict(self, delayed);
             }

@@ -5,7 +5,7 @@ mod line;
 use super::cofactors::{Identity, of_half_size_pair};
 use super::no_certificate;
 use super::over_symbols::{Enclosed, coprime_basis};
-use super::statement::{self, about, boundary, number, object};
+use super::statement::{self, about_at_rates, boundary, number, object};
 use super::text::to_text;
 use crate::answer::{Answer, PointVerdict};
 use crate::error::Error;
@@ -64,6 +64,36 @@ pub(super) fn is_held(problem: &Problem, budget: &Budget) -> Result<bool, Error>
         };
     }
     Ok(true)
+}
+
+/// Polynomials over the constants of holds are looked at over so many samples. The drive with its speed controller at each third sample has a
+/// certificate of 6 MB.
+const MOST_SAMPLES: u64 = 2;
+
+/// So much work is done for them.
+const WORK_OF_SAMPLES: u64 = 1_000_000_000;
+
+/// Longer certificates are more than the checkers take.
+const MOST_BYTES: usize = 1 << 22;
+
+/// The certificate of a stable set at several rates, where it is short. Boxes are the other way.
+pub(super) fn of_few_samples(answer: &Answer<StableSet>, budget: &Budget) -> Result<String, Error> {
+    let is_long =
+        || no_certificate("no certificate: polynomials over the constants of a hold are long at several rates");
+    if answer.problem().model().hyperperiod() > MOST_SAMPLES {
+        return Err(is_long());
+    }
+    let share = budget.clone().within_work(WORK_OF_SAMPLES);
+    let found = match is_held(answer.problem(), &share) {
+        Ok(true) => of_set(answer, &share),
+        Ok(false) => Err(no_certificate("no certificate: the constants of holds cancel at these values")),
+        Err(stopped) => Err(stopped),
+    };
+    match found {
+        Ok(text) if text.len() > MOST_BYTES => Err(is_long()),
+        Err(Error::Stopped(_)) if budget.check().is_ok() => Err(is_long()),
+        other => other,
+    }
 }
 
 /// What the line is made of.
@@ -184,7 +214,7 @@ fn certificate<const N: usize>(
 ) -> Result<String, Error> {
     let mut certificate = object([
         ("schema", SCHEMA.into()),
-        ("model", about(problem)?),
+        ("model", about_at_rates(problem)?),
         ("statement", statement),
         ("bits", (bits + SPARE_BITS).min(MOST_OF_CHECKERS).into()),
         ("symbols", definitions(symbols)?),

@@ -1,6 +1,6 @@
 //! Certificates of maps by boxes: the statement around a tree of boxes.
 
-use super::statement::{about, number, object, region, set};
+use super::statement::{about_at_rates, number, object, region, set};
 use super::text::to_text;
 use super::{no_certificate, refuse_requirements};
 use crate::error::Error;
@@ -59,7 +59,7 @@ impl Problem {
         ]);
         Ok(to_text(&object([
             ("schema", SCHEMA.into()),
-            ("model", about(self)?),
+            ("model", about_at_rates(self)?),
             ("statement", statement),
             ("order", order.into()),
             ("bits", bits.into()),

@@ -6,6 +6,7 @@ mod coq;
 mod dead_time;
 mod digest;
 mod emit;
+mod enclosed;
 mod gain;
 mod held;
 mod line;
