@@ -70,9 +70,9 @@ mod loops {
 mod complex {
     mod frames;
     mod laws;
-    mod oracle;
+    pub(crate) mod oracle;
     mod random;
-    mod table;
+    pub(crate) mod table;
 }
 
 /// Models with their expected answers in words, asked of every engine.
@@ -119,6 +119,7 @@ mod certificates {
     mod boxes;
     mod boxes_held;
     mod check;
+    mod complex;
     mod coq;
     mod dead_time;
     mod gain;

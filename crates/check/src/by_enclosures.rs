@@ -40,6 +40,7 @@ pub(super) fn places(
         let d = d.iter().map(|c| Ok(number(c)?.range())).collect::<Result<Vec<_>, String>>()?;
         let degree = d.len() - 1;
         let inside = inside(d, false, bits, clock)?;
-        Ok((degree, Places { inside, on: 0, outside: degree - inside }))
+        let places = Places { inside, on: 0, outside: degree - inside };
+        if own.is_doubled { Ok((degree / 2, places.halved()?)) } else { Ok((degree, places)) }
     })())
 }

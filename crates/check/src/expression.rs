@@ -14,6 +14,9 @@ pub(super) const MAX_NESTING: usize = 200;
 /// Exponents may be this large.
 const MAX_POWER: i64 = 1000;
 
+/// The name of the imaginary unit.
+pub(super) const UNIT: &str = "j";
+
 /// The dead time of which all others are whole multiples.
 #[derive(Clone, Copy)]
 pub(super) enum Base<'q> {
@@ -40,6 +43,8 @@ const MAX_MULTIPLE: u32 = 256;
 pub(super) struct Scope<'c> {
     /// Where it is read.
     pub dead_time: Option<DeadTime>,
+    /// The variable that is the imaginary unit, where the name has no other meaning.
+    pub unit: Option<usize>,
     /// Functions and holds, where they are read as further variables.
     pub moving: Option<Moving>,
     /// Values of constants.
@@ -79,6 +84,7 @@ impl<'c> Scope<'c> {
     pub fn new(parameters: BTreeMap<String, usize>, clock: &'c Clock) -> Self {
         Scope {
             dead_time: None,
+            unit: None,
             moving: None,
             constants: BTreeMap::new(),
             matrices: BTreeMap::new(),
@@ -114,6 +120,7 @@ impl<'c> Scope<'c> {
     /// The power of the variable of dead time for `tau` times a power of the loop's variable.
     pub fn delayed(&self, tau: &Fraction, power: usize) -> Result<Fraction, String> {
         let of = self.dead_time.as_ref().ok_or("there is no dead time here")?;
+        self.real(tau.clone())?;
         let top = tau.numerator.specialised(1, &of.values, self.clock)?;
         let bottom = tau.whole_denominator(self.clock)?.specialised(1, &of.values, self.clock)?;
         let (mut coefficient, mut divisor) = (Q::zero(), Q::zero());
@@ -147,6 +154,68 @@ impl<'c> Scope<'c> {
             }
             _ => Err(format!("the exponent '{}' is no dead time times s", shorten(text))),
         }
+    }
+
+    /// With `j^2 = -1`.
+    fn short(&self, f: Fraction) -> Result<Fraction, String> {
+        match self.unit {
+            Some(unit) => f.with_unit(unit, self.clock),
+            None => Ok(f),
+        }
+    }
+
+    /// Refuses what has an imaginary unit.
+    pub fn real(&self, f: Fraction) -> Result<Fraction, String> {
+        match self.unit {
+            Some(unit) if !f.is_real(unit) => Err("what has to be real is complex".into()),
+            _ => Ok(f),
+        }
+    }
+
+    /// `exp(j angle)`.
+    pub fn rotation(&mut self, angle: &Fraction) -> Result<Fraction, String> {
+        let one = Fraction::number(&Q::one());
+        if angle.numerator.is_zero() {
+            return Ok(one);
+        }
+        let unit = self.unit.ok_or("'j' has another meaning here")?;
+        let moving = self.moving.as_mut().ok_or("cosines and sines of a frame are read by enclosures alone")?;
+        let [cosine, sine] = [Function::Cosine, Function::Sine].map(|f| moving.of(f, angle.clone()));
+        cosine?.plus(&sine?.times(&Fraction::variable(unit), self.clock)?, self.clock)
+    }
+
+    /// `conj(f)`, `re(f)` or `im(f)`.
+    fn of_complex(&self, name: &str, f: &Fraction) -> Result<Fraction, String> {
+        if f.numerator.degree(0) > 0 || f.denominator.degree(0) > 0 {
+            return Err("a function of the loop's variable".into());
+        }
+        let Some(unit) = self.unit else {
+            return Ok(if name == "im" { Fraction::number(&Q::zero()) } else { f.clone() });
+        };
+        let [re, im] = f.parts(unit, self.clock)?;
+        Ok(match name {
+            "conj" => f.conjugate(unit, self.clock)?,
+            "re" => re,
+            _ => im,
+        })
+    }
+
+    /// A function that is read as a variable; of a complex argument `exp` alone.
+    fn of_function(&mut self, function: Function, f: Fraction) -> Result<Fraction, String> {
+        if let (Some(unit), Function::Exponential) = (self.unit, function)
+            && !f.is_real(unit)
+            && f.numerator.degree(0) == 0
+            && f.denominator.degree(0) == 0
+        {
+            let [re, im] = f.parts(unit, self.clock)?;
+            let turn = self.rotation(&im)?;
+            if re.numerator.is_zero() {
+                return Ok(turn);
+            }
+            return self.of_function(function, re)?.times(&turn, self.clock);
+        }
+        let f = self.real(f)?;
+        self.moving.as_mut().ok_or("internal: no functions are read")?.of(function, f)
     }
 
     fn evaluate(&mut self, text: &str, names: Names<'_>) -> Result<Linear, String> {
@@ -276,10 +345,10 @@ impl<'t> Parser<'_, '_, 't> {
             if minus {
                 term = negated(term);
             }
-            sum.constant = sum.constant.plus(&term.constant, self.scope.clock)?;
+            sum.constant = self.scope.short(sum.constant.plus(&term.constant, self.scope.clock)?)?;
             for (i, c) in term.signals {
                 let joined = match sum.signals.remove(&i) {
-                    Some(old) => old.plus(&c, self.scope.clock)?,
+                    Some(old) => self.scope.short(old.plus(&c, self.scope.clock)?)?,
                     None => c,
                 };
                 sum.signals.insert(i, joined);
@@ -308,9 +377,9 @@ impl<'t> Parser<'_, '_, 't> {
                 (true, _) => (factor, product.constant),
                 (false, true) => (product, factor.constant),
             };
-            signals.constant = signals.constant.times(&scale, self.scope.clock)?;
+            signals.constant = self.scope.short(signals.constant.times(&scale, self.scope.clock)?)?;
             for c in signals.signals.values_mut() {
-                *c = c.times(&scale, self.scope.clock)?;
+                *c = self.scope.short(c.times(&scale, self.scope.clock)?)?;
             }
             product = signals;
         }
@@ -341,7 +410,7 @@ impl<'t> Parser<'_, '_, 't> {
             return if e == 1 { Ok(base) } else { Err("a power of a signal".into()) };
         }
         let value = if e < 0 { self.scope.inverse(&base.constant, self.names)? } else { base.constant };
-        let constant = value.power(e.unsigned_abs() as u32, self.scope.clock)?;
+        let constant = self.scope.short(value.power(e.unsigned_abs() as u32, self.scope.clock)?)?;
         Ok(Linear { constant, signals: BTreeMap::new() })
     }
 
@@ -387,8 +456,17 @@ impl<'t> Parser<'_, '_, 't> {
             if !argument.signals.is_empty() {
                 return Err("a function of a signal".into());
             }
-            let moving = self.scope.moving.as_mut().ok_or("internal: no functions are read")?;
-            return Ok(plain(moving.of(function, argument.constant)?));
+            return Ok(plain(self.scope.of_function(function, argument.constant)?));
+        }
+        if matches!(name, "conj" | "re" | "im") && !is_known && self.eat('(') {
+            let argument = self.nested(Self::sum)?;
+            if !self.eat(')') {
+                return Err("')' is missing".into());
+            }
+            if !argument.signals.is_empty() {
+                return Err("a function of a signal".into());
+            }
+            return Ok(plain(self.scope.of_complex(name, &argument.constant)?));
         }
         if let Names::Signals(signals) = self.names
             && let Some(&i) = signals.get(name)
@@ -401,6 +479,9 @@ impl<'t> Parser<'_, '_, 't> {
         }
         if let ("pi", false, Some(moving)) = (name, is_known, self.scope.moving.as_mut()) {
             return Ok(plain(moving.pi()));
+        }
+        if let (UNIT, false, Some(unit)) = (name, is_known, self.scope.unit) {
+            return Ok(plain(Fraction::variable(unit)));
         }
         let constant = self.scope.constants.get(name);
         constant.cloned().map(plain).ok_or_else(|| format!("unknown name '{}'", shorten(name)))

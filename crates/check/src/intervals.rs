@@ -169,6 +169,14 @@ fn covered<P: Coefficient>(boundaries: &Boundaries<P>, factors: &[P], clock: &Cl
                 rest = quotient;
             }
         }
+        for f in factors {
+            while rest.degree() > 0
+                && let Some(common) = rest.common(f, clock)?
+                && common.degree() > 0
+            {
+                rest = rest.divided(&common, clock)?.ok_or("internal: a gcd does not divide")?;
+            }
+        }
         if !rest.is_unit(clock)? {
             return Err(format!("boundary polynomial {i} is not a product of the factors"));
         }

@@ -14,6 +14,7 @@ mod by_enclosures;
 mod characteristic;
 mod clock;
 mod coefficient;
+mod complex;
 mod crossing;
 mod dead_time;
 mod declarations;
@@ -63,6 +64,7 @@ pub use map_boxes::{BoxJudge, JudgedBox};
 pub use report::{Names, report};
 
 use clock::{Clock, out_of_time};
+use complex::square_of_root;
 use format::{
     Json, SCHEMA, SCHEMA_BY_ENCLOSURES, SCHEMA_OF_BOXES, SCHEMA_OF_BOXES_WITH_SYMBOLS, SCHEMA_OF_CELLS, SCHEMA_OF_MAPS,
     SCHEMA_OF_MAPS_BY_BOXES, SCHEMA_WITH_DEAD_TIME, SCHEMA_WITH_SYMBOLS,
@@ -422,8 +424,12 @@ fn check_intervals(model: &str, json: &Json, statement: &Json, clock: &Clock) ->
             }
             let coefficients = Step::Model.of(region::transformed(&d.coefficients, discrete, &extent, clock))?;
             let given = Step::Characteristic.of(polynomials(characteristic, "'characteristic'", polynomial))?;
-            Step::Characteristic.of(same_characteristic(&given, &coefficients))?;
-            let d = intervals::Loop { discrete, degree: d.degree, coefficients: &coefficients, poles: &d.poles };
+            let meant = Step::Characteristic.of(meant(&given, &coefficients, d.is_doubled, clock))?;
+            let (coefficients, degree) = match meant {
+                Meant::Root => (&given, d.degree / 2),
+                Meant::Own | Meant::Doubled => (&coefficients, d.degree),
+            };
+            let d = intervals::Loop { discrete, degree, coefficients, poles: &d.poles };
             intervals::check(&d, &domain, &proof, &polynomial, clock)?;
         }
         Some(table) => {
@@ -431,7 +437,7 @@ fn check_intervals(model: &str, json: &Json, statement: &Json, clock: &Clock) ->
                 return Err(other_time());
             }
             let read = |json: &Json, what: &str| Over::read(json, what, &table);
-            let (coefficients, poles) =
+            let (coefficients, poles, _) =
                 held::characteristic(model, kept, &set, &extent, characteristic, &table, clock)?;
             let degree = coefficients.len() - 1;
             let d = intervals::Loop { discrete, degree, coefficients: &coefficients, poles: &poles };
@@ -440,6 +446,27 @@ fn check_intervals(model: &str, json: &Json, statement: &Json, clock: &Clock) ->
     }
     let statement = verdict::sentence_of_intervals(parameter, &set, &extent, discrete, &domain, stable);
     Ok(Proved { statement, kind: "intervals" })
+}
+
+/// Which polynomial is meant: the model's own, or the root of a doubled one; the latter has the degree of the model's polynomial.
+fn meant(given: &[Uni], own: &[Uni], is_doubled: bool, clock: &Clock) -> Result<Meant, String> {
+    let Some(square) = square_of_root(given, own, is_doubled, clock)? else {
+        return same_characteristic(given, own).map(|()| if is_doubled { Meant::Doubled } else { Meant::Own });
+    };
+    let minus: Vec<Uni> = square.iter().map(|c| c.scaled(&-number::Z::from(1))).collect();
+    if square == own || minus == own {
+        Ok(Meant::Root)
+    } else {
+        Err("it is not that of the model, nor its root".into())
+    }
+}
+
+/// See [`meant`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Meant {
+    Own,
+    Doubled,
+    Root,
 }
 
 fn same_characteristic(given: &[Uni], own: &[Uni]) -> Result<(), String> {

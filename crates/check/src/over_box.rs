@@ -8,6 +8,7 @@ pub(super) use common::separated;
 use super::blocks::cleared;
 use super::characteristic::{Form, product};
 use super::clock::Clock;
+use super::complex::square_of_root;
 use super::enclosed::Determinant;
 use super::model::{self, Functions};
 use super::moving::Sources;
@@ -29,6 +30,8 @@ pub(super) struct OverBox {
     pub coefficients: Vec<Multi>,
     /// The loop is undefined where all polynomials of one of these lists vanish.
     pub divisors: Vec<Vec<Multi>>,
+    /// Whether the loop is complex, so that it is doubled.
+    pub is_doubled: bool,
     /// Whether the last of them is the leading coefficient, that of a determinant.
     pub has_lead_last: bool,
 }
@@ -78,7 +81,13 @@ pub(super) fn with_sources(
                 let mut both = substituted(&[f.numerator.clone(), f.whole_denominator(clock)?], values, clock)?;
                 divisors.extend(both.pop().map(|below| vec![below]));
                 let coefficients = resized(&both.pop().unwrap_or_default(), f.numerator.degree(0));
-                let found = OverBox { discrete: asked.discrete, coefficients, divisors, has_lead_last: false };
+                let found = OverBox {
+                    discrete: asked.discrete,
+                    coefficients,
+                    divisors,
+                    is_doubled: asked.is_doubled,
+                    has_lead_last: false,
+                };
                 return Ok((found, sources));
             }
             Form::Matrix(m) => (less(m, clock)?, m.len()),
@@ -119,7 +128,16 @@ pub(super) fn with_sources(
             }
         };
         divisors.push(coefficients.last().cloned().into_iter().collect());
-        Ok((OverBox { discrete: asked.discrete, coefficients, divisors, has_lead_last: true }, sources))
+        Ok((
+            OverBox {
+                discrete: asked.discrete,
+                coefficients,
+                divisors,
+                is_doubled: asked.is_doubled,
+                has_lead_last: true,
+            },
+            sources,
+        ))
     })
 }
 
@@ -205,8 +223,11 @@ fn size(d: &[Multi]) -> (usize, u64) {
     (numbers.clone().count(), numbers.map(Z::bits).max().unwrap_or(0))
 }
 
-/// Whether the own polynomial is the given one times a common factor; that factor.
-pub(super) fn common_factor(given: &[Multi], own: &[Multi], clock: &Clock) -> Result<Multi, String> {
+/// Whether the own polynomial, or the root of a doubled one, is the given one times a common factor; the factor of the polynomial.
+pub(super) fn common_factor(given: &[Multi], own: &[Multi], is_doubled: bool, clock: &Clock) -> Result<Multi, String> {
+    if let Some(square) = square_of_root(given, own, is_doubled, clock)? {
+        return common_factor(&square, own, false, clock);
+    }
     if given.len() != own.len() {
         return Err(format!("there are {} coefficients, but the model's polynomial has {}", given.len(), own.len()));
     }

@@ -7,7 +7,7 @@ use super::statement::{self, End, Extent, count, fixed_extent, list, object, pol
 use super::univariate::Uni;
 use super::words::{exact, shared_digits, with_decimal};
 use super::{
-    Proved, Rejection, Step, by_enclosures, further_keys, held, is_discrete, model, region, same_characteristic, table,
+    Meant, Proved, Rejection, Step, by_enclosures, further_keys, held, is_discrete, meant, model, region, table,
 };
 use crate::format::{Json, SCHEMA_BY_ENCLOSURES};
 use num_traits::Zero;
@@ -62,9 +62,14 @@ pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -
             (degree, named(&places, 0), places, 0)
         }
         (Shown::Polynomial(characteristic), Some(table)) => {
-            let (d, poles) = held::characteristic(model, None, &set, &extent, characteristic, table, clock)?;
-            let places = Step::Stable.of(held::places(&d, &poles, table, clock))?;
-            (d.len() - 1, named(&places, 0), places, 0)
+            let (d, poles, is_doubled) =
+                held::characteristic(model, None, &set, &extent, characteristic, table, clock)?;
+            let found = Step::Stable.of(held::places(&d, &poles, table, clock))?;
+            let (degree, places) = match is_doubled {
+                true => ((d.len() - 1) / 2, Step::Stable.of(found.halved())?),
+                false => (d.len() - 1, found),
+            };
+            (degree, named(&places, 0), places, 0)
         }
     };
     if verdict != name {
@@ -110,24 +115,31 @@ fn rational(
     }
     let coefficients = Step::Model.of(region::transformed(&d.coefficients, discrete, extent, clock))?;
     let given = Step::Characteristic.of(polynomials(characteristic, "'characteristic'", polynomial))?;
-    Step::Characteristic.of(same_characteristic(&given, &coefficients))?;
+    let meant = Step::Characteristic.of(meant(&given, &coefficients, d.is_doubled, clock))?;
+    let (coefficients, degree) = match meant {
+        Meant::Root => (given, d.degree / 2),
+        Meant::Own | Meant::Doubled => (coefficients, d.degree),
+    };
     let undefined = d.poles.iter().any(Uni::is_zero);
     let polynomial = Uni::new(coefficients.iter().map(|c| c.at(0)).collect());
     let (name, places, infinite) = if undefined {
         ("undefined", Places::default(), 0)
     } else if polynomial.is_zero() {
-        ("unstable", Places::default(), d.degree)
+        ("unstable", Places::default(), degree)
     } else {
         let places = if discrete { places_by_circle(&polynomial, clock) } else { places_by_axis(&polynomial, clock) };
         let places = Step::Stable.of(places)?;
-        let infinite = d.degree - polynomial.degree();
+        let infinite = degree - polynomial.degree();
         let quick = if discrete { is_schur(&polynomial, clock) } else { is_hurwitz(&polynomial, clock) };
         if Step::Stable.of(quick)? != (places.on + places.outside == 0) {
             return Err(Rejection { step: Step::Stable, reason: "internal: two tests disagree".into() });
         }
         (named(&places, infinite), places, infinite)
     };
-    Ok((d.degree, name, places, infinite))
+    Ok(match meant {
+        Meant::Doubled => (degree / 2, name, Step::Stable.of(places.halved())?, infinite / 2),
+        Meant::Own | Meant::Root => (degree, name, places, infinite),
+    })
 }
 
 /// What the verdict is called.

@@ -220,7 +220,7 @@ impl Asked {
     /// ```
     pub fn of_complex_loop(self) -> Option<&'static Refusal> {
         use Asked::*;
-        const KNOWN: [Asked; 20] = [
+        const KNOWN: [Asked; 25] = [
             Verdict,
             VerdictInRegion,
             Intervals,
@@ -241,6 +241,11 @@ impl Asked {
             Charpoly,
             Analyze,
             Report,
+            VerdictCertificate,
+            IntervalsCertificate,
+            ExactMapCertificate,
+            BoxMapCertificate,
+            ToleranceCertificate,
         ];
         (!KNOWN.contains(&self)).then_some(&COMPLEX)
     }

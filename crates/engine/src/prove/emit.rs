@@ -1,11 +1,12 @@
 //! Writing certificates of the answers that are shown. Nothing here is trusted: what is wrong is found by the checkers.
 
 use super::cofactors::{Identity, of_half_size_pair};
+use super::complex::{has_frames, refuse_complex_plants};
 use super::line::{Line, Separator};
-use super::refuse_transcendental;
 use super::statement::{self, boundary, number, object};
 use super::text::to_text;
 use super::{dead_time, enclosed, gain, held};
+use super::{no_certificate, refuse_transcendental};
 use crate::answer::{Answer, PointVerdict};
 use crate::error::Error;
 use crate::stability::{ParametricPolynomial, Shape, StableSet};
@@ -41,8 +42,13 @@ impl Answer<StableSet> {
         budget.enter(|| {
             budget.step("certificate");
             let problem = self.problem();
-            problem.refuse_written_complex()?;
+            refuse_complex_plants(problem)?;
             statement::of_rates(problem)?;
+            if has_frames(problem) {
+                return Err(no_certificate(
+                    "no certificate: cosines and sines of a frame have no polynomials over symbols",
+                ));
+            }
             if problem.model().hyperperiod() > 1 && statement::has_held_plant(problem) {
                 return held::of_few_samples(self, budget);
             }
@@ -88,7 +94,7 @@ impl Answer<PointVerdict> {
         budget.enter(|| {
             budget.step("certificate");
             let (problem, verdict) = (self.problem(), self.value());
-            problem.refuse_written_complex()?;
+            refuse_complex_plants(problem)?;
             statement::of_rates(problem)?;
             if enclosed::is_enclosed(problem, budget)? {
                 return enclosed::of_verdict(self);
@@ -101,7 +107,7 @@ impl Answer<PointVerdict> {
             }
             let characteristic = match problem.parametric(budget)? {
                 None => Vec::new(),
-                Some(p) => primitive(with_content(p), verdict.degree),
+                Some(p) => primitive(with_content(p), p.formal_degree()),
             };
             let certificate = object([
                 ("schema", SCHEMA.into()),

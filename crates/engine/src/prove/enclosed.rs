@@ -1,5 +1,6 @@
 //! Certificates of verdicts whose numbers the checkers only enclose: of plants behind holds beside several rates, and of functions in the model.
 
+use super::complex::has_frames;
 use super::no_certificate;
 use super::statement::{self, about_at_rates, object};
 use super::text::to_text;
@@ -20,7 +21,7 @@ pub(super) fn is_enclosed(problem: &Problem, budget: &Budget) -> Result<bool, Er
     if problem.time() != Time::Discrete {
         return Ok(false);
     }
-    if problem.model().hyperperiod() > 1 && statement::has_held_plant(problem) {
+    if has_frames(problem) || problem.model().hyperperiod() > 1 && statement::has_held_plant(problem) {
         return Ok(true);
     }
     Ok(problem.algebra_over_symbols(budget)?.symbols().is_written())

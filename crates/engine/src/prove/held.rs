@@ -3,6 +3,7 @@
 mod line;
 
 use super::cofactors::{Identity, of_half_size_pair};
+use super::complex::times;
 use super::no_certificate;
 use super::over_symbols::{Enclosed, coprime_basis};
 use super::statement::{self, about_at_rates, boundary, number, object};
@@ -182,7 +183,8 @@ pub(super) fn of_verdict(answer: &Answer<PointVerdict>, budget: &Budget) -> Resu
         return Err(no_certificate(why));
     };
     let own = verdict.count.unwrap_or_default();
-    if (own.inside, own.on, own.outside) != counts || verdict.infinite > 0 {
+    let times = times(problem);
+    if (times * own.inside, times * own.on, times * own.outside) != counts || verdict.infinite > 0 {
         return Err(no_certificate("no certificate: roots are on the circle"));
     }
     let bits = bits + longest(p.poles().iter().chain(&d));

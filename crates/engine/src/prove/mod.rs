@@ -2,6 +2,7 @@
 
 mod boxes;
 mod cofactors;
+mod complex;
 mod coq;
 mod dead_time;
 mod digest;

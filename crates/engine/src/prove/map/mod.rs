@@ -4,6 +4,7 @@ mod isolation;
 mod strips;
 
 use super::cofactors::{Identity, of_half_size_pair};
+use super::complex::refuse_complex_plants;
 use super::emit::coprime_basis;
 use super::held::{polynomials, terms};
 use super::refuse_requirements;
@@ -103,7 +104,7 @@ impl Problem {
     /// [`Error::Stopped`] when the budget runs out; [`Error::Refused`] (`E-no-certificate`).
     pub fn refuse_map_certificate(&self, budget: &Budget) -> Result<(), Error> {
         refuse_requirements(self)?;
-        self.refuse_written_complex()?;
+        refuse_complex_plants(self)?;
         if *self.region().bound() == Bound::Free {
             return Err(no_certificate("no certificate of a map on which the bound of the region is free"));
         }
