@@ -1500,6 +1500,7 @@ class Enclosed:
         """By elimination, with the exponent of a power of two by which it is multiplied; None where a pivot may be zero."""
         rows, product, exponent, taken, n = dict(enumerate(rows)), (1 << self.bits, 0), 0, [], len(rows)
         while rows:
+            hold(sum(map(len, rows.values())), 2 * self.bits)
             order = sorted(rows, key=lambda r: len(rows[r]))  # the shortest row fills up least
             if not rows[order[0]]:
                 return (0, 0), 0

@@ -4,9 +4,13 @@ use super::blocks::Ordered;
 use super::characteristic::Form;
 use super::clock::Clock;
 use super::coefficient::Ring;
+use super::expression::Scope;
+use super::moving::Function;
 use super::multivariate::{Fraction, Multi};
-use super::number::Z;
-use num_traits::One;
+use super::number::{Q, Z};
+use super::same_characteristic;
+use super::univariate::Uni;
+use num_traits::{One, Zero};
 use std::collections::BTreeSet;
 
 /// The real and the imaginary part of a polynomial, in which a variable of this number is the imaginary unit.
@@ -81,6 +85,70 @@ impl Fraction {
     }
 }
 
+impl Scope<'_> {
+    /// With `j^2 = -1`.
+    pub(super) fn short(&self, f: Fraction) -> Result<Fraction, String> {
+        match self.unit {
+            Some(unit) => f.with_unit(unit, self.clock),
+            None => Ok(f),
+        }
+    }
+
+    /// Refuses what has an imaginary unit.
+    pub(super) fn real(&self, f: Fraction) -> Result<Fraction, String> {
+        match self.unit {
+            Some(unit) if !f.is_real(unit) => Err("what has to be real is complex".into()),
+            _ => Ok(f),
+        }
+    }
+
+    /// `exp(j angle)`.
+    pub(super) fn rotation(&mut self, angle: &Fraction) -> Result<Fraction, String> {
+        let one = Fraction::number(&Q::one());
+        if angle.numerator.is_zero() {
+            return Ok(one);
+        }
+        let unit = self.unit.ok_or("'j' has another meaning here")?;
+        let moving = self.moving.as_mut().ok_or("cosines and sines of a frame are read by enclosures alone")?;
+        let [cosine, sine] = [Function::Cosine, Function::Sine].map(|f| moving.of(f, angle.clone()));
+        cosine?.plus(&sine?.times(&Fraction::variable(unit), self.clock)?, self.clock)
+    }
+
+    /// `conj(f)`, `re(f)` or `im(f)`.
+    pub(super) fn of_complex(&self, name: &str, f: &Fraction) -> Result<Fraction, String> {
+        if f.numerator.degree(0) > 0 || f.denominator.degree(0) > 0 {
+            return Err("a function of the loop's variable".into());
+        }
+        let Some(unit) = self.unit else {
+            return Ok(if name == "im" { Fraction::number(&Q::zero()) } else { f.clone() });
+        };
+        let [re, im] = f.parts(unit, self.clock)?;
+        Ok(match name {
+            "conj" => f.conjugate(unit, self.clock)?,
+            "re" => re,
+            _ => im,
+        })
+    }
+
+    /// A function that is read as a variable; of a complex argument `exp` alone.
+    pub(super) fn of_function(&mut self, function: Function, f: Fraction) -> Result<Fraction, String> {
+        if let (Some(unit), Function::Exponential) = (self.unit, function)
+            && !f.is_real(unit)
+            && f.numerator.degree(0) == 0
+            && f.denominator.degree(0) == 0
+        {
+            let [re, im] = f.parts(unit, self.clock)?;
+            let turn = self.rotation(&im)?;
+            if re.numerator.is_zero() {
+                return Ok(turn);
+            }
+            return self.of_function(function, re)?.times(&turn, self.clock);
+        }
+        let f = self.real(f)?;
+        self.moving.as_mut().ok_or("internal: no functions are read")?.of(function, f)
+    }
+}
+
 /// The square of a polynomial by its coefficients, where a doubled polynomial may be one: has the given one not as many coefficients as the model's
 /// it is to be its root. `None` where it is to be the polynomial itself.
 pub(super) fn square_of_root<P: Ring>(
@@ -97,6 +165,27 @@ pub(super) fn square_of_root<P: Ring>(
         }
     }
     Ok(Some(square))
+}
+
+/// Which polynomial is meant: the model's own, or the root of a doubled one; the latter has the degree of the model's polynomial.
+pub(super) fn meant(given: &[Uni], own: &[Uni], is_doubled: bool, clock: &Clock) -> Result<Meant, String> {
+    let Some(square) = square_of_root(given, own, is_doubled, clock)? else {
+        return same_characteristic(given, own).map(|()| if is_doubled { Meant::Doubled } else { Meant::Own });
+    };
+    let minus: Vec<Uni> = square.iter().map(|c| c.scaled(&-Z::one())).collect();
+    if square == own || minus == own {
+        Ok(Meant::Root)
+    } else {
+        Err("it is not that of the model, nor its root".into())
+    }
+}
+
+/// See [`meant`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Meant {
+    Own,
+    Doubled,
+    Root,
 }
 
 /// Rows of `[[x, -y], [y, x]]` for each entry `x + j y`.

@@ -154,6 +154,7 @@ impl Determinant<'_> {
         let mut taken: Vec<(usize, usize)> = Vec::with_capacity(rows.len());
         let mut left: Vec<usize> = (0..rows.len()).collect();
         while !left.is_empty() {
+            self.clock.hold(left.iter().map(|&r| rows[r].len()).sum(), 2 * bits as u64)?;
             if left.iter().any(|&r| rows[r].is_empty()) {
                 return Ok(Some(Scaled { lists: vec![Interval::zero()], exponent: 0 }));
             }
@@ -272,4 +273,73 @@ fn is_odd(mut pairs: Vec<(usize, usize)>) -> bool {
         }
     }
     odd
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::over_symbols::determinant;
+    use num_traits::ToPrimitive;
+    use std::time::Duration;
+
+    /// A matrix of small polynomials in the loop's variable and two parameters, most of them zero.
+    fn matrix(n: usize, seed: &mut u64) -> Vec<Vec<Multi>> {
+        let mut below = |bound: u64| {
+            *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (*seed >> 33) % bound
+        };
+        let mut entry = |i: usize, j: usize| {
+            let mut p = Multi::default();
+            for _ in 0..if i == j { 2 } else { below(5) / 3 } {
+                let e = vec![below(2) as u32, 0, below(8) as u32 / 7, below(6) as u32 / 5];
+                p.add(e, Z::from(below(19) as i64 - 9));
+            }
+            p
+        };
+        (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
+    }
+
+    /// All coefficients are those of the expanded determinant, times one number.
+    #[test]
+    fn coefficients_are_those_of_the_expanded_determinant() {
+        let (clock, mut seed, sources) = (Clock::new(Duration::MAX), 7, Sources::default());
+        let side = |a: i64, b: i64| [a, b].map(|x| Q::from(Z::from(x)));
+        let window = [side(-1, 2), side(3, 4)];
+        let mut told = 0;
+        for case in 0..60 {
+            let rows = matrix(2 + case % 6, &mut seed);
+            let exact = determinant(&rows, &clock).unwrap();
+            let degree = rows.len();
+            let of =
+                Determinant { rows: &rows, degree, window: Some(&window), sources: &sources, bits: 96, clock: &clock };
+            let Ok(found) = of.coefficients() else { continue };
+            let number = |x: &Z| x.to_f64().unwrap();
+            let value = |key: &Powers| {
+                let mut e: Vec<u32> = vec![key[0] as u32, 0, key[1] as u32, key[2] as u32];
+                while e.last() == Some(&0) {
+                    e.pop();
+                }
+                exact.0.get(&e).map_or(0.0, number)
+            };
+            assert!(exact.0.keys().all(|e| {
+                let at = |i: usize| e.get(i).copied().unwrap_or(0) as usize;
+                found.contains_key(&[at(0), at(2), at(3)])
+            }));
+            let largest = found.iter().max_by_key(|(_, x)| x.magnitude()).unwrap();
+            let scale = if exact.is_zero() { 0.0 } else { number(&largest.1.lo) / value(largest.0) };
+            for (key, x) in &found {
+                let (lo, hi, expected) = (number(&x.lo), number(&x.hi), value(key) * scale);
+                let slack = number(&largest.1.magnitude()) * 1e-12;
+                assert!(lo - slack <= expected && expected <= hi + slack, "{key:?}: {lo} {hi} {expected}");
+                assert!(hi - lo <= slack, "{key:?}: {lo} {hi}");
+            }
+            told += 1;
+        }
+        assert!(told > 50, "{told}");
+    }
+
+    #[test]
+    fn permutations_have_their_sign() {
+        assert!(!is_odd(vec![(0, 0), (1, 1)]) && is_odd(vec![(0, 1), (1, 0)]) && !is_odd(vec![(2, 0), (0, 1), (1, 2)]));
+    }
 }

@@ -156,68 +156,6 @@ impl<'c> Scope<'c> {
         }
     }
 
-    /// With `j^2 = -1`.
-    fn short(&self, f: Fraction) -> Result<Fraction, String> {
-        match self.unit {
-            Some(unit) => f.with_unit(unit, self.clock),
-            None => Ok(f),
-        }
-    }
-
-    /// Refuses what has an imaginary unit.
-    pub fn real(&self, f: Fraction) -> Result<Fraction, String> {
-        match self.unit {
-            Some(unit) if !f.is_real(unit) => Err("what has to be real is complex".into()),
-            _ => Ok(f),
-        }
-    }
-
-    /// `exp(j angle)`.
-    pub fn rotation(&mut self, angle: &Fraction) -> Result<Fraction, String> {
-        let one = Fraction::number(&Q::one());
-        if angle.numerator.is_zero() {
-            return Ok(one);
-        }
-        let unit = self.unit.ok_or("'j' has another meaning here")?;
-        let moving = self.moving.as_mut().ok_or("cosines and sines of a frame are read by enclosures alone")?;
-        let [cosine, sine] = [Function::Cosine, Function::Sine].map(|f| moving.of(f, angle.clone()));
-        cosine?.plus(&sine?.times(&Fraction::variable(unit), self.clock)?, self.clock)
-    }
-
-    /// `conj(f)`, `re(f)` or `im(f)`.
-    fn of_complex(&self, name: &str, f: &Fraction) -> Result<Fraction, String> {
-        if f.numerator.degree(0) > 0 || f.denominator.degree(0) > 0 {
-            return Err("a function of the loop's variable".into());
-        }
-        let Some(unit) = self.unit else {
-            return Ok(if name == "im" { Fraction::number(&Q::zero()) } else { f.clone() });
-        };
-        let [re, im] = f.parts(unit, self.clock)?;
-        Ok(match name {
-            "conj" => f.conjugate(unit, self.clock)?,
-            "re" => re,
-            _ => im,
-        })
-    }
-
-    /// A function that is read as a variable; of a complex argument `exp` alone.
-    fn of_function(&mut self, function: Function, f: Fraction) -> Result<Fraction, String> {
-        if let (Some(unit), Function::Exponential) = (self.unit, function)
-            && !f.is_real(unit)
-            && f.numerator.degree(0) == 0
-            && f.denominator.degree(0) == 0
-        {
-            let [re, im] = f.parts(unit, self.clock)?;
-            let turn = self.rotation(&im)?;
-            if re.numerator.is_zero() {
-                return Ok(turn);
-            }
-            return self.of_function(function, re)?.times(&turn, self.clock);
-        }
-        let f = self.real(f)?;
-        self.moving.as_mut().ok_or("internal: no functions are read")?.of(function, f)
-    }
-
     fn evaluate(&mut self, text: &str, names: Names<'_>) -> Result<Linear, String> {
         let mut parser = Parser { scope: self, names, rest: text, nesting: 0 };
         let value = parser.sum().and_then(|value| match parser.next_char() {

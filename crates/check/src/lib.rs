@@ -64,7 +64,7 @@ pub use map_boxes::{BoxJudge, JudgedBox};
 pub use report::{Names, report};
 
 use clock::{Clock, out_of_time};
-use complex::square_of_root;
+use complex::{Meant, meant};
 use format::{
     Json, SCHEMA, SCHEMA_BY_ENCLOSURES, SCHEMA_OF_BOXES, SCHEMA_OF_BOXES_WITH_SYMBOLS, SCHEMA_OF_CELLS, SCHEMA_OF_MAPS,
     SCHEMA_OF_MAPS_BY_BOXES, SCHEMA_WITH_DEAD_TIME, SCHEMA_WITH_SYMBOLS,
@@ -446,27 +446,6 @@ fn check_intervals(model: &str, json: &Json, statement: &Json, clock: &Clock) ->
     }
     let statement = verdict::sentence_of_intervals(parameter, &set, &extent, discrete, &domain, stable);
     Ok(Proved { statement, kind: "intervals" })
-}
-
-/// Which polynomial is meant: the model's own, or the root of a doubled one; the latter has the degree of the model's polynomial.
-fn meant(given: &[Uni], own: &[Uni], is_doubled: bool, clock: &Clock) -> Result<Meant, String> {
-    let Some(square) = square_of_root(given, own, is_doubled, clock)? else {
-        return same_characteristic(given, own).map(|()| if is_doubled { Meant::Doubled } else { Meant::Own });
-    };
-    let minus: Vec<Uni> = square.iter().map(|c| c.scaled(&-number::Z::from(1))).collect();
-    if square == own || minus == own {
-        Ok(Meant::Root)
-    } else {
-        Err("it is not that of the model, nor its root".into())
-    }
-}
-
-/// See [`meant`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Meant {
-    Own,
-    Doubled,
-    Root,
 }
 
 fn same_characteristic(given: &[Uni], own: &[Uni]) -> Result<(), String> {

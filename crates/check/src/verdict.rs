@@ -1,14 +1,13 @@
 //! The verdict at one point, and statements in words.
 
 use super::clock::Clock;
+use super::complex::{Meant, meant};
 use super::number::Q;
 use super::roots::{Places, is_hurwitz, is_schur, places_by_axis, places_by_circle};
 use super::statement::{self, End, Extent, count, fixed_extent, list, object, polynomial, polynomials, text, values};
 use super::univariate::Uni;
 use super::words::{exact, shared_digits, with_decimal};
-use super::{
-    Meant, Proved, Rejection, Step, by_enclosures, further_keys, held, is_discrete, meant, model, region, table,
-};
+use super::{Proved, Rejection, Step, by_enclosures, further_keys, held, is_discrete, model, region, table};
 use crate::format::{Json, SCHEMA_BY_ENCLOSURES};
 use num_traits::Zero;
 use std::fmt::Write;
