@@ -4178,7 +4178,7 @@ def check(model, certificate):
             for f in factors:
                 while p.degree(1) and (quotient := p.primitive() / f.primitive()) is not None:
                     p = quotient
-            for f in factors if not symbols else []:
+            for f in factors if doubled and not symbols else []:  # divisors are squares of moduli then
                 while p.degree(1) and (common := p.common(f)).degree(1):
                     p = p.primitive() / common
             need(ring.is_unit(p), "factors: a boundary polynomial is not a product of them")

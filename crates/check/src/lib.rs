@@ -429,7 +429,8 @@ fn check_intervals(model: &str, json: &Json, statement: &Json, clock: &Clock) ->
                 Meant::Root => (&given, d.degree / 2),
                 Meant::Own | Meant::Doubled => (&coefficients, d.degree),
             };
-            let d = intervals::Loop { discrete, degree, coefficients, poles: &d.poles };
+            let is_doubled = d.is_doubled;
+            let d = intervals::Loop { discrete, is_doubled, degree, coefficients, poles: &d.poles };
             intervals::check(&d, &domain, &proof, &polynomial, clock)?;
         }
         Some(table) => {
@@ -437,10 +438,10 @@ fn check_intervals(model: &str, json: &Json, statement: &Json, clock: &Clock) ->
                 return Err(other_time());
             }
             let read = |json: &Json, what: &str| Over::read(json, what, &table);
-            let (coefficients, poles, _) =
+            let (coefficients, poles, is_doubled) =
                 held::characteristic(model, kept, &set, &extent, characteristic, &table, clock)?;
             let degree = coefficients.len() - 1;
-            let d = intervals::Loop { discrete, degree, coefficients: &coefficients, poles: &poles };
+            let d = intervals::Loop { discrete, is_doubled, degree, coefficients: &coefficients, poles: &poles };
             intervals::check(&d, &domain, &proof, &read, clock)?;
         }
     }

@@ -125,7 +125,7 @@ pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -
     let poles = if nowhere { vec![Multi::default()] } else { Vec::new() };
     // Of the root of a doubled polynomial it is half as large.
     let degree = if given.is_empty() { own.coefficients.len() - 1 } else { given.len() - 1 };
-    let d = Loop { discrete: s.discrete, degree, coefficients: &given, poles: &poles };
+    let d = Loop { discrete: s.discrete, is_doubled: own.is_doubled, degree, coefficients: &given, poles: &poles };
     let found = Step::Boundary.of(boundaries(&d, boundary, &read, clock))?;
     let Some(found) = found else {
         let empty = |step: Step, json: &Json, what: &str| {
