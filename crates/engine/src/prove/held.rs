@@ -3,7 +3,7 @@
 mod line;
 
 use super::cofactors::{Identity, of_half_size_pair};
-use super::complex::times;
+use super::complex::{has_frames, times};
 use super::no_certificate;
 use super::over_symbols::{Enclosed, coprime_basis};
 use super::statement::{self, about_at_rates, boundary, number, object};
@@ -79,9 +79,12 @@ const MOST_BYTES: usize = 1 << 22;
 
 /// The certificate of a stable set at several rates, where it is short. Boxes are the other way.
 pub(super) fn of_few_samples(answer: &Answer<StableSet>, budget: &Budget) -> Result<String, Error> {
-    let is_long =
-        || no_certificate("no certificate: polynomials over the constants of a hold are long at several rates");
-    if answer.problem().model().hyperperiod() > MOST_SAMPLES {
+    let is_long = || {
+        no_certificate(
+            "no certificate: at several rates polynomials over the constants of holds are long, and by boxes a parameter is proved that is in no function",
+        )
+    };
+    if answer.problem().model().hyperperiod() > MOST_SAMPLES || has_frames(answer.problem()) {
         return Err(is_long());
     }
     let share = budget.clone().within_work(WORK_OF_SAMPLES);
