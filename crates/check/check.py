@@ -971,7 +971,7 @@ class Loop:
         need(den and num.degree(0) <= order <= MAX_ORDER, "a transfer function is improper")
         scope.divisors.append(den.coefficients(0)[order])
         if hold:  # the companion matrix of the denominator
-            below = [scalar(c) if self.moving else of_number(self.number(scalar(c))) for c in den.coefficients(0)]
+            below = [scalar(c) if self.moving else self.complex_number(scalar(c)) for c in den.coefficients(0)]
             need(below[-1].scalar(), "a held block loses its order")
             inverse = Value({"": below[-1].bottom}, below[-1].scalar())
             whole = [scalar(c) * inverse for c in num.coefficients(0)] + [NOTHING] * order
@@ -1004,6 +1004,11 @@ class Loop:
         top, bottom = (p.at(self.values) for p in (f.scalar(), f.bottom))
         need(not any(top) and not any(bottom) and bottom, "a held block depends on the parameter in its exponential")
         return Fraction(top.get(0, 0)) / Fraction(bottom[0])
+
+    def complex_number(self, f):
+        """The number that a value is, as a value."""
+        x, y = f.parts()
+        return of_number(self.number(x)) + of_number(self.number(y)) * scalar(P({UNIT: 1}))
 
     def rotation(self, angle):
         """exp(j angle)"""
@@ -1062,7 +1067,15 @@ class Loop:
         """over x[k+1] = state x[k] + sum of matrix B u[k - age], and the states of past inputs."""
         (turn, ahead), self.frame = self.frame or (scalar(ONE), scalar(ONE)), None
         z, u = scalar(Z) * turn, [e * ahead for e in u]  # seen from a frame that turns
+        in_parts = not all(e.is_real() for row in a for e in row)
+        if in_parts:  # the real matrix of a complex one
+            rows = [[e.parts() for e in row] for row in a]
+            a = [line for row in rows for line in ([v for x, y in row for v in (x, -y)], [v for x, y in row for v in (y, x)])]
         a = a if self.moving else [[self.number(e) for e in row] for row in a]
+
+        def whole(m):
+            return [[with_unit(p, q) for p, q in zip(re[::2], im[::2])] for re, im in zip(m[::2], m[1::2])] if in_parts else m
+
         held = [j for j in range(len(u)) if not pulses or pulses[j] is None]
         if held:
             state, enters, over, past = self.symbols.held(a, *hold, self)
@@ -1084,12 +1097,12 @@ class Loop:
             return [e * z for e in u] if age < 0 else u if age == 0 else p[age - 1]
 
         for i in range(len(x)):
-            next_x = dot([scalar(e) for e in state[i]], x)
+            next_x = dot([scalar(e) for e in whole(state)[i]], x)
             for age, matrix, _ in enters:
                 held_inputs = [dot([row[j] for j in held], [aged(age)[j] for j in held]) for row in b]
-                next_x = next_x + dot([scalar(e) for e in matrix[i]], held_inputs)
+                next_x = next_x + dot([scalar(e) for e in whole(matrix)[i]], held_inputs)
             for age, j, (matrix, own), edges in columns:  # of a pulse T/edges times the flow behind the edge
-                share = dot([Value({"": e * over}, own) for e in matrix[i]], [row[j] for row in b])
+                share = dot([Value({"": e * over}, own) for e in whole(matrix)[i]], [row[j] for row in b])
                 next_x = next_x + share * weight * of_number(Fraction(1, edges)) * aged(age)[j]
             self.equations.append(x[i] * z * scalar(over) + -next_x)
         for k in range(past):

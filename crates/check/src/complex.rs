@@ -203,7 +203,7 @@ fn doubled_rows(rows: &[Vec<Multi>], unit: usize) -> Vec<Vec<Multi>> {
     out
 }
 
-fn doubled_matrix(m: &[Vec<Fraction>], unit: usize, clock: &Clock) -> Result<Vec<Vec<Fraction>>, String> {
+pub(super) fn doubled_matrix(m: &[Vec<Fraction>], unit: usize, clock: &Clock) -> Result<Vec<Vec<Fraction>>, String> {
     let mut out = Vec::with_capacity(2 * m.len());
     for row in m {
         let (mut real, mut imaginary) = (Vec::with_capacity(2 * row.len()), Vec::with_capacity(2 * row.len()));

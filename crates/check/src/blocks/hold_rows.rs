@@ -2,8 +2,8 @@
 
 use super::{Diagram, Matrices, Row, Rule, Values};
 use crate::clock::Clock;
-use crate::complex::has_unit;
-use crate::hold::{self, Held, Hold, MovingHold, Pulse};
+use crate::complex::{doubled_matrix, has_unit};
+use crate::hold::{self, Enters, Held, Hold, MovingHold, Pulse};
 use crate::multivariate::{Fraction, Multi};
 use crate::number::Q;
 use crate::over_symbols::substituted;
@@ -87,8 +87,8 @@ impl Diagram<'_, '_> {
         let whole = |m: &Multi| Fraction { numerator: m.clone(), denominator: Multi::one(), scalar: Multi::one() };
         // Numbers, where only numbers can be in an exponential.
         let read = |c: &Multi| match self.scope.moving {
-            Some(_) => self.scope.real(whole(c)),
-            None => numbered(&whole(c), &values, clock).map(|q| Fraction::number(&q)),
+            Some(_) => Ok(whole(c)),
+            None => self.complex_number(&whole(c), &values),
         };
         let den: Vec<Fraction> = den.coefficients(0).iter().map(read).collect::<Result<_, _>>()?;
         let Some((lead, below)) = den.split_last().filter(|(lead, _)| !lead.numerator.is_zero()) else {
@@ -121,19 +121,59 @@ impl Diagram<'_, '_> {
         let clock = self.scope.clock;
         let Some(values) = self.values else { return Err("internal: a hold without values".into()) };
         let number = |f: &Fraction| numbered(f, &values, clock);
+        let in_parts = self.in_parts(a)?;
+        let a = in_parts.as_deref().unwrap_or(a);
         let numbers = a.iter().map(|row| row.iter().map(number).collect()).collect::<Result<Vec<Vec<Q>>, _>>()?;
         let of = hold::held(&numbers, inputs, hold, values.table, values.first, clock)?;
         self.scope.divisors.extend(of.divisors.iter().filter(|m| !m.is_constant()).cloned());
-        Ok(of)
+        if in_parts.is_some() { self.joined(of) } else { Ok(of) }
+    }
+
+    /// The number that a fraction is, with an imaginary part if it has one.
+    fn complex_number(&self, f: &Fraction, values: &Values<'_>) -> Result<Fraction, String> {
+        let clock = self.scope.clock;
+        let [re, im] = f.parts(values.unit(), clock)?;
+        let [re, im] = [numbered(&re, values, clock)?, numbered(&im, values, clock)?];
+        match im.is_zero() {
+            true => Ok(Fraction::number(&re)),
+            false => Fraction::number(&re)
+                .plus(&Fraction::number(&im).times(&Fraction::variable(values.unit()), clock)?, clock),
+        }
+    }
+
+    /// The real matrix of a complex one: of `x + jy` the rows `x, -y` and `y, x`.
+    fn in_parts(&self, a: &[Vec<Fraction>]) -> Result<Option<Vec<Vec<Fraction>>>, String> {
+        match self.scope.unit {
+            Some(unit) if !a.iter().flatten().all(|f| f.is_real(unit)) => {
+                doubled_matrix(a, unit, self.scope.clock).map(Some)
+            }
+            _ => Ok(None),
+        }
+    }
+
+    /// What a complex block does, from what its real matrix does: `exp(At)` and its integrals have the same form as that.
+    fn joined(&self, of: Held) -> Result<Held, String> {
+        let unit = Multi::variable(self.scope.unit.ok_or("internal: no imaginary unit")?);
+        let clock = self.scope.clock;
+        let whole = |m: &Vec<Vec<Multi>>| -> Result<Vec<Vec<Multi>>, String> {
+            let n = m.len() / 2;
+            let entry = |i: usize, j: usize| Ok(m[2 * i][2 * j].plus(&m[2 * i + 1][2 * j].times(&unit, clock)?));
+            (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
+        };
+        let enters = of.enters.iter().map(|enters| {
+            let matrix = whole(&enters.matrix)?;
+            Ok(Enters { matrix, direct: enters.direct.clone(), inputs: enters.inputs.clone(), age: enters.age })
+        });
+        Ok(Held { enters: enters.collect::<Result<_, String>>()?, state: whole(&of.state)?, ..of })
     }
 
     /// The same where it depends on the parameters of a box.
     pub(super) fn moving(&mut self, a: &[Vec<Fraction>], inputs: usize, hold: &MovingHold) -> Result<Held, String> {
-        for f in a.iter().flatten() {
-            self.scope.real(f.clone())?;
-        }
         let clock = self.scope.clock;
-        hold::moving(a, inputs, hold, self.scope.moving.as_mut().ok_or("internal: a hold with numbers")?, clock)
+        let in_parts = self.in_parts(a)?;
+        let moving = self.scope.moving.as_mut().ok_or("internal: a hold with numbers")?;
+        let of = hold::moving(in_parts.as_deref().unwrap_or(a), inputs, hold, moving, clock)?;
+        if in_parts.is_some() { self.joined(of) } else { Ok(of) }
     }
 
     /// The rows of a block behind a hold: its states, then the past inputs it remembers.

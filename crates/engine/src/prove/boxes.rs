@@ -2,7 +2,7 @@
 
 mod held;
 
-use super::complex::{refuse_complex_plants, times};
+use super::complex::times;
 use super::held::{is_held, polynomials, terms};
 use super::statement::{about, number, object, region, set};
 use super::text::to_text;
@@ -52,7 +52,6 @@ impl Answer<ToleranceAnswer> {
         budget.step("certificate");
         let (problem, value) = (self.problem(), self.value());
         refuse_requirements(problem)?;
-        refuse_complex_plants(problem)?;
         let is_held = is_held(problem, budget)?;
         let witness = value.factor.as_ref().and_then(|factor| factor.witness.as_ref()).or(match &value.decision {
             BoxDecision::NotStable { witness } => witness.as_ref(),

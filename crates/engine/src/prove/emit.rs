@@ -1,7 +1,7 @@
 //! Writing certificates of the answers that are shown. Nothing here is trusted: what is wrong is found by the checkers.
 
 use super::cofactors::{Identity, of_half_size_pair};
-use super::complex::{has_frames, refuse_complex_plants};
+use super::complex::has_frames;
 use super::line::{Line, Separator};
 use super::statement::{self, boundary, number, object};
 use super::text::to_text;
@@ -42,16 +42,24 @@ impl Answer<StableSet> {
         budget.enter(|| {
             budget.step("certificate");
             let problem = self.problem();
-            refuse_complex_plants(problem)?;
             statement::of_rates(problem)?;
-            if problem.model().hyperperiod() > 1 && statement::has_held_plant(problem) {
-                return held::of_few_samples(self, budget);
+            if problem.model().hyperperiod() > 1
+                && statement::has_held_plant(problem)
+                && let Some(text) = held::of_few_samples(self, budget)?
+            {
+                return Ok(text);
             }
             if has_frames(problem) {
                 return Err(no_certificate("no certificate: cosines and sines of a frame are proved by boxes alone"));
             }
             if let Some(delayed) = problem.delayed(budget)? {
                 return dead_time::of_set(self, delayed, budget);
+            }
+            if problem.is_written_complex()
+                && statement::has_held_plant(problem)
+                && let Some(text) = held::of_short_set(self, budget)?
+            {
+                return Ok(text);
             }
             if held::is_held(problem, budget)? {
                 return held::of_set(self, budget);
@@ -92,7 +100,6 @@ impl Answer<PointVerdict> {
         budget.enter(|| {
             budget.step("certificate");
             let (problem, verdict) = (self.problem(), self.value());
-            refuse_complex_plants(problem)?;
             statement::of_rates(problem)?;
             if enclosed::is_enclosed(problem, budget)? {
                 return enclosed::of_verdict(self);

@@ -21,7 +21,8 @@ pub(super) fn is_enclosed(problem: &Problem, budget: &Budget) -> Result<bool, Er
     if problem.time() != Time::Discrete {
         return Ok(false);
     }
-    if has_frames(problem) || problem.model().hyperperiod() > 1 && statement::has_held_plant(problem) {
+    let is_long = has_frames(problem) || problem.model().hyperperiod() > 1 || problem.is_written_complex();
+    if is_long && statement::has_held_plant(problem) {
         return Ok(true);
     }
     Ok(problem.algebra_over_symbols(budget)?.symbols().is_written())

@@ -71,33 +71,48 @@ pub(super) fn is_held(problem: &Problem, budget: &Budget) -> Result<bool, Error>
 /// certificate of 6 MB.
 const MOST_SAMPLES: u64 = 2;
 
+/// With more constants resultants take minutes, and memory.
+const MOST_SYMBOLS: usize = 4;
+
 /// So much work is done for them.
 const WORK_OF_SAMPLES: u64 = 1_000_000_000;
 
 /// Longer certificates are more than the checkers take.
 const MOST_BYTES: usize = 1 << 22;
 
-/// The certificate of a stable set at several rates, where it is short. Boxes are the other way.
-pub(super) fn of_few_samples(answer: &Answer<StableSet>, budget: &Budget) -> Result<String, Error> {
-    let is_long = || {
-        no_certificate(
-            "no certificate: at several rates polynomials over the constants of holds are long, and by boxes a parameter is proved that is in no function",
-        )
-    };
+/// The certificate of a stable set at several rates, where it is short; `None` where all is rational. Boxes are the other way.
+pub(super) fn of_few_samples(answer: &Answer<StableSet>, budget: &Budget) -> Result<Option<String>, Error> {
     if answer.problem().model().hyperperiod() > MOST_SAMPLES || has_frames(answer.problem()) {
         return Err(is_long());
     }
+    of_short_set(answer, budget)
+}
+
+/// The same of a loop whose polynomials are twice as long as others, as those of complex loops are.
+pub(super) fn of_short_set(answer: &Answer<StableSet>, budget: &Budget) -> Result<Option<String>, Error> {
     let share = budget.clone().within_work(WORK_OF_SAMPLES);
-    let found = match is_held(answer.problem(), &share) {
-        Ok(true) => of_set(answer, &share),
-        Ok(false) => Err(no_certificate("no certificate: the constants of holds cancel at these values")),
-        Err(stopped) => Err(stopped),
-    };
+    let problem = answer.problem();
+    let found = is_held(problem, &share).and_then(|is_held| {
+        let polynomial = problem.symbolic(&share)?;
+        let count = polynomial.as_ref().and_then(|p| p.fixed_symbols()).map_or(0, |symbols| symbols.len());
+        match is_held {
+            true if count > MOST_SYMBOLS => Err(is_long()),
+            true => of_set(answer, &share).map(Some),
+            false => Ok(None),
+        }
+    });
     match found {
-        Ok(text) if text.len() > MOST_BYTES => Err(is_long()),
+        Ok(Some(text)) if text.len() > MOST_BYTES => Err(is_long()),
         Err(Error::Stopped(_)) if budget.check().is_ok() => Err(is_long()),
         other => other,
     }
+}
+
+fn is_long() -> Error {
+    no_certificate(
+        "no certificate: at several rates, and with complex coefficients, polynomials over the constants of holds are long; by boxes a parameter is \
+         proved that is in no function",
+    )
 }
 
 /// What the line is made of.

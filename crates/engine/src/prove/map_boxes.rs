@@ -1,6 +1,5 @@
 //! Certificates of maps by boxes: the statement around a tree of boxes.
 
-use super::complex::refuse_complex_plants;
 use super::statement::{about_at_rates, number, object, region, set};
 use super::text::to_text;
 use super::{no_certificate, refuse_requirements};
@@ -45,7 +44,6 @@ impl Problem {
     pub fn boxes_certificate(&self, window: &Window, tree: &str, order: usize, bits: usize) -> Result<String, Error> {
         refuse_requirements(self)?;
         refuse_free_bound(self)?;
-        refuse_complex_plants(self)?;
         let [x, y] = self.free() else { panic!("a map is of two parameters") };
         let side = |ends: &[Rational; 2]| ends.iter().map(number).collect();
         let statement = object([

@@ -4,7 +4,6 @@ mod isolation;
 mod strips;
 
 use super::cofactors::{Identity, of_half_size_pair};
-use super::complex::refuse_complex_plants;
 use super::emit::coprime_basis;
 use super::held::{polynomials, terms};
 use super::refuse_requirements;
@@ -104,7 +103,6 @@ impl Problem {
     /// [`Error::Stopped`] when the budget runs out; [`Error::Refused`] (`E-no-certificate`).
     pub fn refuse_map_certificate(&self, budget: &Budget) -> Result<(), Error> {
         refuse_requirements(self)?;
-        refuse_complex_plants(self)?;
         if *self.region().bound() == Bound::Free {
             return Err(no_certificate("no certificate of a map on which the bound of the region is free"));
         }
