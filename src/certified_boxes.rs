@@ -135,6 +135,10 @@ pub(crate) fn judge(problem: &Problem, window: &Window, budget: &Budget) -> Resu
 }
 
 pub(crate) fn precision(problem: &Problem, budget: &Budget) -> Result<(usize, usize), Error> {
+    // Sampled loops have no such dead time, and polynomials over a hyperperiod are long.
+    if problem.model().hyperperiod() > 1 {
+        return Ok((ORDER, BITS));
+    }
     Ok(match problem.algebra_over_symbols(budget)?.symbols().delays().is_empty() {
         true => (ORDER, BITS),
         false => (ORDER_WITH_DEAD_TIME, BITS_WITH_DEAD_TIME),

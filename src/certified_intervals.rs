@@ -73,7 +73,7 @@ pub struct CertifiedIntervals {
 pub fn certify_intervals(answer: &Answer<StableSet>, budget: &Budget) -> Result<CertifiedIntervals, Error> {
     match answer.certificate(budget) {
         Ok(text) => Ok(CertifiedIntervals { text, window: None, proved: Rational::ONE }),
-        // Of several rates, and of an orbit's duty ratio, the checkers read no boxes.
+        // Of an orbit's duty ratio the checkers read no boxes.
         Err(Error::Refused(why))
             if why.code() == Code::NoCertificate && answer.problem().model().is_read_by_boxes() =>
         {

@@ -75,9 +75,9 @@ mod complex {
     mod laws;
     mod margin_laws;
     mod margins;
-    mod oracle;
+    pub(crate) mod oracle;
     mod random;
-    mod table;
+    pub(crate) mod table;
 }
 
 /// Models with their expected answers in words, asked of every engine.
@@ -125,6 +125,7 @@ mod certificates {
     mod boxes;
     mod boxes_held;
     mod check;
+    mod complex;
     mod coq;
     mod dead_time;
     mod gain;
@@ -138,6 +139,7 @@ mod certificates {
     mod prewarp;
     mod program;
     mod rates;
+    mod rates_held;
     mod readers;
     mod smt;
 }

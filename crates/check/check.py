@@ -256,6 +256,34 @@ ZERO, ONE, Z = P(), P({0: 1}), P({1: 1})
 def number(x):
     return P({0: x}) if x else ZERO
 
+UNIT = 1 << 950 * FIELD  # the imaginary unit, behind all other variables
+
+def is_real(*polynomials):
+    return all(e < UNIT for p in polynomials for e in p)
+
+def re_im(p):
+    """The real and the imaginary part."""
+    found = {}, {}
+    for e, c in p.items():
+        k, e = divmod(e, UNIT)
+        found[k % 2][e] = found[k % 2].get(e, 0) + (c if k % 4 < 2 else -c)
+    return [P.of(part) for part in found]
+
+def with_unit(x, y):
+    return x + y * P({UNIT: 1})
+
+def short(p):
+    """With j^2 = -1."""
+    return p if max(p, default=0) < 2 * UNIT else with_unit(*re_im(p))
+
+def conjugated(p):
+    x, y = re_im(p)
+    return with_unit(x, -y)
+
+def squared_modulus(p):
+    x, y = re_im(p)
+    return x * x + y * y
+
 class Value:
     """A sum of signals and states with coefficients, and a constant (under the name ""), over one denominator.
 
@@ -264,6 +292,7 @@ class Value:
     """
 
     def __init__(self, tops, bottom=ONE):
+        tops, bottom = {name: short(p) for name, p in tops.items()}, short(bottom)
         numbers = [c for p in (bottom, *tops.values()) for c in p.values()]
         spend(50 + len(numbers), size(numbers), size(numbers))
         common = gcd(*numbers)
@@ -297,6 +326,23 @@ class Value:
     def number(self):
         """If no variable occurs; otherwise None."""
         return None if any(self.scalar()) or any(self.bottom) else Fraction(self.scalar().get(0, 0), self.bottom[0])
+
+    def is_real(self):
+        return is_real(self.bottom, *self.tops.values())
+
+    def parts(self):
+        """The real and the imaginary part of a value without signals."""
+        if self.is_real():
+            return self, NOTHING
+        below = conjugated(self.bottom)
+        return [Value({"": part}, short(self.bottom * below)) for part in re_im(self.scalar() * below)]
+
+    def conjugate(self):
+        return Value({"": conjugated(self.scalar())}, conjugated(self.bottom))
+
+def real(f):
+    need(f is None or f.is_real(), "what has to be real is complex")
+    return f
 
 def scalar(p):
     return Value({"": p})
@@ -435,13 +481,21 @@ def without_exponentials(tokens, depth=0):
         i += 1
     return factors, found
 
+def without_variable(f):
+    need(not f.scalar().degree(0) and not f.bottom.degree(0), "a function of the loop's variable")
+    return f
+
+OF_COMPLEX = {"conj": lambda f: without_variable(f).conjugate(), "re": lambda f: without_variable(f).parts()[0],
+              "im": lambda f: without_variable(f).parts()[1]}
+
 class Scope:
     """What names mean, and everything that was divided by."""
 
     exponential = None  # exp(-tau s), where it is read
 
-    def __init__(self, constants, variables, moving=None):
+    def __init__(self, constants, variables, moving=None, unit=None):
         self.moving = moving  # functions, where they are read
+        self.unit = unit  # whether j is the imaginary unit; None where there are nothing but numbers
         need(len(variables) < 900, "there are too many parameters")  # HIGHEST
         self.matrices = {name: c for name, c in constants.items() if isinstance(c, list)}
         self.divisors, self.constants = [], {name: c for name, c in constants.items() if name not in self.matrices}
@@ -470,6 +524,8 @@ class Scope:
         def named(name):
             if self.moving and name == "pi" and name not in more and name not in self.known:
                 return self.moving.variable("pi")
+            if self.unit and name == "j" and name not in more and name not in self.known:
+                return scalar(P({UNIT: 1}))
             need(name in more or name in self.known, f"the name {name:.40} is unknown")
             return more[name] if name in more else self.known[name]
 
@@ -482,6 +538,7 @@ class Scope:
         need(isinstance(toml, (str, int)) and not isinstance(toml, bool), "an expression is expected")
         if isinstance(toml, str):
             functions = self.moving.functions if self.moving else {"exp": self.exponential} if self.exponential else {}
+            functions = functions | ({} if self.unit is None else OF_COMPLEX)
             functions = {name: f for name, f in functions.items() if name not in self.known and name not in more}
             return evaluate(toml, named, inverse, functions)
         spend(1, toml.bit_length())
@@ -636,7 +693,7 @@ class Model:
         """A nominal value: what it is does not matter here, since a certificate has all values."""
         names = [name for name, value in self.constants.items() if not isinstance(value, list)] + list(self.parameters)
         used = [name for name in names if isinstance(toml, str) and name in tokens_of(toml)]
-        Scope({}, {name: v for v, name in enumerate(used, 1)}, Moving(1 + len(used))).value(toml)
+        Scope({}, {name: v for v, name in enumerate(used, 1)}, Moving(1 + len(used)), False).value(toml)
 
     @staticmethod
     def value(toml):
@@ -669,12 +726,13 @@ class Loop:
         self.moving = symbols if isinstance(symbols, Moving) else None
         if self.moving:
             self.moving.is_continuous = self.z == "s"
-        self.scope = Scope({name: c for name, c in model.constants.items() if name not in variables}, variables, self.moving)
+        self.scope = Scope({name: c for name, c in model.constants.items() if name not in variables}, variables, self.moving,
+                           "j" not in model.taken)
         if isinstance(symbols, DeadTime) and self.z == "s":
             self.scope.exponential = lambda f: self.delayed(-f, 1)
-        self.unknowns, self.equations, self.degree, self.own = [], [], 0, []
+        self.unknowns, self.equations, self.degree, self.own, self.frame = [], [], 0, [], None
         if "sample_time" in root:
-            t = self.scope.value(root["sample_time"]).number()
+            t = real(self.scope.value(root["sample_time"])).number()
             need(t is None or t > 0, "the sample time is not positive")
         loop = table(root.get("loop"), "characteristic matrix A B C K states inputs E outputs")
         forms = ("characteristic" in loop, "matrix" in loop, any(k in loop for k in "ABCK"), "block" in root)
@@ -705,6 +763,25 @@ class Loop:
                 self.scope.matrix(loop["E"], len(x), len(self.inputs))
             self.responses(loop, self.states)
         self.simulation(table(root.get("simulation", {}), "inputs initial duration units"))
+        self.doubled = not all(e.is_real() for list_ in [self.equations, *(own for own, _ in self.own)] for e in list_)
+        self.scope.divisors = [p if is_real(p) else squared_modulus(p) for p in self.scope.divisors]
+        if self.doubled and forms[0]:
+            [e], [name] = self.equations, self.unknowns
+            self.equations = [Value({name: squared_modulus(e.tops[name])}, squared_modulus(e.bottom))]
+        elif self.doubled:
+            self.equations, self.unknowns = self.in_parts(self.equations, self.unknowns)
+            self.own = [self.in_parts(*own) for own in self.own]
+        self.degree *= 1 + self.doubled
+
+    @staticmethod
+    def in_parts(equations, unknowns):
+        """A complex equation, times its denominator, as one for its real part and one for its imaginary part."""
+        out = []
+        for e in equations:
+            parts = {name: re_im(p) for name, p in e.tops.items()}
+            out.append(Value({(name, k): p for name, (x, y) in parts.items() for k, p in enumerate((x, -y))}))
+            out.append(Value({(name, k): p for name, (x, y) in parts.items() for k, p in enumerate((y, x))}))
+        return out, [(name, k) for name in unknowns for k in (0, 1)]
 
     def unknown(self, name=None):
         self.unknowns.append(name or len(self.unknowns))
@@ -778,15 +855,15 @@ class Loop:
                         if c and name != "":
                             turns, place = divmod(t + m * rate[0], steps)
                             lifted[name, place] = lifted.get((name, place), ZERO) + c * Z ** turns
-                equations.append(Value(lifted, equation.bottom))
+                equations.append((t, Value(lifted, equation.bottom)))
         for rate in rates:
             for name in rate[2]:
                 self.degree += not active(rate, start)
                 for t in range(steps):
                     if not active(rate, start + t):  # what it was one sample before
                         now = Value({(name, t): ONE if t else Z})
-                        equations.append(now + -Value({(name, (t - 1) % steps): ONE}))
-        self.equations = equations
+                        equations.append((t, now + -Value({(name, (t - 1) % steps): ONE})))
+        self.equations = [e for _, e in sorted(equations, key=lambda timed: timed[0])]  # neighbours share signals
         self.unknowns = [(name, t) for name in self.unknowns for t in range(steps) if active(of_states.get(name, (1, 0)), start + t)]
 
     def block(self, block, signals):
@@ -801,13 +878,16 @@ class Loop:
             need(self.z == "z", "a continuous loop has nothing to discretise")
             need("transfer" not in block or "s" not in self.taken, "s has two meanings")
             rule, inner = block["discretize"], "s"
-            rule = {"method": rule} if isinstance(rule, str) else dict(table(rule, "method T c prewarp delay edge duty"))
+            rule = {"method": rule} if isinstance(rule, str) else dict(table(rule, "method T c prewarp delay edge duty frame advance"))
             method = text_of(rule.get("method"))
             pulses = self.pulses(method, rule, u)
             is_of_loop = "T" not in rule and "c" not in rule and self.sample_time is not None
             if is_of_loop:
                 rule["T"] = self.sample_time
-            t, c, w, delay = (scope.value(rule[k]) if k in rule else None for k in ("T", "c", "prewarp", "delay"))
+            t, c, w, delay, frame, advance = (real(scope.value(rule[k])) if k in rule else None
+                                              for k in ("T", "c", "prewarp", "delay", "frame", "advance"))
+            need(not frame or method == "zoh", "only 'zoh' has a frame")
+            need(frame or not advance, "an advance goes with a frame")
             if is_of_loop and self.every > 1:  # a slower block has its own period
                 t = t * of_number(Fraction(self.every))
             is_hold = method in ("zoh", "foh", "pwm")
@@ -824,7 +904,9 @@ class Loop:
                         powers = exponent.scalar().coefficients(0)
                         need(len(powers) == 2 and not powers[0] and not exponent.bottom.degree(0), "an exponent is no dead time times s")
                         time = Value({"": -powers[1]}, exponent.bottom)
-                        delay = delay + time if delay else time
+                        delay = delay + real(time) if delay else real(time)
+                if self.values is not None and frame:  # exp(ja) G(z exp(jwT))
+                    self.frame = self.rotation(frame * t), self.rotation(advance or NOTHING)
                 if self.values is not None and self.moving:
                     hold = method == "foh", t, self.ratio(delay, t) if delay else Fraction(0)
                 elif self.values is not None:
@@ -870,7 +952,7 @@ class Loop:
             return
         need(len(u) == len(y) == 1, "a transfer function has one input and one output")
         if kinds[2] and self.scope.exponential:
-            num, den = self.delayed(scope.value(block["delay"]), 0).scalar(), ONE
+            num, den = self.delayed(real(scope.value(block["delay"])), 0).scalar(), ONE
         elif kinds[2] and self.moving and self.moving.is_continuous:
             num, den = self.moving.delayed(scope.value(block["delay"])).scalar(), ONE
         elif kinds[2]:
@@ -889,7 +971,7 @@ class Loop:
         need(den and num.degree(0) <= order <= MAX_ORDER, "a transfer function is improper")
         scope.divisors.append(den.coefficients(0)[order])
         if hold:  # the companion matrix of the denominator
-            below = [scalar(c) if self.moving else of_number(self.number(scalar(c))) for c in den.coefficients(0)]
+            below = [scalar(c) if self.moving else self.complex_number(scalar(c)) for c in den.coefficients(0)]
             need(below[-1].scalar(), "a held block loses its order")
             inverse = Value({"": below[-1].bottom}, below[-1].scalar())
             whole = [scalar(c) * inverse for c in num.coefficients(0)] + [NOTHING] * order
@@ -908,6 +990,7 @@ class Loop:
 
     def delayed(self, f, power):
         """exp(-tau s) as a power of the symbol, for tau as a value, or tau s with the power 1 of s."""
+        real(f)
         top, bottom = (p.at(self.values) for p in (f.scalar(), f.bottom))
         at = (self.symbols.power << FIELD) + power
         need(not any(bottom) and list(top) == [at], "a dead time is no number, or not a multiple of the parameter")
@@ -917,9 +1000,23 @@ class Loop:
 
     def number(self, f):
         """The number that a value is with all parameters."""
+        real(f)
         top, bottom = (p.at(self.values) for p in (f.scalar(), f.bottom))
         need(not any(top) and not any(bottom) and bottom, "a held block depends on the parameter in its exponential")
         return Fraction(top.get(0, 0)) / Fraction(bottom[0])
+
+    def complex_number(self, f):
+        """The number that a value is, as a value."""
+        x, y = f.parts()
+        return of_number(self.number(x)) + of_number(self.number(y)) * scalar(P({UNIT: 1}))
+
+    def rotation(self, angle):
+        """exp(j angle)"""
+        if not angle.scalar():
+            return scalar(ONE)
+        need(self.scope.unit, "j has another meaning here")
+        need(self.moving, "cosines and sines of a frame are read by enclosures alone")
+        return self.moving.rotation(angle)
 
     def ratio(self, delay, time):
         """The delay over the sample time, a number that is not negative."""
@@ -953,7 +1050,7 @@ class Loop:
             return []
         need(not {"T", "c", "prewarp"} & set(rule), "a modulator has no sample time of its own")
         need("edge" in rule and "duty" in rule, "a modulator has one edge and one duty ratio, or one for each input")
-        edges, duties = several(rule["edge"]), [self.scope.value(e) for e in several(rule["duty"])]
+        edges, duties = several(rule["edge"]), [real(self.scope.value(e)) for e in several(rule["duty"])]
         need({len(edges), len(duties)} <= {1, len(u)}, "a modulator has one edge and one duty ratio, or one for each input")
         need(all(text_of(edge) in EDGES for edge in edges), "a modulator has an edge that is not known")
         need(all(d.number() is None or 0 < d.number() < 1 for d in duties), "a duty ratio is not between 0 and 1")
@@ -968,7 +1065,17 @@ class Loop:
 
     def held(self, hold, pulses, a, b, c, d, x, u, y):
         """over x[k+1] = state x[k] + sum of matrix B u[k - age], and the states of past inputs."""
+        (turn, ahead), self.frame = self.frame or (scalar(ONE), scalar(ONE)), None
+        z, u = scalar(Z) * turn, [e * ahead for e in u]  # seen from a frame that turns
+        in_parts = not all(e.is_real() for row in a for e in row)
+        if in_parts:  # the real matrix of a complex one
+            rows = [[e.parts() for e in row] for row in a]
+            a = [line for row in rows for line in ([v for x, y in row for v in (x, -y)], [v for x, y in row for v in (y, x)])]
         a = a if self.moving else [[self.number(e) for e in row] for row in a]
+
+        def whole(m):
+            return [[with_unit(p, q) for p, q in zip(re[::2], im[::2])] for re, im in zip(m[::2], m[1::2])] if in_parts else m
+
         held = [j for j in range(len(u)) if not pulses or pulses[j] is None]
         if held:
             state, enters, over, past = self.symbols.held(a, *hold, self)
@@ -987,19 +1094,19 @@ class Loop:
         p = [[self.unknown() for _ in u] for _ in range(past)]
 
         def aged(age):
-            return [e * scalar(Z) for e in u] if age < 0 else u if age == 0 else p[age - 1]
+            return [e * z for e in u] if age < 0 else u if age == 0 else p[age - 1]
 
         for i in range(len(x)):
-            next_x = dot([scalar(e) for e in state[i]], x)
+            next_x = dot([scalar(e) for e in whole(state)[i]], x)
             for age, matrix, _ in enters:
                 held_inputs = [dot([row[j] for j in held], [aged(age)[j] for j in held]) for row in b]
-                next_x = next_x + dot([scalar(e) for e in matrix[i]], held_inputs)
+                next_x = next_x + dot([scalar(e) for e in whole(matrix)[i]], held_inputs)
             for age, j, (matrix, own), edges in columns:  # of a pulse T/edges times the flow behind the edge
-                share = dot([Value({"": e * over}, own) for e in matrix[i]], [row[j] for row in b])
+                share = dot([Value({"": e * over}, own) for e in whole(matrix)[i]], [row[j] for row in b])
                 next_x = next_x + share * weight * of_number(Fraction(1, edges)) * aged(age)[j]
-            self.equations.append(x[i] * scalar(Z * over) + -next_x)
+            self.equations.append(x[i] * z * scalar(over) + -next_x)
         for k in range(past):
-            self.equations += [q * scalar(Z) + -e for q, e in zip(p[k], aged(k))]
+            self.equations += [q * z + -e for q, e in zip(p[k], aged(k))]
         self.degree += len(x) + past * len(u)
         for i in range(len(y)):
             seen = dot(c[i], x)
@@ -1379,6 +1486,143 @@ def expanded(rows):
         allow(len(minors) <= 20_000 and terms <= 400_000, "a loop with symbols is too large for the check")
     return next(iter(minors.values()), ZERO)
 
+class Enclosed:
+    """Determinants of numbers that are enclosed: pairs of a middle and a radius, in units of 2^-bits."""
+
+    def __init__(self, bits):
+        self.bits = bits
+
+    def times(self, f, g):
+        (a, r), (b, s) = f, g
+        return a * b >> self.bits, (-(-(abs(a) * s + (abs(b) + s) * r) >> self.bits)) + 1 if r or s else int(bool(a and b))
+
+    def shifted(self, f, left):
+        return (f[0] << left, f[1] << left) if left >= 0 else (f[0] >> -left, (f[1] >> -left) + 2 if f[1] or f[0] else 0)
+
+    def balanced(self, numbers, bits=None):
+        """All times a power of two, so that the longest has all bits; and by how much they were shifted."""
+        longest = max((abs(m) + r for m, r in numbers), default=0).bit_length()
+        left = (self.bits if bits is None else bits) - longest if longest else 0
+        return [self.shifted(f, left) for f in numbers], left
+
+    def inverse(self, f):
+        m, r = f  # |1/x - 1/m| <= r/(|m| (|m| - r))
+        return (1 << 2 * self.bits) // m, (r << 2 * self.bits) // (abs(m) * (abs(m) - r)) + 2
+
+    def determinant(self, rows):
+        """By elimination, with the exponent of a power of two by which it is multiplied; None where a pivot may be zero."""
+        rows, product, exponent, taken, n = dict(enumerate(rows)), (1 << self.bits, 0), 0, [], len(rows)
+        while rows:
+            hold(sum(map(len, rows.values())), 2 * self.bits)
+            order = sorted(rows, key=lambda r: len(rows[r]))  # the shortest row fills up least
+            if not rows[order[0]]:
+                return (0, 0), 0
+            for r in order:
+                column = max((c for c, (m, e) in rows[r].items() if abs(m) > e), key=lambda c: abs(rows[r][c][0]), default=None)
+                if column is not None:
+                    break
+            else:
+                if n > len(taken) + 1:
+                    return None
+                [r] = rows  # nothing is divided by the last one
+                column = next(iter(rows[r]))
+            row = rows.pop(r)
+            pivot = row.pop(column)
+            taken.append((r, column))
+            [product], left = self.balanced([self.times(product, pivot)])
+            exponent -= left
+            below = [other for other in rows.values() if column in other]
+            if not below:
+                continue
+            inverse = self.inverse(pivot)
+            spend((1 + len(below)) * len(row), self.bits, self.bits)
+            shares = [(c, self.times(f, inverse)) for c, f in row.items()]
+            for other in below:
+                factor = other.pop(column)
+                for c, share in shares:
+                    (m, e), (x, d) = other.get(c, (0, 0)), self.times(factor, share)
+                    other[c] = m - x, e + d
+        columns = [column for _, column in sorted(taken)]
+        for i in range(n):  # a permutation that is odd changes the sign
+            while columns[i] != i:
+                k = columns[i]
+                columns[i], columns[k], product = columns[k], k, (-product[0], product[1])
+        return product, exponent
+
+    def interpolated(self, nodes, values):
+        """From lists of values, each with its exponent, the lists of coefficients one after the other, with one exponent."""
+        def length(numbers):
+            return max(abs(m) + r for m, r in numbers).bit_length()
+
+        most = max((length(numbers) + exponent for numbers, exponent in values if length(numbers)), default=0) - self.bits
+        lists = [[self.shifted(f, exponent - most) if length(numbers) else f for f in numbers] for numbers, exponent in values]
+        out = [[] for _ in nodes]
+        spend(len(nodes) ** 2 * len(lists[0]), self.bits, 64)
+        for d in map(list, zip(*lists)):
+            for step in range(1, len(d)):
+                for i in range(len(d) - 1, step - 1, -1):
+                    (a, r), (b, s), gap = d[i], d[i - 1], nodes[i] - nodes[i - step]
+                    d[i] = (a - b) // gap, (r + s) // abs(gap) + 2 if r or s or a != b else 0
+            p = []
+            for (a, r), x in zip(d[::-1], nodes[::-1]):  # p (t - x) + d
+                p = [(a, r), *p]
+                for i in range(1, len(p)):
+                    p[i - 1] = p[i - 1][0] - x * p[i][0], p[i - 1][1] + abs(x) * p[i][1]
+            for list_, c in zip(out, p):
+                list_.append(c)
+        return [c for list_ in out for c in list_], most
+
+    def coefficients(self, rows, degree, known, asked, bits):
+        """Of z^k x^i y^j in the determinant, with so many of the variables from 2 on left and the values of the others; all times one number."""
+        entries = []
+        for row in rows:
+            out = {}
+            for column, p in enumerate(row):
+                for e, c in p.items():
+                    powers = [e >> FIELD * v & MASK if v < 2 + asked else 0 for v in (0, 2, 3)]
+                    term, e = (c << self.bits, 0), e >> FIELD * (2 + asked)
+                    for f in known[asked:]:
+                        for _ in range(e & MASK):
+                            spend(2, self.bits, size([term[0]]))
+                            term = self.times(term, f)
+                        e >>= FIELD
+                    old = out.setdefault(column, {}).get(tuple(powers), (0, 0))
+                    out[column][tuple(powers)] = old[0] + term[0], old[1] + term[1]
+            places = [(column, powers) for column in out for powers in out[column]]
+            for (column, powers), f in zip(places, self.balanced([out[column][powers] for column, powers in places])[0]):
+                out[column][powers] = f
+            entries.append(out)
+        counts = [degree + 1]
+        for v in (1, 2):
+            sizes = [{column: max(powers[v] for powers in e) for column, e in row.items()} for row in entries]
+            columns = [max((row.get(column, 0) for row in sizes), default=0) for column in range(len(rows))]
+            counts.append(1 + min(sum(max(row.values(), default=0) for row in sizes), sum(columns)))
+        allow(prod(counts) <= 800, "a determinant by enclosures has too many values")
+
+        def at(x, y):
+            nodes, values = [], []
+            for z in (sign * k for k in range(2, degree + 12) for sign in (1, -1)):  # usual roots are at none of them
+                if len(nodes) > degree:
+                    break
+                numbers = []
+                for row in entries:
+                    spend(sum(map(len, row.values())), self.bits, 64)
+                    powers = {c: [(f, z ** k * x ** i * y ** j) for (k, i, j), f in e.items()] for c, e in row.items()}
+                    sums = {c: (sum(f[0] * q for f, q in terms), sum(f[1] * abs(q) for f, q in terms)) for c, terms in powers.items()}
+                    numbers.append({c: f for c, f in sums.items() if f != (0, 0)})
+                found = self.determinant(numbers)
+                if found:
+                    nodes.append(z)
+                    values.append(([found[0]], found[1]))
+            need(len(nodes) > degree, "a determinant by enclosures is not told from zero")
+            return self.interpolated(nodes, values)
+
+        x_nodes, y_nodes = ([k // 2 + 1 if k % 2 else -k // 2 for k in range(count)] for count in counts[1:])
+        planes = [self.interpolated(x_nodes, [at(x, y) for x in x_nodes]) for y in y_nodes]
+        found, _ = self.balanced(self.interpolated(y_nodes, planes)[0], bits)
+        powers = [(k, i, j) for j in range(counts[2]) for i in range(counts[1]) for k in range(counts[0])]
+        return dict(zip(powers, found))
+
 def loop_of(text, kept, values, boxed=(), symbols=None):
     """The model, its loop with the parameters of a box behind those that have values, and these values."""
     model = Model(text)
@@ -1411,7 +1655,7 @@ def characteristic_polynomial(text, kept, values, symbols=None):
 
     # Undefined where all coefficients of a divisor vanish together.
     poles = [cleared([divisor.at(values)])[0].content(0) for divisor in loop.scope.divisors]
-    n, undefined = loop.degree, (model.discrete, loop.degree, [], [ZERO])
+    n, undefined = loop.degree, (model.discrete, loop.degree, [], [ZERO], loop.doubled)
     if not all(poles):
         return undefined
     need(len(loop.equations) == len(loop.unknowns), "there are not as many equations as unknowns")
@@ -1429,7 +1673,7 @@ def characteristic_polynomial(text, kept, values, symbols=None):
     common = lead.common(d.content(0)) if any(lead) else ONE  # to lowest terms
     d = (d if lead[max(lead)] * common[max(common)] > 0 else -d) / common
     d = d.coefficients(0) + [ZERO] * (n - d.degree(0))
-    return model.discrete, n, d, poles if "block" in model.root else poles[:-1]
+    return model.discrete, n, d, poles if "block" in model.root else poles[:-1], loop.doubled
 
 def over_symbols(model, loop, values):
     """The same with symbols; nothing is brought to lowest terms."""
@@ -1452,12 +1696,13 @@ def over_symbols(model, loop, values):
     need(d and d.degree(0) == loop.degree, "the loop is not well posed")
     poles.append(d.lead(0))
     need(all(poles), "the loop is undefined for every value")
-    return True, loop.degree, d.coefficients(0), poles
+    return True, loop.degree, d.coefficients(0), poles, loop.doubled
 
 def characteristic_function(text, parameter, values, dead_time):
     """The function in s, the parameter and the symbol z for the dead time, and what is divided by, none of it with z."""
     model, loop, values = loop_of(text, parameter, values, symbols=dead_time)
     need(not model.discrete, "a sampled loop has no dead time")
+    need(not loop.doubled, "a loop with dead time has complex coefficients")
     divisors = [cleared([divisor.at(values)])[0] for divisor in loop.scope.divisors]
     if "characteristic" in model.root["loop"]:
         divisors.append(cleared([loop.equations[0].bottom.at(values)])[0])
@@ -1864,9 +2109,9 @@ def follow(tree, whole):
             need(all(c > off for c in product), "a leaf is not on one side")
     need(at == len(tree), "something follows a tree")
 
-def over_box(text, names, values, symbols=None):
+def over_box(text, names, values, symbols=None, enclosed=None):
     """The coefficients in the parameters of a box, which are the variables from 2 on, and lists of polynomials at whose common zeros
-    the loop is undefined."""
+    the loop is undefined.  By enclosures, over sides of a window and with a number of bits, each number in a coefficient is a variable of its own."""
     model, loop, values = loop_of(text, None, values, names, symbols)
     moving = loop.moving
     if moving:
@@ -1881,6 +2126,17 @@ def over_box(text, names, values, symbols=None):
         [equation], [name] = loop.equations, loop.unknowns
         d, below = cleared([equation.tops.get(name, ZERO).at(values), equation.bottom.at(values)])
         divisors.append([below])
+    elif enclosed:
+        sides, bits = enclosed
+        rows = [cleared([e.tops.get(name, ZERO).at(values) for name in loop.unknowns]) for e in loop.equations]
+        models, first = Models(1, 2 * bits + 128), moving.next - len(values)
+        known = moving.values([models.coordinate(*side, i) for i, side in enumerate(sides)], models)
+        known = [(f[0][0], beside_constant(f)) for f in known]
+        asked = sum(low != high for low, high in sides)
+        found = Enclosed(models.bits).coefficients(rows, loop.degree, known, asked, bits)
+        moving.sources.append(("numbers", list(found.values())))
+        d = sum((P({k | (i << 2 * FIELD | j << 3 * FIELD if sides else 0) | 1 << FIELD * (first + v): 1})
+                 for v, (k, i, j) in enumerate(found)), ZERO)
     else:
         d = system(loop.equations, loop.unknowns)
         need(d.degree(0) <= loop.degree, "a determinant has too high a degree")
@@ -1891,7 +2147,7 @@ def over_box(text, names, values, symbols=None):
         divisors.append([d.lead(0) if d.degree(0) == loop.degree else ZERO])
         if moving:
             moving.has_lead_last = True
-    return model.discrete, d.coefficients(0) + [ZERO] * (loop.degree - d.degree(0)), divisors
+    return model.discrete, d.coefficients(0) + [ZERO] * (loop.degree - d.degree(0)), divisors, loop.doubled
 
 class InBox:
     """Polynomials in the parameters of a box, with integers or with polynomials in the symbols of a table for coefficients."""
@@ -1980,8 +2236,9 @@ def in_half_plane(d):
         p = [x + c * number(w) for x, w in zip(p, row)]
     return p
 
-def beside(given, own):
-    """What the model's own polynomial has beside the given one."""
+def beside(given, own, doubled):
+    """What the model's own polynomial has beside the given one, or beside its square."""
+    given = squared(given) if doubled and len(given) != len(own) else given
     need(len(given) == len(own) and any(given), "characteristic: not that of the model")
     given = cleared(given)
     k = min((k for k, c in enumerate(given) if c), key=lambda k: len(given[k]))
@@ -2010,11 +2267,11 @@ def check_tolerance(model, document, statement, values, discrete, extent):
         factors = [of_limit if of_limit is not None and limit in (None, name) else factor for name in names]
         return [[x + factor * (end - x) for end in ends] for factor, x, ends in zip(factors, nominal, between)]
 
-    is_discrete, own, divisors = over_box(model, names, values, symbols)
+    is_discrete, own, divisors, doubled = over_box(model, names, values, symbols)
     need(is_discrete == discrete and (discrete or not symbols), "the model's time is another")
     ring = InBox(len(names), symbols)
     own, given = in_region(own, discrete, extent), items(given, ring.read)
-    common, given = beside(given, own), cleared(given)
+    common, given = beside(given, own, doubled), cleared(given)
     n, p = len(given) - 1, in_half_plane(given) if discrete else given
     sides, known = at_factor(factor), []
     for item in items(factors, lambda item: parts(item, ["polynomial", "tree"])):
@@ -2039,14 +2296,15 @@ def check_tolerance(model, document, statement, values, discrete, extent):
         need(all(low <= x <= high for x, (low, high) in zip(point, box)), "beyond: the point is not in its box")
         undefined = any(ring.vanish(ways, point) for ways in divisors)
         found = (0, 0, 0) if undefined else ring.places(own, point, discrete)
-        found = [n, *found, 0 if undefined else n - sum(found)]
+        found = [len(own) - 1, *found, 0 if undefined else len(own) - 1 - sum(found)]
+        found = half_of(found) if doubled else found
         need([*map(count, counts)] == found, f"beyond: the counts are {found}")
-        need(undefined or found[1] < n, "beyond: the point is stable")
+        need(undefined or found[1] < found[0], "beyond: the point is stable")
         of = "within the tolerances" if limit is None else f"the range of {limit} alone"
         sentence += f" At {at_values(dict(zip(names, point)))}, {of} times {exact(own_factor)}, it is not: "
         inside, on, outside, infinite = found[1:]
         sentence += (f"{inside} roots are inside, {on} on the boundary, {outside} outside, {infinite} infinite."
-                     if sum(found[1:]) == n else "it is undefined there.")
+                     if sum(found[1:]) == found[0] else "it is undefined there.")
     return sentence
 
 # ---------------------------------------------------------------- maps of two parameters
@@ -2166,15 +2424,15 @@ def check_map(model, document, statement, values, discrete, extent):
     regions = items(regions, lambda cells: items(cells, lambda cell: tuple(items(cell, count))))
     need(all(len(cell) == 2 for cells in regions for cell in cells), "a cell is not a pair")
     (left, right), (low, high) = domain
-    is_discrete, own, divisors = over_box(model, names, values)
+    is_discrete, own, divisors, doubled = over_box(model, names, values)
     need(is_discrete == discrete, "the model's time is another")
     ring = Exact(boxed(2))
     given, nothing = items(given, ring.read), not all(map(any, divisors))
     if not (nothing and not given):
         own = in_region(own, discrete, extent)
         need(any(own) or given == own, "characteristic: not that of the model")
-    common = beside(given, own) if given and any(own) else ONE
-    certain, identity, nowhere = boundaries(given, len(own) - 1, discrete, [ZERO] * nothing, boundary, ring)
+    common = beside(given, own, doubled) if given and any(own) else ONE
+    certain, identity, nowhere = boundaries(given, len(given or own) - 1, discrete, [ZERO] * nothing, boundary, ring)
     sentence = f"For all real {ranged(names[0], left, right)} and {ranged(names[1], low, high)}{and_with(values)}, the loop is stable"
     sentence += within(discrete, extent)
     if nowhere:
@@ -2435,12 +2693,21 @@ class Moving:
 
     @staticmethod
     def argument(f):
-        need(not f.scalar().degree(0) and not f.bottom.degree(0), "a function of the loop's variable")
+        real(without_variable(f))
         return f.scalar(), f.bottom
+
+    def rotation(self, angle):
+        """exp(j angle)"""
+        cosine, sine = (self.variable(name, self.argument(angle)) for name in ("cos", "sin"))
+        return cosine + sine * scalar(P({UNIT: 1}))
 
     def exponential(self, f):
         """Of s times a dead time, or of something without the loop's variable."""
-        powers = f.scalar().coefficients(0)
+        if not f.is_real() and not f.scalar().degree(0) and not f.bottom.degree(0):
+            x, y = f.parts()
+            turn = self.rotation(y) if y.scalar() else scalar(ONE)
+            return self.variable("exp", self.argument(x)) * turn if x.scalar() else turn
+        powers = real(f).scalar().coefficients(0)
         if len(powers) == 2 and not powers[0] and not f.bottom.degree(0) and self.is_continuous:
             return self.delayed(Value({"": -powers[1]}, f.bottom))
         return self.variable("exp", self.argument(f))
@@ -2522,6 +2789,9 @@ class Moving:
             return models.quotient(top, bottom)
 
         for name, *of in self.sources:
+            if name == "numbers":  # of which enclosures are all that is known
+                known += [models.units(*f) for f in of[0]]
+                continue
             if name == "hold":
                 a, time, share, first_order = of
                 known += self.matrices([[over(f) for f in row] for row in a], over(time), share, first_order, models)
@@ -3247,10 +3517,11 @@ def check_boxes(model, document, statement, values, discrete, extent):
     is_line = sides[1][0] == sides[1][1]  # one parameter alone is asked about
     need(sides[0][0] < sides[0][1] and sides[1][0] <= sides[1][1], "the window is empty")
     sources, models = Moving(), Models(order, bits)
-    is_discrete, own, divisors = over_box(model, names, values, sources)
+    enclosed = (sides, bits) if has_several_rates(model) else None
+    is_discrete, own, divisors, _ = over_box(model, names, values, sources, enclosed)
     need(is_discrete == discrete, "the model's time is another")
     has_delay = any(name == "delay" for name, *_ in sources.sources)
-    common = in_common(own, 4 if has_delay else 1 << FIELD)
+    common = ONE if enclosed else in_common(own, 4 if has_delay else 1 << FIELD)
     if any(common):  # where it vanishes, all coefficients do; the last divisor has a meaning of its own
         own, divisors = [c / common if c else c for c in own], [[common], *divisors]
     if has_delay:
@@ -3845,8 +4116,8 @@ def read(certificate):
     need(isinstance(document, dict) and document.get("schema") in SCHEMAS, "unknown schema")
     return document
 
-SCHEMAS = [f"jurist/certificate/{version}" for version in range(1, 9)]
-RATIONAL, WITH_SYMBOLS, WITH_DEAD_TIME, OF_BOXES, OF_MAPS, OF_CELLS, OF_MAPS_BY_BOXES, OF_BOXES_WITH_SYMBOLS = SCHEMAS
+SCHEMAS = [f"jurist/certificate/{version}" for version in range(1, 10)]
+RATIONAL, WITH_SYMBOLS, WITH_DEAD_TIME, OF_BOXES, OF_MAPS, OF_CELLS, OF_MAPS_BY_BOXES, OF_BOXES_WITH_SYMBOLS, BY_ENCLOSURES = SCHEMAS
 FURTHER = ["bits", "symbols", "modes"]
 
 def table_of(document):
@@ -3857,10 +4128,9 @@ def table_of(document):
 
 # ---------------------------------------------------------------- the check
 
-def several_rates(model):
-    """The blocks of a model."""
+def has_several_rates(model):
     blocks = Model(model).root.get("block", [])
-    return blocks if isinstance(blocks, list) else []
+    return isinstance(blocks, list) and any(type(block) is dict and str(block.get("every", 1)) != "1" for block in blocks)
 
 def check(model, certificate):
     """The proved statement as a sentence; raises an exception if it is not proved."""
@@ -3868,7 +4138,7 @@ def check(model, certificate):
     statement = document["statement"]
     kind, time, values, region = (statement[key] for key in ("kind", "time", "set", "region"))
     kinds = {OF_BOXES: ["tolerance"], OF_MAPS: ["map"], OF_CELLS: ["cells", "verdict"], OF_MAPS_BY_BOXES: ["boxes"],
-             OF_BOXES_WITH_SYMBOLS: ["tolerance"]}
+             OF_BOXES_WITH_SYMBOLS: ["tolerance"], BY_ENCLOSURES: ["verdict"]}
     need(kind in kinds.get(document["schema"], ["intervals", "verdict"]), "unknown kind of statement")
     need(time in ("discrete", "continuous"), "unknown time")
     discrete = time == "discrete"
@@ -3876,8 +4146,8 @@ def check(model, certificate):
     [extent] = parts(region, ["radius" if discrete else "decay"])
     extent = "parameter" if extent == "parameter" else rational(extent)
     need(not discrete or extent == "parameter" or extent > 0, "the radius is not positive")
-    if any(type(block) is dict and str(block.get("every", 1)) != "1" for block in several_rates(model)):
-        need(extent == 1 and document["schema"] not in (*kinds, WITH_DEAD_TIME, WITH_SYMBOLS),
+    if has_several_rates(model):
+        need(extent == 1 and document["schema"] in (RATIONAL, WITH_SYMBOLS, OF_MAPS_BY_BOXES, BY_ENCLOSURES),
              "a loop of several rates has certificates of stability without further wishes alone")
     if kind == "tolerance":
         return check_tolerance(model, document, statement, values, discrete, extent)
@@ -3908,9 +4178,9 @@ def check(model, certificate):
         need(parameter not in values, "the model has a parameter of this name")
         need(not discrete or low is not None and low >= 0, "a radius is positive")
     claimed = items(claimed, lambda interval: [end(e, ring) for e in parts(interval, ["lower", "upper"])])
-    is_discrete, n, d, poles = characteristic_polynomial(model, None if relative else parameter, values, symbols)
+    is_discrete, n, d, poles, doubled = characteristic_polynomial(model, None if relative else parameter, values, symbols)
     need(is_discrete == discrete, "the model's time is another")
-    d = the_given(characteristic, in_region(d, discrete, extent), ring, symbols)
+    d, n, _ = the_given(characteristic, in_region(d, discrete, extent), ring, symbols, n, doubled)
     certain, identity, nowhere = boundaries(d, n, discrete, poles, boundary, ring)
     factors = items(factors, ring.read)
     if nowhere:
@@ -3921,19 +4191,35 @@ def check(model, certificate):
             for f in factors:
                 while p.degree(1) and (quotient := p.primitive() / f.primitive()) is not None:
                     p = quotient
+            for f in factors if doubled and not symbols else []:  # divisors are squares of moduli then
+                while p.degree(1) and (common := p.common(f)).degree(1):
+                    p = p.primitive() / common
             need(ring.is_unit(p), "factors: a boundary polynomial is not a product of them")
         found = walk(d, n, discrete, certain, identity, factors, line, low, high, ring)
         need(found == claimed, "stable: the claimed set is not the one that the line shows")
     return of_intervals(parameter, values, discrete, extent, low, high, claimed)
 
-def the_given(characteristic, own, ring, symbols):
-    """The characteristic polynomial of the certificate, which is the model's own."""
+def the_given(characteristic, own, ring, symbols, n, doubled):
+    """The characteristic polynomial of the certificate, which is the model's own, or the root of a doubled one; its degree; whether it is doubled."""
     given = items(characteristic, ring.read)
+    is_root = doubled and len(given) != len(own)
+    whole = squared(given) if is_root else given
     if symbols:
-        same_over_symbols(given, own)
+        same_over_symbols(whole, own)
     else:
-        need(given == own, "characteristic: not that of the model")
-    return given
+        need(whole == own or is_root and [-c for c in whole] == own, "characteristic: not that of the model")
+    return (given, n // 2, False) if is_root else (given, n, doubled)
+
+def squared(p):
+    out = [ZERO] * max(2 * len(p) - 1, 0)
+    for i, x in enumerate(p):
+        for k, y in enumerate(p):
+            out[i + k] = out[i + k] + x * y
+    return out
+
+def half_of(counts):
+    need(all(k % 2 == 0 for k in counts), "internal: a doubled polynomial has an odd number of roots")
+    return [k // 2 for k in counts]
 
 def boundaries(d, n, discrete, poles, boundary, ring):
     """The polynomials at whose zeros the loop is not stable, the identity, whether the loop is stable nowhere."""
@@ -4018,16 +4304,36 @@ def walk(d, n, discrete, certain, identity, factors, line, low, high, ring):
         before, was_stable = after, stable
     return found
 
+def places_by_enclosures(model, values, extent, bits):
+    """The degree, and how many roots are inside and outside; none is on the boundary, and none at infinity."""
+    sources, models = Moving(), Models(1, bits)
+    is_discrete, d, divisors, doubled = over_box(model, [], values, sources, ([], bits))
+    need(is_discrete and not any(name == "delay" for name, *_ in sources.sources), "the model's time is another")
+    known = sources.values([], models)
+
+    def number(p):
+        f = sources.at(p, known, models)
+        return f[0][0] - beside_constant(f), f[0][0] + beside_constant(f)
+
+    need(all(any(0 < low or high < 0 for low, high in map(number, ways)) for ways in divisors), "a divisor is not shown to be other than zero")
+    inside = OverSymbols(Table(bits)).inside([number(c) for c in in_region(d, True, extent)], False)
+    counts = [len(d) - 1, inside, len(d) - 1 - inside]
+    return half_of(counts) if doubled else counts
+
 def check_verdict(model, document, statement, values, discrete, extent):
+    if document["schema"] == BY_ENCLOSURES:
+        _, _, bits = parts(document, ["schema", "statement", "bits"], ["model"])
+        need(64 <= count(bits) <= 1024, "bits: out of range")
+        need(extent != "parameter" and discrete, "the region has no parameter here, or the time is continuous")
+        n, inside, outside = places_by_enclosures(model, values, extent, bits)
+        return said_of_verdict(statement, values, discrete, extent, ["unstable" if outside else "stable", n, inside, 0, outside, 0])
     symbols, further = table_of(document)
     ring = OverSymbols(symbols) if symbols else Exact()
     _, _, characteristic, *_ = parts(document, ["schema", "statement", "characteristic"] + further, ["model"])
-    names = ["verdict", "degree", "inside", "on", "outside", "infinite"]
-    name, *counts = parts(statement, names, ["kind", "time", "set", "region"])
     need(extent != "parameter", "the region has no parameter here")
-    is_discrete, n, d, poles = characteristic_polynomial(model, None, values, symbols)
+    is_discrete, n, d, poles, doubled = characteristic_polynomial(model, None, values, symbols)
     need(is_discrete == discrete, "the model's time is another")
-    d = the_given(characteristic, in_region(d, discrete, extent), ring, symbols)
+    d, n, doubled = the_given(characteristic, in_region(d, discrete, extent), ring, symbols, n, doubled)
     p = d if symbols else P.of([c.get(0, 0) for c in d]).listed(0)
     if symbols:
         inside, on, outside = ring.places(d, poles)
@@ -4035,7 +4341,14 @@ def check_verdict(model, document, statement, values, discrete, extent):
         inside, on, outside = places(p, discrete) if p else (0, 0, 0)
     infinite = n - (inside + on + outside) if all(poles) else 0
     found = "unstable" if outside + infinite or not p else "marginal" if on else "stable"
-    found = [found if all(poles) else "undefined", n, inside, on, outside, infinite]
+    counts = [n, inside, on, outside, infinite]
+    return said_of_verdict(statement, values, discrete, extent,
+                           [found if all(poles) else "undefined", *(half_of(counts) if doubled else counts)])
+
+def said_of_verdict(statement, values, discrete, extent, found):
+    """The sentence, if the statement is what was found."""
+    names = ["verdict", "degree", "inside", "on", "outside", "infinite"]
+    name, *counts = parts(statement, names, ["kind", "time", "set", "region"])
     need([name, *map(count, counts)] == found, f"stable: it is {dict(zip(names, found))}")
     at = f"At {at_values(values)}, the" if values else "The"
     if name == "undefined":

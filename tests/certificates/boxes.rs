@@ -244,7 +244,7 @@ fn a_certificate_by_hand_is_accepted_and_lies_about_it_are_not() {
     );
     accept(BY_HAND_MODEL, &with(BY_HAND, r#""limit": null"#, r#""limit": "a""#));
     for (step, from, to) in [
-        (Step::Format, "certificate/4", "certificate/9"),
+        (Step::Format, "certificate/4", "certificate/99"),
         (Step::Statement, "certificate/4", "certificate/5"),
         (Step::Statement, "certificate/4", "certificate/3"),
         (Step::Statement, "certificate/4", "certificate/1"),

@@ -236,7 +236,7 @@ fn a_certificate_by_hand_is_accepted_and_lies_about_it_are_not() {
         accept(model, &with(BY_HAND, from, to));
     }
     for (step, from, to) in [
-        (Step::Format, "certificate/8", "certificate/9"),
+        (Step::Format, "certificate/8", "certificate/99"),
         (Step::Format, "certificate/8", "certificate/4"),
         (Step::Statement, "certificate/8", "certificate/2"),
         (Step::Statement, "certificate/8", "certificate/5"),

@@ -309,10 +309,10 @@ fn what_no_checker_knows_gets_no_certificate() {
     for written in ["2*pi*b", "sqrt(5)", "3 + 0*tan(3/4)"] {
         assert!(emitted_if_any(&lag(written, "1/8"), "K").is_none(), "{written}");
     }
-    // tan(pi/4) = 1: no symbol is left, but the number pi is written.
-    let cancels =
-        read(&lag("2", "pi/4")).ask().set("K", number("1")).verdict(&budget).unwrap().certificate(&budget).unwrap_err();
-    assert!(cancels.to_string().contains("no checker knows"), "{cancels}");
+    // tan(pi/4) = 1: no symbol is left, but the number pi is written. A verdict is proved by enclosures.
+    let written = lag("2", "pi/4");
+    let cancels = read(&written).ask().set("K", number("1")).verdict(&budget).unwrap().certificate(&budget).unwrap();
+    accept(&written, &cancels);
     // c (z - 1) + 0: the factor is left out, but the loop is undefined without it.
     let out = text.replace("1/(s + 1)", "K/s");
     accept(&out, &verdict_emitted(&out, "K", "0"));

@@ -251,7 +251,6 @@ fn what_is_refused() {
         &["intervals", "-", "--param", "K", "--modulus-margin", "1/100"],
         &["intervals", "-", "--param", "K", "--damping", "1/10"],
         &["intervals", "-", "--param", "K", "--sensitivity"],
-        &["intervals", "-", "--param", "K", "--certificate", "never.json"],
         &["tolerance", "-", "--tol", "K=10%", "--modulus-margin", "1/100"],
         &["charpoly", "-", "--transfer", "r", "y"],
         &["charpoly", "-", "--root-locus-form", "K"],
@@ -262,5 +261,4 @@ fn what_is_refused() {
         let run = jurist_with_input(arguments, text.as_bytes());
         assert!(run.status != 0 && run.stderr.contains("E-complex"), "{arguments:?}\n{}{}", run.stdout, run.stderr);
     }
-    assert!(!crate::helpers::model::path("never.json").exists());
 }

@@ -10,6 +10,9 @@ use crate::helpers::random::Random;
 use jurist_algebra::limits::Budget;
 use nalgebra::{Complex, DMatrix, DVector};
 
+/// What a period does to the plant's state.
+type Map = DMatrix<Complex<f64>>;
+
 /// A controller at its own rate: its kind, `every`, `phase`.
 struct Controller {
     kind: usize,
@@ -76,7 +79,7 @@ impl Case {
     fn radius(&self, gain: f64) -> f64 {
         // States: the plant, the controllers' states, their held outputs, past commands.
         let size = self.plant.order() + 4 + PAST;
-        let effects: Vec<[DMatrix<Complex<f64>>; 2]> = (0..=PAST)
+        let effects: Vec<[Map; 2]> = (0..=PAST)
             .map(|m| {
                 [0, 1].map(|parity| self.plant.effect(m, parity).map(|x| Complex::from(x) * self.turn_of_command(m)))
             })
@@ -113,13 +116,7 @@ impl Case {
         self.turn(-1.0 - m as f64, 1.0)
     }
 
-    fn step(
-        &self,
-        state: &mut DVector<Complex<f64>>,
-        k: usize,
-        gain: f64,
-        (flow, effects): (&DMatrix<Complex<f64>>, &[[DMatrix<Complex<f64>>; 2]]),
-    ) {
+    fn step(&self, state: &mut DVector<Complex<f64>>, k: usize, gain: f64, (flow, effects): (&Map, &[[Map; 2]])) {
         let n = self.plant.order();
         let y: Complex<f64> = self.plant.output().zip(state.iter()).map(|(c, x)| x * c).sum();
         let run = |of: &Controller, own: f64, error: Complex<f64>, at: usize, state: &mut DVector<Complex<f64>>| {

@@ -64,6 +64,13 @@ pub(super) struct Values<'v> {
     pub base: Option<Base<'v>>,
 }
 
+impl Values<'_> {
+    /// The variable that is the imaginary unit: the last of those with a value.
+    fn unit(&self) -> usize {
+        self.numbers.len() - 1
+    }
+}
+
 /// The matrices of a state-space block.
 type Matrices = [Vec<Vec<Fraction>>; 4];
 
@@ -84,6 +91,8 @@ struct Diagram<'s, 'c> {
     rates: Rates,
     /// The rate of the block that is read.
     rate: Rate,
+    /// `exp(jwT)` of the frame from which it is seen, and the factor of its inputs.
+    frame: Option<[Fraction; 2]>,
 }
 
 pub(super) use rates::has_several as has_several_rates;
@@ -119,8 +128,20 @@ pub(super) fn system_matrix<'t>(
     let unknowns = driven.len();
     let (rows, alone) = (Vec::new(), Vec::new());
     let (rates, rate) = (Rates::default(), Rate { every: 1, phase: 0 });
-    let mut diagram =
-        Diagram { scope, declared, signals, rows, unknowns, degree: 0, alone, sample_time, values, rates, rate };
+    let mut diagram = Diagram {
+        scope,
+        declared,
+        signals,
+        rows,
+        unknowns,
+        degree: 0,
+        alone,
+        sample_time,
+        values,
+        rates,
+        rate,
+        frame: None,
+    };
     let mut first = 0;
     let mut states = Vec::new();
     for block in blocks {
@@ -177,12 +198,12 @@ impl Diagram<'_, '_> {
         }
         let clock = self.scope.clock;
         let (num, den) = if let (Some(time), true) = (block.get("delay"), self.scope.dead_time.is_some()) {
-            let time = self.scope.scalar(time)?;
+            let time = self.scope.scalar(time).and_then(|time| self.scope.real(time))?;
             (self.scope.delayed(&time, 0)?.numerator, Multi::one())
         } else if let Some(time) = block.get("delay")
             && self.scope.moving.as_ref().is_some_and(Moving::is_continuous)
         {
-            let time = self.scope.scalar(time)?;
+            let time = self.scope.scalar(time).and_then(|time| self.scope.real(time))?;
             let moving = self.scope.moving.as_mut().ok_or("internal: no functions are read")?;
             (moving.delayed(time)?.numerator, Multi::one())
         } else if let Some(samples) = block.get("delay") {

@@ -165,7 +165,7 @@ pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -
     let read = |json: &Json| polynomial(json, ground.variables());
     let (given, common) = Step::Characteristic.of((|| {
         let given = list(characteristic, "'characteristic'")?.iter().map(read).collect::<Result<Vec<_>, _>>()?;
-        let common = common_factor(&given, &in_this_region, clock)?;
+        let common = common_factor(&given, &in_this_region, own.is_doubled, clock)?;
         Ok((given, common))
     })())?;
     let p = if s.discrete { Step::Characteristic.of(in_half_plane(&given, clock))? } else { given.clone() };
@@ -230,15 +230,18 @@ impl Statement {
         {
             return Err("the point is not in its box".into());
         }
-        let n = d.len() - 1;
+        let mut n = d.len() - 1;
         let mut is_undefined = false;
         for parts in &own.divisors {
             is_undefined = is_undefined || ground.vanish_at(parts, &beyond.point, clock)?;
         }
-        let (places, infinite) = match is_undefined {
+        let (mut places, mut infinite) = match is_undefined {
             true => (Places::default(), 0),
             false => ground.places(d, &beyond.point, self.discrete, clock)?,
         };
+        if own.is_doubled {
+            (n, places, infinite) = (n / 2, places.halved()?, infinite / 2);
+        }
         let Places { inside, on, outside } = places;
         if beyond.counts != [n, inside, on, outside, infinite] {
             return Err(format!(

@@ -13,6 +13,8 @@ use std::collections::BTreeSet;
 pub(super) struct Characteristic {
     /// Whether time is discrete.
     pub discrete: bool,
+    /// Whether it is that of a complex loop, doubled.
+    pub is_doubled: bool,
     /// The degree with all parameters symbolic.
     pub degree: usize,
     /// `degree + 1` coefficients from the constant term up: up to a factor that does not vanish where
@@ -68,7 +70,13 @@ pub(super) fn specialised(
         }
         poles.push(common);
     }
-    let nowhere = |degree: usize, poles: Vec<Uni>| Characteristic { discrete, degree, coefficients: Vec::new(), poles };
+    let nowhere = |degree: usize, poles: Vec<Uni>| Characteristic {
+        discrete,
+        is_doubled: false,
+        degree,
+        coefficients: Vec::new(),
+        poles,
+    };
     // The coefficients, the denominator they stand over, and whether that is a new place of being undefined.
     let (mut coefficients, denominator, degree) = match form {
         Form::Written(f) => {
@@ -135,7 +143,7 @@ pub(super) fn specialised(
         }
     }
     coefficients.resize(degree + 1, Uni::default());
-    Ok(Characteristic { discrete, degree, coefficients: primitive(coefficients, clock)?, poles })
+    Ok(Characteristic { discrete, is_doubled: false, degree, coefficients: primitive(coefficients, clock)?, poles })
 }
 
 /// Divided by the greatest common divisor of all integers in it.

@@ -31,6 +31,10 @@ pub(super) trait Coefficient: Ring {
     fn vanishes_at(&self, value: &Q, clock: &Clock) -> Result<bool, String>;
     /// The quotient of an exact division.
     fn divided(&self, divisor: &Self, clock: &Clock) -> Result<Option<Self>, String>;
+    /// A greatest common divisor, where it is looked for.
+    fn common(&self, _: &Self, _: &Clock) -> Result<Option<Self>, String> {
+        Ok(None)
+    }
     /// Descartes' bound, as [`Uni::descartes`].
     fn descartes(&self, a: Option<&Q>, b: Option<&Q>, clock: &Clock) -> Result<Option<usize>, String>;
     /// Whether a polynomial with these coefficients has its full degree at a value of the parameter, and all roots inside.
@@ -116,6 +120,10 @@ impl Coefficient for Uni {
 
     fn divided(&self, divisor: &Self, clock: &Clock) -> Result<Option<Self>, String> {
         Uni::divided(self, divisor, clock)
+    }
+
+    fn common(&self, other: &Self, clock: &Clock) -> Result<Option<Self>, String> {
+        self.gcd(other, clock).map(Some)
     }
 
     fn descartes(&self, a: Option<&Q>, b: Option<&Q>, clock: &Clock) -> Result<Option<usize>, String> {

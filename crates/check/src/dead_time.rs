@@ -120,6 +120,9 @@ pub(super) fn characteristic_function(
     if asked.discrete {
         return Err("the model's time is not that of the statement".into());
     }
+    if asked.is_doubled {
+        return Err("a loop with dead time has complex coefficients".into());
+    }
     let at_values = |row: &[Multi]| substituted(row, &asked.values, clock);
     let mut divisors = Vec::new();
     for divisor in &asked.divisors {

@@ -1,7 +1,7 @@
 //! What a model declares: its time, constants, parameters, and which names are taken.
 
 use super::clock::Clock;
-use super::expression::{Scope, is_name, names_in, number};
+use super::expression::{Scope, UNIT, is_name, names_in, number};
 use super::model::{matrix, sized};
 use super::moving::Moving;
 use super::multivariate::Fraction;
@@ -32,6 +32,8 @@ pub(super) struct Meaning<'q> {
     replaced: BTreeMap<&'q str, &'q Q>,
     /// Whether it is about constants, too.
     pub changes_constants: bool,
+    /// The variable that is the imaginary unit; it has no value.
+    pub unit: usize,
 }
 
 impl<'t> Declarations<'t> {
@@ -114,7 +116,8 @@ impl<'t> Declarations<'t> {
     /// The model as it is written, all parameters symbolic.
     pub fn as_written(&self) -> Meaning<'static> {
         let variables = self.parameters.iter().enumerate().map(|(i, name)| ((*name).to_owned(), i + 1)).collect();
-        Meaning { variables, values: Vec::new(), replaced: BTreeMap::new(), changes_constants: false }
+        let unit = self.parameters.len() + 1;
+        Meaning { variables, values: Vec::new(), replaced: BTreeMap::new(), changes_constants: false, unit }
     }
 
     /// The model with one name in question, or those of a box, and values for others: all parameters, and constants that are given
@@ -131,6 +134,7 @@ impl<'t> Declarations<'t> {
             values: vec![Q::zero(), Q::zero()],
             replaced: BTreeMap::new(),
             changes_constants: false,
+            unit: 0,
         };
         let mut seen = BTreeSet::new();
         let names = kept.into_iter().map(|name| (name, None));
@@ -158,11 +162,15 @@ impl<'t> Declarations<'t> {
                 None if kept == Some(name) => 1,
                 // All values are there by now.
                 None => {
-                    meaning.values.len() + meaning.variables.values().filter(|v| **v >= meaning.values.len()).count()
+                    let unit = meaning.values.len();
+                    unit + 1 + meaning.variables.values().filter(|v| **v > unit).count()
                 }
             };
             meaning.variables.insert(name.to_owned(), variable);
         }
+        // Before those of a box, as if it had a value.
+        meaning.unit = meaning.values.len();
+        meaning.values.push(Q::zero());
         match self.parameters.iter().find(|name| !seen.contains(*name)) {
             Some(name) => Err(format!("the parameter '{}' has no value", shorten(name))),
             None => Ok(meaning),
@@ -173,7 +181,8 @@ impl<'t> Declarations<'t> {
     pub fn scope<'c>(&self, meaning: &Meaning<'_>, is_moving: bool, clock: &'c Clock) -> Result<Scope<'c>, String> {
         let mut scope = Scope::new(meaning.variables.clone(), clock);
         // Behind all others.
-        let last = meaning.variables.values().copied().max().unwrap_or(1).max(meaning.values.len().saturating_sub(1));
+        let last = meaning.variables.values().copied().max().unwrap_or(1).max(meaning.unit);
+        scope.unit = (!self.is_taken(UNIT)).then_some(meaning.unit);
         scope.moving = is_moving.then(|| Moving::new(last + 1, !self.discrete));
         for (name, text) in self.constants.iter().filter(|(name, _)| !meaning.variables.contains_key(*name)) {
             let value = match meaning.replaced.get(name) {

@@ -14,6 +14,9 @@ pub(super) const MAX_NESTING: usize = 200;
 /// Exponents may be this large.
 const MAX_POWER: i64 = 1000;
 
+/// The name of the imaginary unit.
+pub(super) const UNIT: &str = "j";
+
 /// The dead time of which all others are whole multiples.
 #[derive(Clone, Copy)]
 pub(super) enum Base<'q> {
@@ -40,6 +43,8 @@ const MAX_MULTIPLE: u32 = 256;
 pub(super) struct Scope<'c> {
     /// Where it is read.
     pub dead_time: Option<DeadTime>,
+    /// The variable that is the imaginary unit, where the name has no other meaning.
+    pub unit: Option<usize>,
     /// Functions and holds, where they are read as further variables.
     pub moving: Option<Moving>,
     /// Values of constants.
@@ -79,6 +84,7 @@ impl<'c> Scope<'c> {
     pub fn new(parameters: BTreeMap<String, usize>, clock: &'c Clock) -> Self {
         Scope {
             dead_time: None,
+            unit: None,
             moving: None,
             constants: BTreeMap::new(),
             matrices: BTreeMap::new(),
@@ -114,6 +120,7 @@ impl<'c> Scope<'c> {
     /// The power of the variable of dead time for `tau` times a power of the loop's variable.
     pub fn delayed(&self, tau: &Fraction, power: usize) -> Result<Fraction, String> {
         let of = self.dead_time.as_ref().ok_or("there is no dead time here")?;
+        self.real(tau.clone())?;
         let top = tau.numerator.specialised(1, &of.values, self.clock)?;
         let bottom = tau.whole_denominator(self.clock)?.specialised(1, &of.values, self.clock)?;
         let (mut coefficient, mut divisor) = (Q::zero(), Q::zero());
@@ -276,10 +283,10 @@ impl<'t> Parser<'_, '_, 't> {
             if minus {
                 term = negated(term);
             }
-            sum.constant = sum.constant.plus(&term.constant, self.scope.clock)?;
+            sum.constant = self.scope.short(sum.constant.plus(&term.constant, self.scope.clock)?)?;
             for (i, c) in term.signals {
                 let joined = match sum.signals.remove(&i) {
-                    Some(old) => old.plus(&c, self.scope.clock)?,
+                    Some(old) => self.scope.short(old.plus(&c, self.scope.clock)?)?,
                     None => c,
                 };
                 sum.signals.insert(i, joined);
@@ -308,9 +315,9 @@ impl<'t> Parser<'_, '_, 't> {
                 (true, _) => (factor, product.constant),
                 (false, true) => (product, factor.constant),
             };
-            signals.constant = signals.constant.times(&scale, self.scope.clock)?;
+            signals.constant = self.scope.short(signals.constant.times(&scale, self.scope.clock)?)?;
             for c in signals.signals.values_mut() {
-                *c = c.times(&scale, self.scope.clock)?;
+                *c = self.scope.short(c.times(&scale, self.scope.clock)?)?;
             }
             product = signals;
         }
@@ -341,7 +348,7 @@ impl<'t> Parser<'_, '_, 't> {
             return if e == 1 { Ok(base) } else { Err("a power of a signal".into()) };
         }
         let value = if e < 0 { self.scope.inverse(&base.constant, self.names)? } else { base.constant };
-        let constant = value.power(e.unsigned_abs() as u32, self.scope.clock)?;
+        let constant = self.scope.short(value.power(e.unsigned_abs() as u32, self.scope.clock)?)?;
         Ok(Linear { constant, signals: BTreeMap::new() })
     }
 
@@ -387,8 +394,17 @@ impl<'t> Parser<'_, '_, 't> {
             if !argument.signals.is_empty() {
                 return Err("a function of a signal".into());
             }
-            let moving = self.scope.moving.as_mut().ok_or("internal: no functions are read")?;
-            return Ok(plain(moving.of(function, argument.constant)?));
+            return Ok(plain(self.scope.of_function(function, argument.constant)?));
+        }
+        if matches!(name, "conj" | "re" | "im") && !is_known && self.eat('(') {
+            let argument = self.nested(Self::sum)?;
+            if !self.eat(')') {
+                return Err("')' is missing".into());
+            }
+            if !argument.signals.is_empty() {
+                return Err("a function of a signal".into());
+            }
+            return Ok(plain(self.scope.of_complex(name, &argument.constant)?));
         }
         if let Names::Signals(signals) = self.names
             && let Some(&i) = signals.get(name)
@@ -401,6 +417,9 @@ impl<'t> Parser<'_, '_, 't> {
         }
         if let ("pi", false, Some(moving)) = (name, is_known, self.scope.moving.as_mut()) {
             return Ok(plain(moving.pi()));
+        }
+        if let (UNIT, false, Some(unit)) = (name, is_known, self.scope.unit) {
+            return Ok(plain(Fraction::variable(unit)));
         }
         let constant = self.scope.constants.get(name);
         constant.cloned().map(plain).ok_or_else(|| format!("unknown name '{}'", shorten(name)))

@@ -30,6 +30,9 @@ pub const SCHEMA_OF_MAPS_BY_BOXES: &str = "jurist/certificate/7";
 /// The schema of certificates of boxes of tolerances over symbols.
 pub const SCHEMA_OF_BOXES_WITH_SYMBOLS: &str = "jurist/certificate/8";
 
+/// Of verdicts whose numbers are only enclosed.
+pub const SCHEMA_BY_ENCLOSURES: &str = "jurist/certificate/9";
+
 /// Texts longer than this many bytes are refused unread.
 pub const MAX_TEXT: usize = 64 << 20;
 

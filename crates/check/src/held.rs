@@ -2,6 +2,7 @@
 
 use super::clock::Clock;
 use super::coefficient::{Coefficient, Ring};
+use super::complex::square_of_root;
 use super::interval::Interval;
 use super::multivariate::Multi;
 use super::number::Q;
@@ -15,7 +16,7 @@ use crate::format::Json;
 use num_bigint::BigInt;
 use std::rc::Rc;
 
-/// The characteristic polynomial as the certificate gives it, which is that of the model, and the model's poles.
+/// The characteristic polynomial as the certificate gives it, which is that of the model, the model's poles, and whether it is a complex loop, doubled.
 pub(super) fn characteristic(
     text: &str,
     kept: Option<&str>,
@@ -24,21 +25,27 @@ pub(super) fn characteristic(
     given: &Json,
     table: &Rc<Table>,
     clock: &Clock,
-) -> Result<(Vec<Over>, Vec<Over>), Rejection> {
+) -> Result<(Vec<Over>, Vec<Over>, bool), Rejection> {
     let read = |json: &Json, what: &str| Over::read(json, what, table);
     let own = Step::Model.of((|| {
         let asked = model::asked(text, kept, set, table, None, clock)?;
         if !asked.discrete {
             return Err("the model's time is not that of the statement".to_owned());
         }
-        clock.reading(|| over_symbols(&asked.form, &asked.divisors, &asked.values, clock))
+        let found = clock.reading(|| over_symbols(&asked.form, &asked.divisors, &asked.values, clock))?;
+        Ok((found, asked.is_doubled))
     })())?;
-    let OverSymbols { degree, coefficients, poles } = own;
+    let (own, is_doubled) = own;
+    let OverSymbols { coefficients, poles } = own;
     let given = Step::Characteristic.of(polynomials(given, "'characteristic'", read))?;
     let polynomials: Vec<Multi> = given.iter().map(|c| c.polynomial.clone()).collect();
-    Step::Characteristic.of(same(&polynomials, &in_disc(&coefficients, extent), clock))?;
-    assert_eq!(given.len(), degree + 1);
-    Ok((given, poles.into_iter().map(|p| Over::new(p, table)).collect()))
+    let is_root = Step::Characteristic.of((|| {
+        let own = in_disc(&coefficients, extent);
+        let square = square_of_root(&polynomials, &own, is_doubled, clock)?;
+        same(square.as_deref().unwrap_or(&polynomials), &own, clock)?;
+        Ok(square.is_some())
+    })())?;
+    Ok((given, poles.into_iter().map(|p| Over::new(p, table)).collect(), is_doubled && !is_root))
 }
 
 /// Where the roots are, none of them at infinity, and the loop defined.
@@ -71,7 +78,7 @@ pub(super) fn places(d: &[Over], poles: &[Over], table: &Table, clock: &Clock) -
     let enclosed =
         |c: &Over| Ok(table.enclosed(&c.polynomial, clock)?.into_iter().next().unwrap_or_else(Interval::zero));
     let n = d.len() - 1;
-    places.inside = inside(d.iter().map(enclosed).collect::<Result<_, String>>()?, false, table, clock)?;
+    places.inside = inside(d.iter().map(enclosed).collect::<Result<_, String>>()?, false, table.bits, clock)?;
     places.outside = n - places.inside;
     Ok(places)
 }

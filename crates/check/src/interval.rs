@@ -90,7 +90,7 @@ impl Interval {
     }
 
     /// Divided by a positive integer.
-    fn over(&self, n: &Z) -> Self {
+    pub fn over(&self, n: &Z) -> Self {
         Interval { lo: floor(&self.lo, n), hi: -floor(&-&self.hi, n) }
     }
 

@@ -17,6 +17,8 @@ type Stretch<P> = (End<P>, End<P>);
 /// A loop in one parameter.
 pub(super) struct Loop<'l, P> {
     pub discrete: bool,
+    /// Whether it is a complex loop, doubled: its divisors are squares of moduli, which factors need not divide.
+    pub is_doubled: bool,
     pub degree: usize,
     /// The coefficients of the characteristic polynomial, as many as its degree and one; none where it is undefined.
     pub coefficients: &'l [P],
@@ -84,7 +86,7 @@ pub(super) fn check<P: Coefficient>(
         })?;
         return Step::Stable.of(if stable.is_empty() { Ok(0) } else { Err("the loop is stable nowhere".into()) });
     };
-    Step::Factors.of(covered(&boundaries, &factors, clock))?;
+    Step::Factors.of(covered(&boundaries, &factors, d.is_doubled, clock))?;
     let found = Step::Line.of(walk(d, domain, &boundaries, &factors, proof.line, clock))?;
     let count = found.len();
     Step::Stable.of(if found == stable {
@@ -155,7 +157,12 @@ pub(super) fn boundaries<P: Ring>(
 }
 
 /// Whether every zero of every boundary polynomial is a zero of a factor.
-fn covered<P: Coefficient>(boundaries: &Boundaries<P>, factors: &[P], clock: &Clock) -> Result<(), String> {
+fn covered<P: Coefficient>(
+    boundaries: &Boundaries<P>,
+    factors: &[P],
+    is_doubled: bool,
+    clock: &Clock,
+) -> Result<(), String> {
     if factors.iter().any(|f| f.degree() == 0) {
         return Err("a factor is constant".into());
     }
@@ -167,6 +174,14 @@ fn covered<P: Coefficient>(boundaries: &Boundaries<P>, factors: &[P], clock: &Cl
                 && let Some(quotient) = rest.divided(f, clock)?
             {
                 rest = quotient;
+            }
+        }
+        for f in factors.iter().filter(|_| is_doubled) {
+            while rest.degree() > 0
+                && let Some(common) = rest.common(f, clock)?
+                && common.degree() > 0
+            {
+                rest = rest.divided(&common, clock)?.ok_or("internal: a gcd does not divide")?;
             }
         }
         if !rest.is_unit(clock)? {

@@ -40,7 +40,7 @@ const BLOCK: [&str; 16] = [
     "C",
     "D",
 ];
-const DISCRETIZE: [&str; 7] = ["method", "T", "c", "prewarp", "delay", "edge", "duty"];
+const DISCRETIZE: [&str; 9] = ["method", "T", "c", "prewarp", "delay", "edge", "duty", "frame", "advance"];
 const PWM: [&str; 3] = ["amplitude", "carrier", "period"];
 
 /// Refuses unknown keys wherever known ones have a meaning, missing ones, and what is no table or no text where one must be.

@@ -10,15 +10,18 @@
 mod bernstein;
 mod blocks;
 mod boxes;
+mod by_enclosures;
 mod characteristic;
 mod clock;
 mod coefficient;
+mod complex;
 mod crossing;
 mod dead_time;
 mod declarations;
 mod descartes;
 mod determinant;
 mod digest;
+mod enclosed;
 mod exponentials;
 mod expression;
 pub mod format;
@@ -61,8 +64,9 @@ pub use map_boxes::{BoxJudge, JudgedBox};
 pub use report::{Names, report};
 
 use clock::{Clock, out_of_time};
+use complex::{Meant, meant};
 use format::{
-    Json, SCHEMA, SCHEMA_OF_BOXES, SCHEMA_OF_BOXES_WITH_SYMBOLS, SCHEMA_OF_CELLS, SCHEMA_OF_MAPS,
+    Json, SCHEMA, SCHEMA_BY_ENCLOSURES, SCHEMA_OF_BOXES, SCHEMA_OF_BOXES_WITH_SYMBOLS, SCHEMA_OF_CELLS, SCHEMA_OF_MAPS,
     SCHEMA_OF_MAPS_BY_BOXES, SCHEMA_WITH_DEAD_TIME, SCHEMA_WITH_SYMBOLS,
 };
 use num_traits::Zero;
@@ -309,6 +313,7 @@ fn by_kind(model: &str, certificate: &str, clock: Clock) -> Result<Proved, Rejec
         SCHEMA_OF_CELLS,
         SCHEMA_OF_MAPS_BY_BOXES,
         SCHEMA_OF_BOXES_WITH_SYMBOLS,
+        SCHEMA_BY_ENCLOSURES,
     ];
     if !known.contains(&schema) {
         let [rest @ .., last] = known.map(|name| format!("'{name}'"));
@@ -318,10 +323,11 @@ fn by_kind(model: &str, certificate: &str, clock: Clock) -> Result<Proved, Rejec
     let statement =
         Step::Format.of(json.get("statement").ok_or_else(|| "the certificate has no 'statement'".into()))?;
     let kind = Step::Statement.of(statement.get("kind").ok_or_else(|| "the statement has no 'kind'".into()))?;
-    // Of loops with several rates the unit disc is what is proved of, over polynomials with rational coefficients.
+    // Of loops with several rates the unit disc is what is proved of.
     if toml::read(model).is_ok_and(|model| blocks::has_several_rates(&model)) {
         let region = statement.get("region").and_then(|region| region.get("radius"));
-        if schema != SCHEMA || !matches!(region, Some(Json::Text(one)) if one == "1") {
+        let of_rates = [SCHEMA, SCHEMA_WITH_SYMBOLS, SCHEMA_OF_MAPS_BY_BOXES, SCHEMA_BY_ENCLOSURES];
+        if !of_rates.contains(&schema) || !matches!(region, Some(Json::Text(one)) if one == "1") {
             let reason = "a loop of several rates has certificates of stability without further wishes alone".into();
             return Err(Rejection { step: Step::Model, reason });
         }
@@ -338,7 +344,9 @@ fn by_kind(model: &str, certificate: &str, clock: Clock) -> Result<Proved, Rejec
         "intervals" if [SCHEMA, SCHEMA_WITH_SYMBOLS].contains(&schema) => {
             check_intervals(model, &json, statement, &clock)
         }
-        "verdict" if [SCHEMA, SCHEMA_WITH_SYMBOLS].contains(&schema) => verdict::check(model, &json, statement, &clock),
+        "verdict" if [SCHEMA, SCHEMA_WITH_SYMBOLS, SCHEMA_BY_ENCLOSURES].contains(&schema) => {
+            verdict::check(model, &json, statement, &clock)
+        }
         other => {
             let reason = format!("unknown kind of statement '{}'", shorten(other));
             Err(Rejection { step: Step::Statement, reason })
@@ -416,8 +424,13 @@ fn check_intervals(model: &str, json: &Json, statement: &Json, clock: &Clock) ->
             }
             let coefficients = Step::Model.of(region::transformed(&d.coefficients, discrete, &extent, clock))?;
             let given = Step::Characteristic.of(polynomials(characteristic, "'characteristic'", polynomial))?;
-            Step::Characteristic.of(same_characteristic(&given, &coefficients))?;
-            let d = intervals::Loop { discrete, degree: d.degree, coefficients: &coefficients, poles: &d.poles };
+            let meant = Step::Characteristic.of(meant(&given, &coefficients, d.is_doubled, clock))?;
+            let (coefficients, degree) = match meant {
+                Meant::Root => (&given, d.degree / 2),
+                Meant::Own | Meant::Doubled => (&coefficients, d.degree),
+            };
+            let is_doubled = d.is_doubled;
+            let d = intervals::Loop { discrete, is_doubled, degree, coefficients, poles: &d.poles };
             intervals::check(&d, &domain, &proof, &polynomial, clock)?;
         }
         Some(table) => {
@@ -425,10 +438,10 @@ fn check_intervals(model: &str, json: &Json, statement: &Json, clock: &Clock) ->
                 return Err(other_time());
             }
             let read = |json: &Json, what: &str| Over::read(json, what, &table);
-            let (coefficients, poles) =
+            let (coefficients, poles, is_doubled) =
                 held::characteristic(model, kept, &set, &extent, characteristic, &table, clock)?;
             let degree = coefficients.len() - 1;
-            let d = intervals::Loop { discrete, degree, coefficients: &coefficients, poles: &poles };
+            let d = intervals::Loop { discrete, is_doubled, degree, coefficients: &coefficients, poles: &poles };
             intervals::check(&d, &domain, &proof, &read, clock)?;
         }
     }

@@ -3,6 +3,7 @@
 use super::blocks::{Values, system_matrix};
 use super::characteristic::{Characteristic, Form, specialised};
 use super::clock::Clock;
+use super::complex::doubled;
 use super::declarations::{Declarations, Meaning};
 use super::expression::{Base, DeadTime, Names, Scope, number};
 use super::keys;
@@ -25,6 +26,7 @@ pub(super) fn read(
 ) -> Result<Characteristic, String> {
     let read = asked(text, kept, values, &Table::empty(), None, clock)?;
     let mut found = specialised(&read.form, &read.divisors, read.discrete, &read.values, clock)?;
+    found.is_doubled = read.is_doubled;
     if found.poles.iter().any(Uni::is_zero) {
         // Undefined everywhere: there is no polynomial.
         found.coefficients.clear();
@@ -42,6 +44,8 @@ pub(super) struct Asked {
     pub values: Vec<Q>,
     /// What the variables behind the parameters of a box are, where functions of them are read.
     pub moving: Option<Moving>,
+    /// Whether the loop is complex, so that it is doubled.
+    pub is_doubled: bool,
 }
 
 /// Reads the model for a question, exponentials over the symbols of a table, dead times as multiples of `base`.
@@ -99,7 +103,8 @@ fn read_for(
         }
         let of = Values { numbers: &meaning.values, first: meaning.values.len() + boxed.len(), table, base };
         let (form, divisors, moving) = evaluated(&root, &declared, (&meaning, is_moving), Some(of), clock)?;
-        Ok(Asked { discrete: declared.discrete, form, divisors, values: meaning.values, moving })
+        let (form, divisors, is_doubled) = doubled(form, &divisors, meaning.unit, clock)?;
+        Ok(Asked { discrete: declared.discrete, form, divisors, values: meaning.values, moving, is_doubled })
     })
 }
 
@@ -120,7 +125,7 @@ fn evaluated(
         scope.dead_time = Some(DeadTime { base, power, values: numbers.to_vec() });
     }
     if let Some(value) = root.get("sample_time") {
-        let time = scope.scalar(value)?;
+        let time = scope.scalar(value).and_then(|time| scope.real(time))?;
         if time.as_number().is_some_and(|time| !time.is_positive()) {
             return Err("the sample time is not positive".into());
         }

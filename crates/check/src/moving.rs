@@ -5,6 +5,7 @@
 mod exponential;
 
 use super::clock::Clock;
+use super::interval::Interval;
 use super::multivariate::{Fraction, Multi};
 use super::number::Q;
 use super::over_symbols::substituted;
@@ -196,7 +197,7 @@ impl Moving {
                 },
             });
         }
-        Ok(Sources(sources))
+        Ok(Sources { functions: sources, numbers: Vec::new() })
     }
 }
 
@@ -205,15 +206,31 @@ impl Moving {
 struct Quotient(Multi, Multi);
 
 /// What the variables behind the parameters of a box stand for, in order.
-pub(super) struct Sources(Vec<Source<Quotient>>);
+#[derive(Default)]
+pub(super) struct Sources {
+    functions: Vec<Source<Quotient>>,
+    /// Numbers of which an enclosure is all that is known, in units of those that functions are asked with.
+    numbers: Vec<Interval>,
+}
 
 impl Sources {
-    pub fn none() -> Self {
-        Sources(Vec::new())
+    /// How many variables there are.
+    pub fn len(&self) -> usize {
+        let count = |source: &Source<Quotient>| match source {
+            Source::Pi | Source::Of(..) | Source::Delay(_) | Source::Prewarp { .. } => 1,
+            Source::Hold { a, matrices, .. } => matrices.len() * a.len() * a.len(),
+            Source::Flow { a, .. } => a.len() * a.len(),
+        };
+        self.functions.iter().map(count).sum::<usize>() + self.numbers.len()
+    }
+
+    /// With further variables.
+    pub fn with_numbers(self, numbers: Vec<Interval>) -> Self {
+        Sources { numbers, ..self }
     }
 
     pub fn have_dead_time(&self) -> bool {
-        self.0.iter().any(|source| matches!(source, Source::Delay(_)))
+        self.functions.iter().any(|source| matches!(source, Source::Delay(_)))
     }
 
     /// The dead times that the variables stand for, as numerators and denominators.
@@ -222,13 +239,13 @@ impl Sources {
             &Source::Delay(Quotient(ref top, ref below)) => Ok((top, below)),
             _ => Err("beside dead time the loop has other functions".to_owned()),
         };
-        self.0.iter().map(time).collect()
+        self.functions.iter().map(time).collect()
     }
 
     /// The parameters and all the other variables over a box.
     pub fn values(&self, parameters: Vec<Taylor>, p: &Precision, clock: &Clock) -> Result<Vec<Taylor>, String> {
         let mut known = parameters;
-        for source in &self.0 {
+        for source in &self.functions {
             let new = match source {
                 Source::Pi => vec![pi(p)],
                 Source::Of(function, f) => vec![function.at(f.over(&known, p, clock)?, p, clock)?],
@@ -267,6 +284,7 @@ impl Sources {
             };
             known.extend(new);
         }
+        known.extend(self.numbers.iter().map(Taylor::enclosing));
         Ok(known)
     }
 }
@@ -284,7 +302,7 @@ impl Quotient {
 }
 
 /// A polynomial in the variables from [`FIRST`](super::over_box::FIRST) on.
-fn value(f: &Multi, known: &[Taylor], p: &Precision, clock: &Clock) -> Result<Taylor, String> {
+pub(super) fn value(f: &Multi, known: &[Taylor], p: &Precision, clock: &Clock) -> Result<Taylor, String> {
     let mut sum = Taylor::zero();
     for (e, c) in &f.0 {
         let mut term = Taylor::number(&Q::one(), p);

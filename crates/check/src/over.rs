@@ -84,8 +84,8 @@ fn at(p: &Multi, value: &Q, degree: usize, clock: &Clock) -> Result<Multi, Strin
     Ok(sum)
 }
 
-fn uncertain(what: &str, table: &Table) -> String {
-    format!("{what} is not certain with {} bits", table.bits)
+fn uncertain(what: &str, bits: usize) -> String {
+    format!("{what} is not certain with {bits} bits")
 }
 
 impl Ring for Over {
@@ -134,7 +134,7 @@ impl Coefficient for Over {
         }
         match self.table.enclosed(&left, clock)?.first() {
             Some(c) if !c.contains_zero() => Ok(false),
-            _ => Err(uncertain(&format!("a sign at {value}"), &self.table)),
+            _ => Err(uncertain(&format!("a sign at {value}"), self.table.bits)),
         }
     }
 
@@ -163,7 +163,7 @@ impl Coefficient for Over {
         let mut last = Sign::NoSign;
         let mut count = 0;
         for c in &signs {
-            let sign = c.sign().ok_or_else(|| uncertain("a coefficient's sign", &self.table))?;
+            let sign = c.sign().ok_or_else(|| uncertain("a coefficient's sign", self.table.bits))?;
             if sign != Sign::NoSign {
                 count += usize::from(last != Sign::NoSign && last != sign);
                 last = sign;
@@ -185,7 +185,7 @@ impl Coefficient for Over {
             d.push(table.enclosed(&left, clock)?.into_iter().next().unwrap_or_else(Interval::zero));
         }
         let n = d.len() - 1;
-        inside(d, true, table, clock).map(|found| found == n)
+        inside(d, true, table.bits, clock).map(|found| found == n)
     }
 }
 
@@ -195,11 +195,10 @@ impl Coefficient for Over {
 /// With `|d_0| < |d_n|` the reduction `(d_n D - d_0 D#)/z` has one root less inside and as many outside \[Jury1964\]. With `|d_0| > |d_n|`
 /// the polynomial `d_0 D - d_n D#`, one degree lower, has as many inside as `D` by Rouche's theorem, if none is on the circle; a root
 /// there is one of every reduction, but the last is a constant.
-pub(super) fn inside(mut d: Vec<Interval>, stop: bool, table: &Table, clock: &Clock) -> Result<usize, String> {
-    let bits = table.bits;
+pub(super) fn inside(mut d: Vec<Interval>, stop: bool, bits: usize, clock: &Clock) -> Result<usize, String> {
     let mut found = 0;
     if d.last().is_none_or(Interval::contains_zero) {
-        return Err(uncertain("the degree", table));
+        return Err(uncertain("the degree", bits));
     }
     while d.len() > 1 {
         let n = d.len() - 1;
@@ -214,10 +213,10 @@ pub(super) fn inside(mut d: Vec<Interval>, stop: bool, table: &Table, clock: &Cl
             }
             Some(Sign::Minus) if stop => return Ok(found),
             Some(Sign::Minus) => (0..n).map(|k| first.times(&d[k], bits).minus(&last.times(&d[n - k], bits))).collect(),
-            _ => return Err(uncertain("a root count", table)),
+            _ => return Err(uncertain("a root count", bits)),
         };
     }
-    if d[0].contains_zero() { Err(uncertain("a root count", table)) } else { Ok(found) }
+    if d[0].contains_zero() { Err(uncertain("a root count", bits)) } else { Ok(found) }
 }
 
 /// Coefficients of a positive multiple of `f(a + w t)` in `t`: multiples and sums by integers, which round nothing.

@@ -8,6 +8,8 @@ pub(super) use common::separated;
 use super::blocks::cleared;
 use super::characteristic::{Form, product};
 use super::clock::Clock;
+use super::complex::square_of_root;
+use super::enclosed::Determinant;
 use super::model::{self, Functions};
 use super::moving::Sources;
 use super::multivariate::{Fraction, Multi};
@@ -28,6 +30,8 @@ pub(super) struct OverBox {
     pub coefficients: Vec<Multi>,
     /// The loop is undefined where all polynomials of one of these lists vanish.
     pub divisors: Vec<Vec<Multi>>,
+    /// Whether the loop is complex, so that it is doubled.
+    pub is_doubled: bool,
     /// Whether the last of them is the leading coefficient, that of a determinant.
     pub has_lead_last: bool,
 }
@@ -40,15 +44,24 @@ pub(super) fn over_box(
     table: &Table,
     clock: &Clock,
 ) -> Result<OverBox, String> {
-    with_sources(text, names, set, Functions::OfNumbers(table), clock).map(|(found, _)| found)
+    with_sources(text, (names, set), Functions::OfNumbers(table), By::Expansion, clock).map(|(found, _)| found)
+}
+
+/// How the determinant is taken.
+#[derive(Clone, Copy)]
+pub(super) enum By<'w> {
+    /// As a polynomial in all variables.
+    Expansion,
+    /// With a number of bits, over a window of the two parameters, if there are any. Each coefficient is a further variable, a number.
+    Enclosures { window: Option<&'w [[Q; 2]; 2]>, bits: usize },
 }
 
 /// The same with functions and holds as further variables, if they are to be read, and what these are.
 pub(super) fn with_sources(
     text: &str,
-    names: &[String],
-    set: &[(String, Q)],
+    (names, set): (&[String], &[(String, Q)]),
     functions: Functions<'_>,
+    by: By<'_>,
     clock: &Clock,
 ) -> Result<(OverBox, Sources), String> {
     let asked = model::asked_over_box(text, names, set, functions, clock)?;
@@ -58,23 +71,26 @@ pub(super) fn with_sources(
         for divisor in &asked.divisors {
             divisors.push(substituted(&divisor.coefficients(0), values, clock)?);
         }
-        // The rows of a matrix whose determinant has a degree, and the coefficient of that power.
-        let mut led = |rows: &[Vec<Multi>], degree: usize| -> Result<Multi, String> {
-            let rows = rows.iter().map(|row| substituted(row, values, clock)).collect::<Result<Vec<_>, _>>()?;
-            let d = determinant(&rows, clock)?;
-            if d.degree(0) > degree {
-                return Err("a determinant has a higher degree than the model".into());
-            }
-            divisors.push(vec![d.coefficients(0).into_iter().nth(degree).unwrap_or_default()]);
-            Ok(d)
+        let specialised = |rows: &[Vec<Multi>]| -> Result<Vec<Vec<Multi>>, String> {
+            rows.iter().map(|row| substituted(row, values, clock)).collect()
         };
-        let (d, degree) = match &asked.form {
+        let sources =
+            asked.moving.map_or_else(|| Ok(Sources::default()), |moving| moving.with_values(values, clock))?;
+        let (rows, degree) = match &asked.form {
             Form::Written(f) => {
                 let mut both = substituted(&[f.numerator.clone(), f.whole_denominator(clock)?], values, clock)?;
                 divisors.extend(both.pop().map(|below| vec![below]));
-                (both.pop().unwrap_or_default(), f.numerator.degree(0))
+                let coefficients = resized(&both.pop().unwrap_or_default(), f.numerator.degree(0));
+                let found = OverBox {
+                    discrete: asked.discrete,
+                    coefficients,
+                    divisors,
+                    is_doubled: asked.is_doubled,
+                    has_lead_last: false,
+                };
+                return Ok((found, sources));
             }
-            Form::Matrix(m) => (led(&less(m, clock)?, m.len())?, m.len()),
+            Form::Matrix(m) => (less(m, clock)?, m.len()),
             Form::Feedback([a, b, c, k]) => {
                 let bkc = product(&product(b, k, clock)?, c, clock)?;
                 let mut m = a.clone();
@@ -83,21 +99,62 @@ pub(super) fn with_sources(
                         *entry = entry.plus(&f.negated(), clock)?;
                     }
                 }
-                (led(&less(&m, clock)?, m.len())?, m.len())
+                (less(&m, clock)?, m.len())
             }
             Form::System((rows, degree), alone) => {
                 for (rows, degree) in alone {
-                    led(rows, *degree)?;
+                    divisors.extend(expanded(&specialised(rows)?, *degree, clock)?.pop().map(|lead| vec![lead]));
                 }
-                (led(rows, *degree)?, *degree)
+                (rows.clone(), *degree)
             }
         };
-        let mut coefficients = d.coefficients(0);
-        coefficients.resize(degree + 1, Multi::default());
-        let sources = asked.moving.map_or_else(|| Ok(Sources::none()), |moving| moving.with_values(values, clock))?;
-        let has_lead_last = !matches!(asked.form, Form::Written(_));
-        Ok((OverBox { discrete: asked.discrete, coefficients, divisors, has_lead_last }, sources))
+        let rows = specialised(&rows)?;
+        let (coefficients, sources) = match by {
+            By::Expansion => (expanded(&rows, degree, clock)?, sources),
+            By::Enclosures { window, bits } => {
+                let first = FIRST + if window.is_some() { 2 } else { 0 } + sources.len();
+                let found =
+                    Determinant { rows: &rows, degree, window, sources: &sources, bits, clock }.coefficients()?;
+                let mut coefficients = vec![Multi::default(); degree + 1];
+                for (i, [k, x, y]) in found.keys().enumerate() {
+                    let mut e = vec![0; first + i + 1];
+                    if window.is_some() {
+                        (e[FIRST], e[FIRST + 1]) = (*x as u32, *y as u32);
+                    }
+                    e[first + i] = 1;
+                    coefficients[*k].add(e, Z::one());
+                }
+                (coefficients, sources.with_numbers(found.into_values().collect()))
+            }
+        };
+        divisors.push(coefficients.last().cloned().into_iter().collect());
+        Ok((
+            OverBox {
+                discrete: asked.discrete,
+                coefficients,
+                divisors,
+                is_doubled: asked.is_doubled,
+                has_lead_last: true,
+            },
+            sources,
+        ))
     })
+}
+
+/// The coefficients of a determinant that has at most this degree.
+fn expanded(rows: &[Vec<Multi>], degree: usize, clock: &Clock) -> Result<Vec<Multi>, String> {
+    let d = determinant(rows, clock)?;
+    if d.degree(0) > degree {
+        return Err("a determinant has a higher degree than the model".into());
+    }
+    Ok(resized(&d, degree))
+}
+
+/// So many coefficients and one.
+fn resized(d: &Multi, degree: usize) -> Vec<Multi> {
+    let mut coefficients = d.coefficients(0);
+    coefficients.resize(degree + 1, Multi::default());
+    coefficients
 }
 
 /// The rows of `zI - M`, each times its denominators.
@@ -166,8 +223,11 @@ fn size(d: &[Multi]) -> (usize, u64) {
     (numbers.clone().count(), numbers.map(Z::bits).max().unwrap_or(0))
 }
 
-/// Whether the own polynomial is the given one times a common factor; that factor.
-pub(super) fn common_factor(given: &[Multi], own: &[Multi], clock: &Clock) -> Result<Multi, String> {
+/// Whether the own polynomial, or the root of a doubled one, is the given one times a common factor; the factor of the polynomial.
+pub(super) fn common_factor(given: &[Multi], own: &[Multi], is_doubled: bool, clock: &Clock) -> Result<Multi, String> {
+    if let Some(square) = square_of_root(given, own, is_doubled, clock)? {
+        return common_factor(&square, own, false, clock);
+    }
     if given.len() != own.len() {
         return Err(format!("there are {} coefficients, but the model's polynomial has {}", given.len(), own.len()));
     }

@@ -17,8 +17,7 @@ const MAX_TERMS: usize = 400_000;
 
 /// Polynomials in the parameter (variable 1) and the symbols (from variable 2 on).
 pub(super) struct OverSymbols {
-    pub degree: usize,
-    /// `degree + 1` coefficients from the constant term up, up to a factor that has no zero where the loop is defined.
+    /// One more than the degree, from the constant term up, up to a factor that has no zero where the loop is defined.
     pub coefficients: Vec<Multi>,
     /// The loop is undefined at the zeros of these.
     pub poles: Vec<Multi>,
@@ -67,7 +66,7 @@ pub(super) fn over_symbols(
     }
     let mut coefficients = d.coefficients(0);
     coefficients.resize(degree + 1, Multi::default());
-    Ok(OverSymbols { degree: *degree, coefficients, poles })
+    Ok(OverSymbols { coefficients, poles })
 }
 
 /// The greatest common divisor of polynomials in the parameter alone.

@@ -14,6 +14,17 @@ pub(super) struct Places {
     pub outside: usize,
 }
 
+impl Places {
+    /// Of the polynomial that was doubled.
+    pub fn halved(self) -> Result<Self, String> {
+        let Places { inside, on, outside } = self;
+        match [inside, on, outside].iter().all(|n| n % 2 == 0) {
+            true => Ok(Places { inside: inside / 2, on: on / 2, outside: outside / 2 }),
+            false => Err("internal: a doubled polynomial has an odd number of roots".into()),
+        }
+    }
+}
+
 /// Whether all roots lie strictly inside the unit circle, by the Schur-Cohn reduction
 /// `D <- (d_n D - d_0 D#)/z`: the roots are inside if and only if `|d_0| < |d_n|` and those of the
 /// reduced polynomial are \[Jury1964\]. Constants that are not zero have no roots.

@@ -3,6 +3,7 @@
 //! Taylor models \[MakinoBerz2003\], for use in this package only. The coordinates `u`, `v` go from -1 to 1. Coefficients are integers in units of `2^-bits`; every rounding is in the bound.
 
 use super::clock::Clock;
+use super::interval::Interval;
 use super::number::{Q, Z};
 use num_traits::{Euclid, One, Signed, Zero};
 use std::iter::repeat_n;
@@ -53,6 +54,19 @@ impl Taylor {
     /// So many units.
     pub fn units(c: Z, rest: Z) -> Self {
         Taylor { c: vec![c], rest }
+    }
+
+    /// A number in an interval.
+    pub fn enclosing(of: &Interval) -> Self {
+        let middle = (&of.lo + &of.hi) >> 1;
+        let rest = &of.hi - &middle;
+        Taylor::units(middle, rest)
+    }
+
+    /// All values.
+    pub fn range(&self) -> Interval {
+        let (c, around) = (self.constant(), self.variation());
+        Interval { lo: &c - &around, hi: c + around }
     }
 
     pub fn number(q: &Q, p: &Precision) -> Self {

@@ -1,21 +1,39 @@
 //! The verdict at one point, and statements in words.
 
 use super::clock::Clock;
+use super::complex::{Meant, meant};
 use super::number::Q;
 use super::roots::{Places, is_hurwitz, is_schur, places_by_axis, places_by_circle};
 use super::statement::{self, End, Extent, count, fixed_extent, list, object, polynomial, polynomials, text, values};
 use super::univariate::Uni;
 use super::words::{exact, shared_digits, with_decimal};
-use super::{Proved, Rejection, Step, further_keys, held, is_discrete, model, region, same_characteristic, table};
-use crate::format::Json;
+use super::{Proved, Rejection, Step, by_enclosures, further_keys, held, is_discrete, model, region, table};
+use crate::format::{Json, SCHEMA_BY_ENCLOSURES};
 use num_traits::Zero;
 use std::fmt::Write;
 
+/// What shows a verdict.
+enum Shown<'j> {
+    /// The characteristic polynomial.
+    Polynomial(&'j Json),
+    /// Enclosures with so many bits.
+    Enclosures(usize),
+}
+
 pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -> Result<Proved, Rejection> {
     let table = table(json)?;
-    let parts = ["schema", "statement", "characteristic"];
-    let [_, _, characteristic] =
-        Step::Format.of(object(json, "the certificate", parts, further_keys(table.as_ref())))?;
+    let shown = Step::Format.of((|| {
+        if json.get("schema") == Some(&Json::Text(SCHEMA_BY_ENCLOSURES.into())) {
+            let [_, _, bits] = object(json, "the certificate", ["schema", "statement", "bits"], &["model"])?;
+            return match count(bits, "'bits'")? {
+                bits @ 64..=1024 => Ok(Shown::Enclosures(bits)),
+                _ => Err("'bits' is not from 64 to 1024".to_owned()),
+            };
+        }
+        let parts = ["schema", "statement", "characteristic"];
+        let [_, _, polynomial] = object(json, "the certificate", parts, further_keys(table.as_ref()))?;
+        Ok(Shown::Polynomial(polynomial))
+    })())?;
     let keys = ["kind", "time", "set", "region", "verdict", "degree", "inside", "on", "outside", "infinite"];
     let [_, time, set, region, verdict, degree, inside, on, outside, infinite] =
         Step::Statement.of(object(statement, "the statement", keys, &[]))?;
@@ -32,16 +50,25 @@ pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -
             count(infinite, "'infinite'")?,
         ])
     })())?;
-    let (degree, name, places, infinite) = match &table {
-        None => rational(model, discrete, &set, &extent, characteristic, clock)?,
-        Some(_) if !discrete => {
+    let (degree, name, places, infinite) = match (shown, &table) {
+        (Shown::Polynomial(characteristic), None) => rational(model, discrete, &set, &extent, characteristic, clock)?,
+        (Shown::Enclosures(_), _) | (_, Some(_)) if !discrete => {
             let reason = "the model's time is not that of the statement".into();
             return Err(Rejection { step: Step::Model, reason });
         }
-        Some(table) => {
-            let (d, poles) = held::characteristic(model, None, &set, &extent, characteristic, table, clock)?;
-            let places = Step::Stable.of(held::places(&d, &poles, table, clock))?;
-            (d.len() - 1, named(&places, 0), places, 0)
+        (Shown::Enclosures(bits), _) => {
+            let (degree, places) = by_enclosures::places(model, &set, &extent, bits, clock)?;
+            (degree, named(&places, 0), places, 0)
+        }
+        (Shown::Polynomial(characteristic), Some(table)) => {
+            let (d, poles, is_doubled) =
+                held::characteristic(model, None, &set, &extent, characteristic, table, clock)?;
+            let found = Step::Stable.of(held::places(&d, &poles, table, clock))?;
+            let (degree, places) = match is_doubled {
+                true => ((d.len() - 1) / 2, Step::Stable.of(found.halved())?),
+                false => (d.len() - 1, found),
+            };
+            (degree, named(&places, 0), places, 0)
         }
     };
     if verdict != name {
@@ -87,24 +114,31 @@ fn rational(
     }
     let coefficients = Step::Model.of(region::transformed(&d.coefficients, discrete, extent, clock))?;
     let given = Step::Characteristic.of(polynomials(characteristic, "'characteristic'", polynomial))?;
-    Step::Characteristic.of(same_characteristic(&given, &coefficients))?;
+    let meant = Step::Characteristic.of(meant(&given, &coefficients, d.is_doubled, clock))?;
+    let (coefficients, degree) = match meant {
+        Meant::Root => (given, d.degree / 2),
+        Meant::Own | Meant::Doubled => (coefficients, d.degree),
+    };
     let undefined = d.poles.iter().any(Uni::is_zero);
     let polynomial = Uni::new(coefficients.iter().map(|c| c.at(0)).collect());
     let (name, places, infinite) = if undefined {
         ("undefined", Places::default(), 0)
     } else if polynomial.is_zero() {
-        ("unstable", Places::default(), d.degree)
+        ("unstable", Places::default(), degree)
     } else {
         let places = if discrete { places_by_circle(&polynomial, clock) } else { places_by_axis(&polynomial, clock) };
         let places = Step::Stable.of(places)?;
-        let infinite = d.degree - polynomial.degree();
+        let infinite = degree - polynomial.degree();
         let quick = if discrete { is_schur(&polynomial, clock) } else { is_hurwitz(&polynomial, clock) };
         if Step::Stable.of(quick)? != (places.on + places.outside == 0) {
             return Err(Rejection { step: Step::Stable, reason: "internal: two tests disagree".into() });
         }
         (named(&places, infinite), places, infinite)
     };
-    Ok((d.degree, name, places, infinite))
+    Ok(match meant {
+        Meant::Doubled => (degree / 2, name, Step::Stable.of(places.halved())?, infinite / 2),
+        Meant::Own | Meant::Root => (degree, name, places, infinite),
+    })
 }
 
 /// What the verdict is called.

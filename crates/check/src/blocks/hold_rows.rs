@@ -2,7 +2,8 @@
 
 use super::{Diagram, Matrices, Row, Rule, Values};
 use crate::clock::Clock;
-use crate::hold::{self, Held, Hold, MovingHold, Pulse};
+use crate::complex::{doubled_matrix, has_unit};
+use crate::hold::{self, Enters, Held, Hold, MovingHold, Pulse};
 use crate::multivariate::{Fraction, Multi};
 use crate::number::Q;
 use crate::over_symbols::substituted;
@@ -15,19 +16,28 @@ impl Diagram<'_, '_> {
     /// transfer function.
     pub(super) fn rule(&mut self, how: &Toml, exponents: &[String], inputs: &[Row]) -> Result<Rule, String> {
         let clock = self.scope.clock;
-        let mut get = |key: &str| how.get(key).map(|t| self.scope.scalar(t)).transpose();
+        let mut get = |key: &str| -> Result<Option<Fraction>, String> {
+            let Some(value) = how.get(key) else { return Ok(None) };
+            let value = self.scope.scalar(value)?;
+            self.scope.real(value).map(Some)
+        };
         let (mut time, factor, prewarp, mut delay) = (get("T")?, get("c")?, get("prewarp")?, get("delay")?);
+        let (frame, advance) = (get("frame")?, get("advance")?);
         let method = method(how)?;
         let pulses = self.pulses(how, method, inputs)?;
         for exponent in exponents {
-            let own = self.scope.time_of_exponent(exponent)?;
+            let own = self.scope.time_of_exponent(exponent).and_then(|time| self.scope.real(time))?;
             delay = Some(delay.map_or(Ok(own.clone()), |delay| delay.plus(&own, clock))?);
         }
         if time.is_none() && factor.is_none() {
             time = self.sample_time.map(|t| self.scope.scalar(t)).transpose()?;
+            time = time.map(|time| self.scope.real(time)).transpose()?;
             // A slower block has its own period.
             let every = Fraction::number(&Q::from_integer(self.rate.every.into()));
             time = time.map(|time| time.times(&every, clock)).transpose()?;
+        }
+        if (frame.is_some() && method != "zoh") || (advance.is_some() && frame.is_none()) {
+            return Err("only 'zoh' has a 'frame', and an 'advance' goes with it".into());
         }
         if is_hold(how)? && self.rate.every > 1 {
             return Err("a continuous plant has no rate of its own".into());
@@ -46,6 +56,11 @@ impl Diagram<'_, '_> {
             return Err("'discretize' is not complete".into());
         };
         let Some(values) = self.values else { return Ok(Rule::Unknown) };
+        if let Some(speed) = frame {
+            let turn = self.scope.rotation(&speed.times(&time, clock)?)?;
+            let ahead = advance.map_or_else(|| Ok(Fraction::number(&Q::one())), |angle| self.scope.rotation(&angle))?;
+            self.frame = Some([turn, ahead]);
+        }
         if self.scope.moving.is_some() {
             let ratio = delay.map_or(Ok(Q::zero()), |delay| ratio(&delay, &time, &values, clock))?;
             return Ok(Rule::Moving(MovingHold { is_first_order: method == "foh", time, ratio, pulses }));
@@ -73,7 +88,7 @@ impl Diagram<'_, '_> {
         // Numbers, where only numbers can be in an exponential.
         let read = |c: &Multi| match self.scope.moving {
             Some(_) => Ok(whole(c)),
-            None => numbered(&whole(c), &values, clock).map(|q| Fraction::number(&q)),
+            None => self.complex_number(&whole(c), &values),
         };
         let den: Vec<Fraction> = den.coefficients(0).iter().map(read).collect::<Result<_, _>>()?;
         let Some((lead, below)) = den.split_last().filter(|(lead, _)| !lead.numerator.is_zero()) else {
@@ -106,16 +121,59 @@ impl Diagram<'_, '_> {
         let clock = self.scope.clock;
         let Some(values) = self.values else { return Err("internal: a hold without values".into()) };
         let number = |f: &Fraction| numbered(f, &values, clock);
+        let in_parts = self.in_parts(a)?;
+        let a = in_parts.as_deref().unwrap_or(a);
         let numbers = a.iter().map(|row| row.iter().map(number).collect()).collect::<Result<Vec<Vec<Q>>, _>>()?;
         let of = hold::held(&numbers, inputs, hold, values.table, values.first, clock)?;
         self.scope.divisors.extend(of.divisors.iter().filter(|m| !m.is_constant()).cloned());
-        Ok(of)
+        if in_parts.is_some() { self.joined(of) } else { Ok(of) }
+    }
+
+    /// The number that a fraction is, with an imaginary part if it has one.
+    fn complex_number(&self, f: &Fraction, values: &Values<'_>) -> Result<Fraction, String> {
+        let clock = self.scope.clock;
+        let [re, im] = f.parts(values.unit(), clock)?;
+        let [re, im] = [numbered(&re, values, clock)?, numbered(&im, values, clock)?];
+        match im.is_zero() {
+            true => Ok(Fraction::number(&re)),
+            false => Fraction::number(&re)
+                .plus(&Fraction::number(&im).times(&Fraction::variable(values.unit()), clock)?, clock),
+        }
+    }
+
+    /// The real matrix of a complex one: of `x + jy` the rows `x, -y` and `y, x`.
+    fn in_parts(&self, a: &[Vec<Fraction>]) -> Result<Option<Vec<Vec<Fraction>>>, String> {
+        match self.scope.unit {
+            Some(unit) if !a.iter().flatten().all(|f| f.is_real(unit)) => {
+                doubled_matrix(a, unit, self.scope.clock).map(Some)
+            }
+            _ => Ok(None),
+        }
+    }
+
+    /// What a complex block does, from what its real matrix does: `exp(At)` and its integrals have the same form as that.
+    fn joined(&self, of: Held) -> Result<Held, String> {
+        let unit = Multi::variable(self.scope.unit.ok_or("internal: no imaginary unit")?);
+        let clock = self.scope.clock;
+        let whole = |m: &Vec<Vec<Multi>>| -> Result<Vec<Vec<Multi>>, String> {
+            let n = m.len() / 2;
+            let entry = |i: usize, j: usize| Ok(m[2 * i][2 * j].plus(&m[2 * i + 1][2 * j].times(&unit, clock)?));
+            (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
+        };
+        let enters = of.enters.iter().map(|enters| {
+            let matrix = whole(&enters.matrix)?;
+            Ok(Enters { matrix, direct: enters.direct.clone(), inputs: enters.inputs.clone(), age: enters.age })
+        });
+        Ok(Held { enters: enters.collect::<Result<_, String>>()?, state: whole(&of.state)?, ..of })
     }
 
     /// The same where it depends on the parameters of a box.
     pub(super) fn moving(&mut self, a: &[Vec<Fraction>], inputs: usize, hold: &MovingHold) -> Result<Held, String> {
         let clock = self.scope.clock;
-        hold::moving(a, inputs, hold, self.scope.moving.as_mut().ok_or("internal: a hold with numbers")?, clock)
+        let in_parts = self.in_parts(a)?;
+        let moving = self.scope.moving.as_mut().ok_or("internal: a hold with numbers")?;
+        let of = hold::moving(in_parts.as_deref().unwrap_or(a), inputs, hold, moving, clock)?;
+        if in_parts.is_some() { self.joined(of) } else { Ok(of) }
     }
 
     /// The rows of a block behind a hold: its states, then the past inputs it remembers.
@@ -131,7 +189,17 @@ impl Diagram<'_, '_> {
         let (states, past) = (self.unknowns, self.unknowns + n);
         self.unknowns += n + of.past * m;
         self.degree += n + of.past * m;
-        let z = |k: i64| if k < 0 { Fraction::variable(0) } else { Fraction::number(&Q::one()) };
+        // Seen from a frame that turns: exp(ja) G(z exp(jwT)).
+        let one = Fraction::number(&Q::one());
+        let [turn, ahead] = self.frame.take().unwrap_or_else(|| [one.clone(), one]);
+        let mut entering = Vec::with_capacity(inputs.len());
+        for input in inputs {
+            let turned = |(k, c): (&usize, &Fraction)| Ok((*k, c.times(&ahead, clock)?));
+            entering.push(input.iter().map(turned).collect::<Result<Row, String>>()?);
+        }
+        let inputs = entering.as_slice();
+        let later = turn.times(&Fraction::variable(0), clock)?;
+        let z = |k: i64| if k < 0 { later.clone() } else { Fraction::number(&Q::one()) };
         let over = |m: &Multi| Fraction { numerator: m.clone(), denominator: Multi::one(), scalar: of.over.clone() };
         // Adds a multiple of an input of some age.
         let feed_aged = |diagram: &mut Self, row: &mut Row, factor: &Fraction, age: i64, j: usize| match age {
@@ -152,7 +220,7 @@ impl Diagram<'_, '_> {
         for i in 0..n {
             // z x - state x - sum matrix B u = 0
             let mut row = Row::new();
-            row.insert(states + i, Fraction::variable(0));
+            row.insert(states + i, later.clone());
             for j in 0..n {
                 self.add(&mut row, states + j, over(&of.state[i][j]).negated())?;
             }
@@ -169,7 +237,7 @@ impl Diagram<'_, '_> {
         for i in 0..of.past * m {
             // z p - (what came a sample later) = 0
             let mut row = Row::new();
-            row.insert(past + i, Fraction::variable(0));
+            row.insert(past + i, later.clone());
             let minus = Fraction::number(&-Q::one());
             feed_aged(self, &mut row, &minus, (i / m) as i64, i % m)?;
             self.rows.push(row);
@@ -221,6 +289,9 @@ fn ratio(delay: &Fraction, time: &Fraction, values: &Values<'_>, clock: &Clock) 
 /// The number that a fraction is for the values of the parameters.
 pub(super) fn numbered(f: &Fraction, values: &Values<'_>, clock: &Clock) -> Result<Q, String> {
     let number = |m: &Multi| -> Result<Q, String> {
+        if has_unit(m, values.unit()) {
+            return Err("the matrix of a plant behind a hold is complex".into());
+        }
         let at = m.specialised(1, values.numbers, clock)?;
         let mut all = at.into_iter().flatten();
         let first = all.next().unwrap_or_default();

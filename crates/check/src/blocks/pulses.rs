@@ -34,6 +34,7 @@ impl Diagram<'_, '_> {
         let mut ratios = Vec::with_capacity(duties.len());
         for duty in duties {
             let duty = self.scope.scalar(duty)?;
+            let duty = self.scope.real(duty)?;
             if duty.as_number().is_some_and(|d| !d.is_positive() || d >= Q::one()) {
                 return Err("the duty ratio of a modulator is not between 0 and 1".into());
             }

@@ -122,7 +122,7 @@ impl Diagram<'_, '_> {
         let mut rows = Vec::new();
         for (row, rate) in self.rows.iter().zip(&self.rates.rows) {
             for t in (0..steps).filter(|t| rate.is_active(start + t)) {
-                rows.push(self.at_sample(row, t, *rate, steps, &places)?);
+                rows.push((t, self.at_sample(row, t, *rate, steps, &places)?));
             }
         }
         for (rate, outputs) in &self.rates.blocks {
@@ -133,12 +133,14 @@ impl Diagram<'_, '_> {
                         0 => (at(steps - 1)?, Fraction::variable(0)),
                         t => (at(t - 1)?, Fraction::number(&Q::one())),
                     };
-                    rows.push(Row::from([(at(t)?, now), (before, Fraction::number(&-Q::one()))]));
+                    rows.push((t, Row::from([(at(t)?, now), (before, Fraction::number(&-Q::one()))])));
                 }
                 self.degree += usize::from(!rate.is_active(start));
             }
         }
-        (self.rows, self.unknowns) = (rows, next);
+        // Samples that follow each other share signals: so a minor of the first rows takes few sets of columns.
+        rows.sort_by_key(|(t, _)| *t);
+        (self.rows, self.unknowns) = (rows.into_iter().map(|(_, row)| row).collect(), next);
         Ok(())
     }
 

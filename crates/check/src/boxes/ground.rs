@@ -68,7 +68,7 @@ impl Ground {
         if let Some(table) = &self.table {
             let enclosed =
                 values_at(d, point, clock)?.iter().map(|c| number(table, c, clock)).collect::<Result<Vec<_>, _>>()?;
-            return Ok(inside(enclosed, true, table, clock)? == d.len() - 1);
+            return Ok(inside(enclosed, true, table.bits, clock)? == d.len() - 1);
         }
         let at = at(d, point, clock)?;
         let is_stable = if discrete { is_schur(&at, clock)? } else { is_hurwitz(&at, clock)? };

@@ -123,8 +123,9 @@ pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -
     // A divisor that is zero everywhere leaves nothing defined.
     let nowhere = own.divisors.iter().any(|parts| parts.iter().all(Multi::is_zero));
     let poles = if nowhere { vec![Multi::default()] } else { Vec::new() };
-    let degree = own.coefficients.len() - 1;
-    let d = Loop { discrete: s.discrete, degree, coefficients: &given, poles: &poles };
+    // Of the root of a doubled polynomial it is half as large.
+    let degree = if given.is_empty() { own.coefficients.len() - 1 } else { given.len() - 1 };
+    let d = Loop { discrete: s.discrete, is_doubled: own.is_doubled, degree, coefficients: &given, poles: &poles };
     let found = Step::Boundary.of(boundaries(&d, boundary, &read, clock))?;
     let Some(found) = found else {
         let empty = |step: Step, json: &Json, what: &str| {
@@ -172,7 +173,7 @@ fn common(given: &[Multi], own: &OverBox, s: &Statement, clock: &Clock) -> Resul
     if own_in_region.iter().all(Multi::is_zero) {
         return if given == own_in_region { Ok(Multi::one()) } else { Err("the model's polynomial is zero".into()) };
     }
-    common_factor(given, &own_in_region, clock)
+    common_factor(given, &own_in_region, own.is_doubled, clock)
 }
 
 /// The curves: polynomials off whose zeros all the given ones are other than zero; of each list one.

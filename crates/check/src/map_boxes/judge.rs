@@ -3,13 +3,14 @@
 use super::delayed::{self, Delayed};
 use super::polynomial::{self, Polynomial};
 use super::{Parts, Sides, Statement, read};
+use crate::blocks::has_several_rates;
 use crate::clock::Clock;
 use crate::format::Json;
 use crate::model::Functions;
 use crate::number::{Q, Z};
-use crate::over_box::{FIRST, with_sources};
+use crate::over_box::{By, FIRST, with_sources};
 use crate::taylor::Precision;
-use crate::{Limits, Rejection, STACK, Step};
+use crate::{Limits, Rejection, STACK, Step, toml};
 use std::fmt;
 
 /// Decides boxes of a window one by one, as the check of a map by boxes does. Who writes a certificate asks it what a checker can see.
@@ -95,14 +96,23 @@ impl BoxJudge {
     }
 
     pub(super) fn of(model: &str, statement: Statement, parts: &Parts, clock: Clock) -> Result<Self, Rejection> {
-        let (own, sources) =
-            Step::Model.of(with_sources(model, &statement.names, &statement.set, Functions::Moving, &clock))?;
+        // Over a hyperperiod polynomials are long.
+        let by = match toml::read(model).is_ok_and(|model| has_several_rates(&model)) {
+            true => By::Enclosures { window: Some(&statement.window), bits: parts.bits },
+            false => By::Expansion,
+        };
+        let asked = (statement.names.as_slice(), statement.set.as_slice());
+        let (own, sources) = Step::Model.of(with_sources(model, asked, Functions::Moving, by, &clock))?;
         if own.discrete != statement.discrete {
             let reason = "the model's time is not that of the statement".into();
             return Err(Rejection { step: Step::Model, reason });
         }
         let below = if sources.have_dead_time() { FIRST + 2 } else { usize::MAX };
-        let own = Step::Model.of(clock.reading(|| own.without_common(below, &clock)))?;
+        let own = match by {
+            By::Expansion => Step::Model.of(clock.reading(|| own.without_common(below, &clock)))?,
+            // Coefficients that are numbers of their own have nothing in common.
+            By::Enclosures { .. } => own,
+        };
         let of = if sources.have_dead_time() {
             Step::Model.of(Delayed::new(own, &sources, &statement, parts, &clock)).map(Kind::Delayed)?
         } else {

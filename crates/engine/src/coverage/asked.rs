@@ -221,7 +221,7 @@ impl Asked {
     /// ```
     pub fn of_complex_loop(self) -> Option<&'static Refusal> {
         use Asked::*;
-        const KNOWN: [Asked; 29] = [
+        const KNOWN: [Asked; 34] = [
             Verdict,
             VerdictInRegion,
             Intervals,
@@ -251,6 +251,11 @@ impl Asked {
             VerdictWithMargins,
             VerdictWithDelayMargin,
             VerdictWithDamping,
+            VerdictCertificate,
+            IntervalsCertificate,
+            ExactMapCertificate,
+            BoxMapCertificate,
+            ToleranceCertificate,
         ];
         (!KNOWN.contains(&self)).then_some(&COMPLEX)
     }

@@ -2,6 +2,7 @@
 
 mod held;
 
+use super::complex::times;
 use super::held::{is_held, polynomials, terms};
 use super::statement::{about, number, object, region, set};
 use super::text::to_text;
@@ -51,7 +52,6 @@ impl Answer<ToleranceAnswer> {
         budget.step("certificate");
         let (problem, value) = (self.problem(), self.value());
         refuse_requirements(problem)?;
-        problem.refuse_written_complex()?;
         let is_held = is_held(problem, budget)?;
         let witness = value.factor.as_ref().and_then(|factor| factor.witness.as_ref()).or(match &value.decision {
             BoxDecision::NotStable { witness } => witness.as_ref(),
@@ -116,7 +116,7 @@ impl Loop<'_> {
                 let Some(of_point) = held.bits_beyond(p, witness, budget)? else { continue };
                 bits = bits.max(of_point);
             }
-            found.push(beyond(witness, sides, p.formal_degree()));
+            found.push(beyond(witness, sides, (p.formal_degree(), times(problem))));
         }
         let tolerances = problem.free().iter().zip(sides).map(|(free, side)| {
             object([
@@ -206,7 +206,7 @@ fn still(side: &Side) -> Side {
 }
 
 /// A point that is not stable, and the least factor whose box holds it.
-fn beyond(witness: &Witness, sides: &[Side], degree: usize) -> Value {
+fn beyond(witness: &Witness, sides: &[Side], (degree, times): (usize, usize)) -> Value {
     let (count, infinite) = match &witness.at {
         None | Some(AtPoint::Undefined | AtPoint::Delayed { .. }) => (RootCount::default(), 0),
         Some(AtPoint::Zero) => (RootCount::default(), degree),
@@ -220,11 +220,11 @@ fn beyond(witness: &Witness, sides: &[Side], degree: usize) -> Value {
     object([
         ("factor", number(&shares.max().unwrap_or(Rational::ZERO))),
         ("point", witness.point.iter().map(number).collect()),
-        ("degree", degree.into()),
-        ("inside", count.inside.into()),
-        ("on", count.on.into()),
-        ("outside", count.outside.into()),
-        ("infinite", infinite.into()),
+        ("degree", (degree / times).into()),
+        ("inside", (count.inside / times).into()),
+        ("on", (count.on / times).into()),
+        ("outside", (count.outside / times).into()),
+        ("infinite", (infinite / times).into()),
     ])
 }
 

@@ -3,9 +3,10 @@
 mod line;
 
 use super::cofactors::{Identity, of_half_size_pair};
+use super::complex::{has_frames, times};
 use super::no_certificate;
 use super::over_symbols::{Enclosed, coprime_basis};
-use super::statement::{self, about, boundary, number, object};
+use super::statement::{self, about_at_rates, boundary, number, object};
 use super::text::to_text;
 use crate::answer::{Answer, PointVerdict};
 use crate::error::Error;
@@ -64,6 +65,54 @@ pub(super) fn is_held(problem: &Problem, budget: &Budget) -> Result<bool, Error>
         };
     }
     Ok(true)
+}
+
+/// Polynomials over the constants of holds are looked at over so many samples. The drive with its speed controller at each third sample has a
+/// certificate of 6 MB.
+const MOST_SAMPLES: u64 = 2;
+
+/// With more constants resultants take minutes, and memory.
+const MOST_SYMBOLS: usize = 4;
+
+/// So much work is done for them.
+const WORK_OF_SAMPLES: u64 = 1_000_000_000;
+
+/// Longer certificates are more than the checkers take.
+const MOST_BYTES: usize = 1 << 22;
+
+/// The certificate of a stable set at several rates, where it is short; `None` where all is rational. Boxes are the other way.
+pub(super) fn of_few_samples(answer: &Answer<StableSet>, budget: &Budget) -> Result<Option<String>, Error> {
+    if answer.problem().model().hyperperiod() > MOST_SAMPLES || has_frames(answer.problem()) {
+        return Err(is_long());
+    }
+    of_short_set(answer, budget)
+}
+
+/// The same of a loop whose polynomials are twice as long as others, as those of complex loops are.
+pub(super) fn of_short_set(answer: &Answer<StableSet>, budget: &Budget) -> Result<Option<String>, Error> {
+    let share = budget.clone().within_work(WORK_OF_SAMPLES);
+    let problem = answer.problem();
+    let found = is_held(problem, &share).and_then(|is_held| {
+        let polynomial = problem.symbolic(&share)?;
+        let count = polynomial.as_ref().and_then(|p| p.fixed_symbols()).map_or(0, |symbols| symbols.len());
+        match is_held {
+            true if count > MOST_SYMBOLS => Err(is_long()),
+            true => of_set(answer, &share).map(Some),
+            false => Ok(None),
+        }
+    });
+    match found {
+        Ok(Some(text)) if text.len() > MOST_BYTES => Err(is_long()),
+        Err(Error::Stopped(_)) if budget.check().is_ok() => Err(is_long()),
+        other => other,
+    }
+}
+
+fn is_long() -> Error {
+    no_certificate(
+        "no certificate: at several rates, and with complex coefficients, polynomials over the constants of holds are long; by boxes a parameter is \
+         proved that is in no function",
+    )
 }
 
 /// What the line is made of.
@@ -152,7 +201,8 @@ pub(super) fn of_verdict(answer: &Answer<PointVerdict>, budget: &Budget) -> Resu
         return Err(no_certificate(why));
     };
     let own = verdict.count.unwrap_or_default();
-    if (own.inside, own.on, own.outside) != counts || verdict.infinite > 0 {
+    let times = times(problem);
+    if (times * own.inside, times * own.on, times * own.outside) != counts || verdict.infinite > 0 {
         return Err(no_certificate("no certificate: roots are on the circle"));
     }
     let bits = bits + longest(p.poles().iter().chain(&d));
@@ -184,7 +234,7 @@ fn certificate<const N: usize>(
 ) -> Result<String, Error> {
     let mut certificate = object([
         ("schema", SCHEMA.into()),
-        ("model", about(problem)?),
+        ("model", about_at_rates(problem)?),
         ("statement", statement),
         ("bits", (bits + SPARE_BITS).min(MOST_OF_CHECKERS).into()),
         ("symbols", definitions(symbols)?),

@@ -1,6 +1,6 @@
 //! Certificates of maps by boxes: the statement around a tree of boxes.
 
-use super::statement::{about, number, object, region, set};
+use super::statement::{about_at_rates, number, object, region, set};
 use super::text::to_text;
 use super::{no_certificate, refuse_requirements};
 use crate::error::Error;
@@ -44,7 +44,6 @@ impl Problem {
     pub fn boxes_certificate(&self, window: &Window, tree: &str, order: usize, bits: usize) -> Result<String, Error> {
         refuse_requirements(self)?;
         refuse_free_bound(self)?;
-        self.refuse_written_complex()?;
         let [x, y] = self.free() else { panic!("a map is of two parameters") };
         let side = |ends: &[Rational; 2]| ends.iter().map(number).collect();
         let statement = object([
@@ -59,7 +58,7 @@ impl Problem {
         ]);
         Ok(to_text(&object([
             ("schema", SCHEMA.into()),
-            ("model", about(self)?),
+            ("model", about_at_rates(self)?),
             ("statement", statement),
             ("order", order.into()),
             ("bits", bits.into()),

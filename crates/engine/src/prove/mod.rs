@@ -2,10 +2,12 @@
 
 mod boxes;
 mod cofactors;
+mod complex;
 mod coq;
 mod dead_time;
 mod digest;
 mod emit;
+mod enclosed;
 mod gain;
 mod held;
 mod line;

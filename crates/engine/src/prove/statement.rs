@@ -34,7 +34,7 @@ pub(super) fn region(region: &Region) -> Value {
 const MOST_UNKNOWNS: u64 = 400;
 
 /// Refuses loops of several rates that the checkers do not read, before anything is computed for a certificate: they lift loops whose
-/// rates are numbers of samples, as far as all is rational.
+/// rates are numbers of samples.
 ///
 /// # Errors
 /// `E-no-certificate`.
@@ -47,12 +47,7 @@ pub(super) fn of_rates(problem: &Problem) -> Result<(), Error> {
     if steps == 1 {
         return Ok(());
     }
-    let is_held = |block: &Block| {
-        block.discretization.as_ref().is_some_and(|d| d.method.is_hold()) && !are_integrators(&block.dynamics)
-    };
-    let why = if diagram.blocks.iter().any(is_held) {
-        "a plant is behind a hold beside several rates"
-    } else if diagram.blocks.iter().any(|block| block.sample_time.is_some()) {
+    let why = if diagram.blocks.iter().any(|block| block.sample_time.is_some()) {
         "a block says its rate by a sample time, and the checkers read 'every'"
     } else if steps.saturating_mul(unknowns(diagram)) > MOST_UNKNOWNS {
         "a hyperperiod has more equations than the checkers take"
@@ -60,6 +55,15 @@ pub(super) fn of_rates(problem: &Problem) -> Result<(), Error> {
         return Ok(());
     };
     Err(no_certificate(format!("no certificate: {why}")))
+}
+
+/// Whether a block is behind a hold that brings constants, as far as that shows in what is written.
+pub(super) fn has_held_plant(problem: &Problem) -> bool {
+    let Form::Blocks(diagram) = problem.model().form() else { return false };
+    let is_held = |block: &Block| {
+        block.discretization.as_ref().is_some_and(|d| d.method.is_hold()) && !are_integrators(&block.dynamics)
+    };
+    diagram.blocks.iter().any(is_held)
 }
 
 /// Whether a block in state space has no modes but integrators, for certain: its state matrix is written as numbers, all of one side being 0.

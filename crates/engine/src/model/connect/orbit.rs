@@ -232,13 +232,13 @@ fn at_rest(system: &System, how: &Connecting<'_>) -> Result<Option<Vec<RationalF
 }
 
 impl Model {
-    /// True if certificates by boxes can be about the loop: it has one rate, and no duty ratio of an orbit is asked for.
+    /// True if certificates by boxes can be about the loop: no duty ratio of an orbit is asked for.
     ///
     /// ```
     /// assert!(jurist_engine::model::Model::drive().is_read_by_boxes());
     /// ```
     pub fn is_read_by_boxes(&self) -> bool {
-        self.hyperperiod() == 1 && !self.has_steady_duty()
+        !self.has_steady_duty()
     }
 
     /// Whether a block has pulses with the duty ratio of the loop at rest.

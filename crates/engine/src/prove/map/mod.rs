@@ -103,7 +103,6 @@ impl Problem {
     /// [`Error::Stopped`] when the budget runs out; [`Error::Refused`] (`E-no-certificate`).
     pub fn refuse_map_certificate(&self, budget: &Budget) -> Result<(), Error> {
         refuse_requirements(self)?;
-        self.refuse_written_complex()?;
         if *self.region().bound() == Bound::Free {
             return Err(no_certificate("no certificate of a map on which the bound of the region is free"));
         }

@@ -1,0 +1,46 @@
+//! Where the roots of a sampled loop are whose coefficients are only enclosed.
+
+use super::clock::Clock;
+use super::model::Functions;
+use super::moving::value;
+use super::multivariate::Multi;
+use super::number::Q;
+use super::over::inside;
+use super::over_box::{By, in_region, with_sources};
+use super::roots::Places;
+use super::statement::Extent;
+use super::taylor::{Precision, Taylor};
+use super::{Rejection, Step};
+
+/// The degree, and where so many roots are: none on the boundary, none at infinity.
+pub(super) fn places(
+    model: &str,
+    set: &[(String, Q)],
+    extent: &Extent,
+    bits: usize,
+    clock: &Clock,
+) -> Result<(usize, Places), Rejection> {
+    let by = By::Enclosures { window: None, bits };
+    let (own, sources) = Step::Model.of(with_sources(model, (&[], set), Functions::Moving, by, clock))?;
+    if !own.discrete || sources.have_dead_time() {
+        let reason = "the model's time is not that of the statement".into();
+        return Err(Rejection { step: Step::Model, reason });
+    }
+    Step::Stable.of((|| {
+        let p = Precision::new(1, bits);
+        let known = sources.values(Vec::new(), &p, clock)?;
+        let number = |f: &Multi| -> Result<Taylor, String> { value(f, &known, &p, clock) };
+        for parts in &own.divisors {
+            let signs = parts.iter().map(|f| Ok(number(f)?.sign())).collect::<Result<Vec<_>, String>>()?;
+            if signs.iter().all(Option::is_none) {
+                return Err("a divisor is not shown to be other than zero".into());
+            }
+        }
+        let d = in_region(&own.coefficients, true, extent, clock)?;
+        let d = d.iter().map(|c| Ok(number(c)?.range())).collect::<Result<Vec<_>, String>>()?;
+        let degree = d.len() - 1;
+        let inside = inside(d, false, bits, clock)?;
+        let places = Places { inside, on: 0, outside: degree - inside };
+        if own.is_doubled { Ok((degree / 2, places.halved()?)) } else { Ok((degree, places)) }
+    })())
+}
