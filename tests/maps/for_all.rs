@@ -139,6 +139,7 @@ fn several_names_vary_together() {
     assert_eq!(found["for_all"][1]["name"], "c");
     let stable = found["areas"]["stable"].as_str().unwrap().parse::<Rational>().unwrap();
     assert!(stable <= 4.into() && stable > number("3.9"), "{stable}");
+    assert!(found["set"].as_object().is_some_and(serde_json::Map::is_empty), "{found}");
     let shown = jurist_with_input(&arguments[..arguments.len() - 1], text.as_bytes()).stdout;
     assert!(shown.contains("for all b from -1 to 2, c from -1 to 2") && shown.contains("not for all: "), "{shown}");
 }

@@ -414,6 +414,13 @@ impl Problem {
         Arc::new(problem.with_positive(self.positive.clone()))
     }
 
+    /// The same problem where some names have no value, for an answer that is about all of their values.
+    pub(crate) fn without_values_of(&self, is_one: impl Fn(&str) -> bool) -> Arc<Problem> {
+        let set = self.set.iter().filter(|(name, _)| !is_one(name)).cloned().collect();
+        let (model, free, region) = (Arc::clone(&self.model), self.free.clone(), self.region.clone());
+        Arc::new(Problem::new(model, set, free, region, self.warnings.clone()).with_positive(self.positive.clone()))
+    }
+
     /// The problem that is left of one in two parameters when one of them (0 for the first) has a value. Its algebra follows
     /// from what is known.
     ///

@@ -149,7 +149,7 @@ impl MapForAll {
             required,
             for_all: self.all.clone(),
         };
-        Ok(Answer::new(plane, value))
+        Ok(Answer::new(plane.without_values_of(|name| self.all.iter().any(|all| all.name == name)), value))
     }
 
     /// The question in which all names are free.

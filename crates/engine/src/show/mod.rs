@@ -23,7 +23,7 @@ pub mod verdict;
 mod words;
 
 pub use intervals::intervals_text;
-pub use map::{map_boxes_text, map_text};
+pub use map::{for_all_text, map_boxes_text, map_text};
 pub use plan::plan_text;
 pub use table::table_text;
 pub use tolerance::tolerance_text;

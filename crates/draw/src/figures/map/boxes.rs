@@ -13,8 +13,12 @@ use crate::scene::{Colour, Item, Rectangle, Scene, Stroke, through};
 use jurist_algebra::number::{Rational, to_decimal};
 use jurist_engine::answer::{Answer, MapBoxes};
 use jurist_engine::response::RequiredBoxes;
+use jurist_engine::show::for_all_text;
 use jurist_engine::show::region::goal_or_stable;
 use jurist_engine::stability::plane::boxes::{BoxMap, BoxVerdict, PlaneBox, Window};
+
+/// Digits of the ends of ranges in the legend.
+const DIGITS: usize = 6;
 
 /// The window with its boxes, both axes linear.
 pub fn boxes_figure(answer: &Answer<MapBoxes>, width: f64, height: f64) -> Figure {
@@ -26,7 +30,13 @@ pub fn boxes_figure(answer: &Answer<MapBoxes>, width: f64, height: f64) -> Figur
     let mut scene = Scene::new(width, height);
     let mut top = heading(&what(problem), problem).draw(&mut scene);
     let required = answer.value().required.as_ref();
-    let mut entries = entries(map, &goal_or_stable(problem));
+    let goal = goal_or_stable(problem);
+    let [good, bad] = match for_all_text(answer.value(), DIGITS) {
+        Some(all) => [format!("{goal} {all}"), "not for all".to_owned()],
+        None if goal == "stable" => [goal, "unstable".to_owned()],
+        None => [goal.clone(), format!("not {goal}")],
+    };
+    let mut entries = entries(map, [&good, &bad]);
     entries.extend(required.into_iter().flat_map(|found| required_entries(found, &map.window)));
     entries.extend(nominal.map(|_| (Sample::Mark(Shape::Diamond, INK), "nominal".to_owned())));
     top = legend::in_rows(&mut scene, &entries, (14.0, top + 2.0), width - 28.0) + 6.0;
@@ -94,16 +104,15 @@ fn required_entries(found: &RequiredBoxes, window: &Window) -> [Entry; 2] {
 }
 
 /// Colours with their meaning and the share of the window.
-fn entries(map: &BoxMap, goal: &str) -> Vec<Entry> {
+fn entries(map: &BoxMap, [good, bad]: [&str; 2]) -> Vec<Entry> {
     let whole = map.window.area();
-    let not = if goal == "stable" { "unstable".to_owned() } else { format!("not {goal}") };
     let entry = |(name, fill, area): (&str, Colour, &Rational)| {
         let percent = area.checked_div(&whole).map(|share| to_decimal(&(share * Rational::from(100)), 4));
         (Sample::Area(fill), format!("{name} {} %", percent.unwrap_or_default()))
     };
     [
-        (goal, REGION, &map.areas.stable),
-        (not.as_str(), UNSTABLE, &map.areas.unstable),
+        (good, REGION, &map.areas.stable),
+        (bad, UNSTABLE, &map.areas.unstable),
         ("undecided", UNDECIDED, &map.areas.undecided),
     ]
     .map(entry)

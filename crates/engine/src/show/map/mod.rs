@@ -5,7 +5,7 @@ mod boxes;
 mod required;
 mod text;
 
-pub use boxes::map_boxes_text;
+pub use boxes::{for_all_text, map_boxes_text};
 pub use text::map_text;
 
 use crate::problem::Free;
