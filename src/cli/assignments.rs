@@ -89,11 +89,15 @@ pub(super) fn axis(line: &CommandLine, option: &str, text: &str) -> Result<AxisR
         return Ok(AxisRequest { name: text.trim().to_owned(), lower: None, upper: None, name_span: place.span });
     };
     let read = range(text, place, option).and_then(|(name, lower, upper)| match (&lower, &upper) {
-        (Some(l), Some(u)) if l >= u => Err(Diagnostic::error(Code::OptionValue, "the window is empty")
+        (Some(l), Some(u)) if l >= u => Err(Diagnostic::error(Code::OptionValue, empty(option))
             .at(place.part(equals + 1, text.len()), "the lower end is not below the upper end")),
         _ => Ok(AxisRequest { name, lower, upper, name_span: place.part(0, equals) }),
     });
     read.map_err(|d| in_line(line, vec![d]))
+}
+
+fn empty(option: &str) -> &'static str {
+    if option == "--for-all" { "the range has no two different ends" } else { "the window is empty" }
 }
 
 /// Slices along a third axis.

@@ -154,7 +154,8 @@ fn mistakes_are_shown_where_they_stand() {
     for (arguments, what) in [
         (&["--for-all", "L_a"][..], "expects NAME=LO..HI"),
         (&["--for-all", "L_a=1..2", "--for-all", "L_a=1..3"], "two ranges"),
-        (&["--for-all", "L_a=2..1"], "is empty"),
+        (&["--for-all", "L_a=2..1"], "no two different ends"),
+        (&["--for-all", "L_a=1..2", "--set", "L_a=1"], "L_a"),
         (&["--for-all", "L_b=1..2"], "L_b"),
         (&["--for-all", "L_a=1..2", "--method", "exact"], "made of boxes"),
         (&["--for-all", "K_pwm=1..2"], "K_pwm"),
@@ -183,4 +184,18 @@ fn loops_with_dead_time_have_such_maps() {
         }
     }
     assert!(map.stopped.is_none() && map.areas.stable.sign().is_gt() && map.areas.unstable.sign().is_gt());
+}
+
+/// A loop in one line has no nominal values: the third name needs none.
+#[test]
+fn a_loop_in_one_line_has_such_a_map() {
+    let line =
+        ["map", "K/(s*(s + a)*(s + b))", "-x", "K=0..10", "-y", "a=0..5", "--for-all", "b=1..2", "--undecided", "0.1"];
+    let run = jurist(&line);
+    // Stable where K < a b (a + b) for all b: at b = 1.
+    assert!(run.status == 0 && run.stdout.contains("for all b from 1 to 2"), "{}{}", run.stdout, run.stderr);
+    let complex = "time = 'continuous'\nparameters = { x = 1, y = 1, w = 0 }\nloop.characteristic = 's + x + j*y*w'\n";
+    let arguments = ["map", "-", "-x", "x=0..1", "-y", "y=0..1", "--for-all", "w=0..1"];
+    let run = jurist_with_input(&arguments, complex.as_bytes());
+    assert!(run.status == 2 && run.stderr.contains("for all values of other names"), "{}", run.stderr);
 }

@@ -76,6 +76,11 @@ pub(crate) static COMPLEX: Refusal = Refusal::new(
     "this cannot be asked of a loop with complex coefficients",
     "what can be asked of it: {known}, and test and check; in real form, with two signals for each complex one, it can be asked everything",
 );
+pub(crate) static COMPLEX_FOR_ALL: Refusal = Refusal::new(
+    Code::Complex,
+    "a map for all values of other names is not known of loops with complex coefficients",
+    "'tolerance' proves a box around one point; in real form, with two signals for each complex one, the loop has such a map",
+);
 pub(crate) static COMPLEX_WITH_DEAD_TIME: Refusal = Refusal::new(
     Code::Complex,
     "a continuous loop with complex coefficients and dead time is not known",

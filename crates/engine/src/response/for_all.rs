@@ -8,7 +8,7 @@ use super::required_boxes::RequiredBoxes;
 use super::requirement::Requirement;
 use super::requirement_boxes::{OverPoints, RequirementBoxes};
 use crate::answer::{Answer, BoxRequest, MapBoxes};
-use crate::coverage::refusals::NOT_IN_A_PLANE;
+use crate::coverage::refusals::{COMPLEX_FOR_ALL, NOT_IN_A_PLANE};
 use crate::error::{Code, Diagnostic, Error};
 use crate::problem::{Problem, Question};
 use crate::stability::Range;
@@ -106,8 +106,13 @@ impl MapForAll {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn boxes(&self, question: Question, request: &BoxRequest, budget: &Budget) -> Result<Answer<MapBoxes>, Error> {
-        let plane = question.clone().plane_problem()?;
-        plane.refuse_complex(budget)?;
+        // For the window alone the other names have some value.
+        let middle = |all: &AllOf| (all.name.clone(), all.range[0].midpoint(&all.range[1]));
+        let plane = question.clone().set_all(self.all.iter().map(middle)).plane_problem()?;
+        match plane.refuse_complex(budget) {
+            Err(Error::Refused(_)) => return Err(COMPLEX_FOR_ALL.diagnostic(&[]).into()),
+            known => known?,
+        }
         let together = self.together(question)?;
         let window = plane.window(request, budget)?;
         let mut near: Vec<Rational> = [&window.x, &window.y].map(|[low, high]| low.midpoint(high)).into();
