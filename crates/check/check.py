@@ -2789,7 +2789,7 @@ class Moving:
             return models.quotient(top, bottom)
 
         for name, *of in self.sources:
-            if name == "numbers":  # of which enclosures are all that is known
+            if name == "numbers":  # known by enclosures only
                 known += [models.units(*f) for f in of[0]]
                 continue
             if name == "hold":

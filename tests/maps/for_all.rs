@@ -199,3 +199,16 @@ fn a_loop_in_one_line_has_such_a_map() {
     let run = jurist_with_input(&arguments, complex.as_bytes());
     assert!(run.status == 2 && run.stderr.contains("for all values of other names"), "{}", run.stderr);
 }
+
+/// `z - 1 + K (a + b)^2` has its root inside for either sign of the sample time `a + b`; with a negative one there is no loop.
+#[test]
+fn a_sample_time_that_is_not_positive_for_some_values_is_not_for_all() {
+    let text = "time = 'discrete'\nsample_time = 'a + b'\nparameters = { a = 1, b = 1, K = 0.5 }\n[loop]\ninputs = ['r']\n[[block]]\ninput = 'r - y'\n\
+        output = 'u'\ngain = 'K*(a + b)'\n[[block]]\ninput = 'u'\noutput = 'y'\ntransfer = '1/s'\ndiscretize = 'zoh'\n";
+    let axes = [("a", ["1/10", "1/2"]), ("K", ["1/10", "1/2"])];
+    let areas = |range: [&str; 2]| boxes(&read(text), axes, ("b", range), "0.05", &[]).value().boxes.areas.clone();
+    let whole = areas(["-1", "1"]);
+    assert_eq!(whole.unstable, number("4/25"), "{whole:?}");
+    let positive = areas(["1/10", "1"]);
+    assert_eq!(positive.stable, number("4/25"), "{positive:?}");
+}

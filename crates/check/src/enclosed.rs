@@ -1,7 +1,6 @@
 //! The determinant of a loop whose numbers are only enclosed: of long hyperperiods, and of functions that the model has written.
 //!
-//! Elimination with enclosures gives its values at integers, divided differences the coefficients. Each of them is a number of which nothing else is
-//! known.
+//! Elimination with enclosures gives the values of the determinant at integers. Divided differences of these values give enclosures of its coefficients.
 
 use super::clock::Clock;
 use super::interval::{Interval, balanced};
@@ -82,7 +81,7 @@ impl Determinant<'_> {
         Ok(all.iter().map(Taylor::range).collect())
     }
 
-    /// The rows, each times a power of two, with numbers for what is not asked about.
+    /// The rows, each times a power of two. Every name beside the free ones has a value.
     fn enclosed_rows(&self) -> Result<Vec<Row>, String> {
         let bits = self.working();
         let values = self.values()?;

@@ -209,7 +209,7 @@ struct Quotient(Multi, Multi);
 #[derive(Default)]
 pub(super) struct Sources {
     functions: Vec<Source<Quotient>>,
-    /// Numbers of which an enclosure is all that is known, in units of those that functions are asked with.
+    /// Enclosed coefficients: the check knows no formula of them. Their unit is the one of the functions.
     numbers: Vec<Interval>,
 }
 

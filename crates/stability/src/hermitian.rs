@@ -210,7 +210,7 @@ fn times_conjugate<R: Domain>(x: &Complex<R>, y: &Complex<R>) -> Complex<R> {
     times(x, &[y[0].clone(), y[1].negated()])
 }
 
-/// The quotient of two numbers of which the second divides the first.
+/// The quotient of two numbers; the second divides the first.
 fn quotient<R: Domain>(x: &Complex<R>, y: &Complex<R>) -> Complex<R> {
     let (above, below) = match y[1].is_zero() {
         true => (x.clone(), y[0].clone()),

@@ -580,7 +580,7 @@ impl ClosedLoop {
         ports((&self.inputs, input), (&self.outputs, output))
     }
 
-    /// The numbers of two complex signals, each of which stands as its real and its imaginary part.
+    /// The indices of two complex signals. A real and an imaginary part together count as one signal.
     ///
     /// # Errors
     /// `E-unknown-signal`.

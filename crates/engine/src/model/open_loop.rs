@@ -56,7 +56,8 @@ const PLANT_INPUT: &str = "u";
 
 /// The open loop from the cut to the cut, and the sample time, in the kept names.
 pub(crate) struct Opened {
-    /// One input and one output, of which a complex loop has the real and the imaginary part; the output is what comes back, with its sign.
+    /// The open loop from its one input to its one output. In a complex loop either is two real signals, the real and the imaginary part. The output has
+    /// the sign of the feedback.
     pub system: ClosedLoop,
     /// The sample time.
     pub sample_time: Option<RationalFunction>,

@@ -13,7 +13,7 @@ pub(super) enum Allows {
     Same { at_zero: bool },
 }
 
-/// A function along the boundary of stability: polynomials, of which those after the first one are multiplied by something.
+/// A function along the boundary of stability: the first polynomial, plus each other polynomial times its own factor.
 pub(super) type Function<C, const N: usize> = [Vec<C>; N];
 
 /// What requirements ask of an open loop along the boundary of stability, as functions whose coefficients depend on parameters.

@@ -20,8 +20,8 @@ use std::cmp::Ordering;
 use std::sync::Arc;
 
 impl Over {
-    /// From the real and the imaginary parts of the denominator's coefficients, and of the numerator's; in symbols none of which is a parameter. Where no
-    /// imaginary part is left it is a real loop.
+    /// From the real and the imaginary parts of the denominator's coefficients, and of the numerator's. Their symbols are constants. Where no imaginary part
+    /// is left it is a real loop.
     pub(super) fn of_complex(
         lists: [Vec<RationalFunction>; 4],
         poles: Vec<Poly<MultiPoly>>,
@@ -165,5 +165,5 @@ fn lowest_root<G: Ground>(
     Ok(Some((t, side)))
 }
 
-/// Digits by which frequencies are told apart, of which one is named.
+/// Digits by which two frequencies are told apart; one of them is named.
 const DIGITS: usize = 17;

@@ -241,7 +241,7 @@ impl MapForAll {
 
 const NOT_IN_BOXES: &str = "ask 'verdict' with a value for every parameter, or 'tolerance' for a box around one point";
 
-/// A part of the ranges of which something is not decided, together with a box.
+/// A part of the ranges. For its values and the points of a box the test is not decided.
 #[derive(Clone, Debug)]
 struct OpenPart {
     /// The number of the test.

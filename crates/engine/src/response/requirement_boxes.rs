@@ -8,6 +8,7 @@ use crate::problem::{Bound, Problem, Question, Region};
 use crate::stability::boxes::{BoxPolynomial, DelayedFunction, Family, MovingPolynomial, corners};
 use crate::stability::{AtPoint, RootCount, Shape, count_roots};
 use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Poly, UniPoly};
 use jurist_algebra::real::Real;
@@ -129,7 +130,10 @@ impl RequirementBoxes {
             let Some(family) = problem.delayed_family(near, budget)? else { return Ok(None) };
             LoopFamily::Delayed(Box::new(family))
         } else if algebra.symbols().is_empty() {
-            let family = budget.enter(|| BoxPolynomial::over(d, near.len(), problem.shape()))?;
+            // Where a sample time is not positive the model has no meaning.
+            let poles = d.poles.iter().cloned().chain(problem.positive()).collect();
+            let d = CharacteristicPolynomial { poles, ..d.clone() };
+            let family = budget.enter(|| BoxPolynomial::over(&d, near.len(), problem.shape()))?;
             LoopFamily::Rational(Box::new(family))
         } else {
             let family = problem.moving_family(budget)?;
@@ -333,6 +337,9 @@ impl RequirementBoxes {
 
     /// The same of a rational loop; `None` where it is undefined, loses its order or has a root on the boundary.
     fn is_stable_there(&self, polynomial: &BoxPolynomial, point: &[Rational], wider: Option<u32>) -> Option<bool> {
+        if self.problem.positive().iter().any(|p| !p.eval(point).sign().is_gt()) {
+            return Some(false);
+        }
         let shape = self.problem.shape();
         let AtPoint::Defined { count, infinite: 0 } = polynomial.at(point) else { return None };
         let Some(halvings) = wider else { return told_by(&count) };

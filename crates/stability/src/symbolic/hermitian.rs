@@ -13,8 +13,8 @@ use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::poly::{Domain, MultiPoly};
 
 impl SymbolicPolynomial {
-    /// The conditions of a loop with complex coefficients, of which this is the polynomial with the conjugate roots: that the leading principal minors of
-    /// its Hermitian matrix are positive. The coefficients have been multiplied by `below`.
+    /// The conditions of a loop with complex coefficients: the leading principal minors of its Hermitian matrix are positive. This polynomial has the
+    /// loop's roots and their conjugates. The coefficients have been multiplied by `below`.
     ///
     /// Cost: as [`SymbolicPolynomial::classical_test`], with minors that are expanded.
     ///
