@@ -70,7 +70,10 @@ fn points_of_decided_boxes_agree_with_the_set_of_the_third_name() {
             .map(|k| {
                 let [c, x, y, l, both] = [number(8), number(3), number(3), number(3), number(2)];
                 let shift = if time == "continuous" { 4 } else { 0 };
-                format!("({c} + {shift} + ({x})*x + ({y})*y + ({l})*L + ({both})*x*L)/{scale}*{variable}^{k}")
+                let bend = number(6);
+                format!(
+                    "({c} + {shift} + ({x})*x + ({y})*y + ({l})*L + ({both})*x*L + ({bend})*L^2)/{scale}*{variable}^{k}"
+                )
             })
             .collect();
         let text = format!(
@@ -124,6 +127,29 @@ fn a_requirement_for_all_values_is_that_of_the_worst_one() {
     // Stable where a b K < 2 for all b: a K < 1.
     let area = number("1.69314718");
     assert!(boxes.stable < area && &boxes.stable + &boxes.undecided > area, "{boxes:?}");
+}
+
+/// The worst value lies inside of the range, not at an end: `s + x - 1 + 4 (L - 1/2)^2` is stable for all `L` from 0 to 1 where `x > 1`, at both ends where
+/// `x > 0`. The resonance of `s^2 + (x + 4 (L - 1/3)^2) s + 1` is not damped at `L = 1/3` alone.
+#[test]
+fn the_worst_value_may_be_inside_of_a_range() {
+    for (characteristic, least) in [("s + x - 1 + 4*(L - 1/2)^2", "1"), ("s^2 + (x + 4*(L - 1/3)^2)*s + 1", "0")] {
+        let text = format!(
+            "time = 'continuous'\nparameters = {{ x = 0, y = 0, L = 0 }}\nloop.characteristic = '{characteristic}'\n"
+        );
+        let axes = [("x", ["-1", "2"]), ("y", ["0", "1"])];
+        let found = boxes(&read(&text), axes, ("L", ["0", "1"]), "0.02", &[]);
+        let limit = number(least);
+        for b in &found.value().boxes.boxes {
+            match b.verdict {
+                BoxVerdict::Stable => assert!(b.window.x[0] >= limit, "{characteristic}: {b:?}"),
+                BoxVerdict::Unstable { .. } => assert!(b.window.x[1] <= limit, "{characteristic}: {b:?}"),
+                BoxVerdict::Undecided => {}
+            }
+        }
+        let areas = &found.value().boxes.areas;
+        assert!(areas.undecided <= number("0.06"), "{characteristic}: {areas:?}");
+    }
 }
 
 /// Two names at once: `s + x - b c` for all `b` and `c` from -1 to 2 is stable where `x > 4`.
