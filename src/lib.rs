@@ -97,12 +97,10 @@ pub use jurist_algebra::poly::{
 };
 pub use jurist_algebra::real::Real;
 // Certificates, checked by code of their own.
-pub use certified_boxes::{CertifiedBoxes, certify_boxes};
-pub use certified_intervals::{CertifiedIntervals, certify_intervals};
+pub use certified::{CertifiedBoxes, CertifiedIntervals, certify_boxes, certify_intervals};
 pub use jurist_check::{Limits, Proved, Rejection, Step, check};
 
-mod certified_boxes;
-mod certified_intervals;
+mod certified;
 #[cfg(feature = "commands")]
 pub mod cli;
 #[cfg(feature = "cli")]

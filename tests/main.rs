@@ -52,6 +52,7 @@ mod loops {
     mod held_requirements;
     mod impulses;
     mod large;
+    mod margin_ranges;
     mod margins;
     mod paper;
     mod peaks;

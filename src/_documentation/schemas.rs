@@ -29,6 +29,7 @@ schemas! {
     main: "`jurist/main/1`, of `jurist` without a command.", "main-1";
     map: "`jurist/map/1`, of `jurist map`.", "map-1";
     map_boxes: "`jurist/map-boxes/1`, of `jurist map --method boxes`.", "map-boxes-1";
+    margin_ranges: "`jurist/margin-ranges/1`, of `jurist margins --param`.", "margin-ranges-1";
     margins: "`jurist/margins/1`, of `jurist margins`.", "margins-1";
     model: "Model files; the line `#:schema` names it to editors.", "model";
     norm: "`jurist/norm/1`, of `jurist norm`.", "norm-1";

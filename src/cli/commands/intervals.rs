@@ -1,7 +1,7 @@
 //! `jurist intervals`: the exact stable set of one parameter.
 
 use super::{Context, Runs, decided};
-use crate::certified_intervals::certify_intervals;
+use crate::certified::certify_intervals;
 use crate::cli::arguments::{DecisionOptions, RunOptions};
 use crate::cli::destinations::Files;
 use crate::cli::input::{decision, known_names, only_parameter};

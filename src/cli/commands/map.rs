@@ -3,7 +3,7 @@
 use super::map_body;
 use super::map_boxes::{self, MethodOptions};
 use super::{Context, Runs, decided};
-use crate::certified_boxes::certify_boxes;
+use crate::certified::certify_boxes;
 use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, RegionOptions, RunOptions};
 use crate::cli::assignments::{AxisRequest, axis, in_line};
 use crate::cli::destinations::Files;

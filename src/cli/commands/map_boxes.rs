@@ -1,7 +1,7 @@
 //! Options of `jurist map` that choose the method, and its answer by boxes.
 
 use super::{Context, decided};
-use crate::certified_boxes::{CertifiedBoxes, judge};
+use crate::certified::{CertifiedBoxes, judge};
 use crate::cli::arguments::OutputOptions;
 use crate::cli::assignments::{AxisRequest, in_line, plain_number};
 use crate::cli::output::ending;

@@ -4,12 +4,14 @@ use super::{Context, Runs, decided};
 use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, RegionOptions, RunOptions};
 use crate::cli::assignments::plain_number;
 use crate::cli::destinations::Files;
-use crate::cli::input::{load, question};
+use crate::cli::input::{known_names, load, question};
 use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
 use jurist_algebra::number::Rational;
 use jurist_engine::coverage::Asked;
-use jurist_engine::show::documents::Margins;
+use jurist_engine::model::Model;
+use jurist_engine::problem::Question;
+use jurist_engine::show::documents::{MarginRanges, Margins};
 
 /// Options of `jurist margins`.
 #[derive(Args, Debug)]
@@ -23,6 +25,9 @@ pub(in crate::cli) struct Options {
     /// The skew of the disk margin; 0 is the balanced disk
     #[arg(long, value_name = "NUMBER", allow_hyphen_values = true, default_value = "0")]
     pub skew: String,
+    /// For which values of this parameter, or constant given as a number, the loop has so much of each margin
+    #[arg(long, value_name = "NAME", conflicts_with = "skew")]
+    pub param: Option<String>,
     #[command(flatten)]
     pub explain: ExplainOptions,
     #[command(flatten)]
@@ -50,6 +55,9 @@ fn run(options: &Options, context: &Context) -> Outcome {
     context.check_output(output)?;
     let model = load(options.model.model.as_ref(), &options.model.line, context)?;
     let question = question(context, &model, &options.model, &RegionOptions::default())?;
+    if let Some(name) = &options.param {
+        return ranges(name, (&model, question), options, context);
+    }
     let skew: Rational = plain_number(context.line, "--skew", &options.skew)?;
     let digits = output.digits() as usize;
     let problem = question.problem()?;
@@ -64,4 +72,25 @@ fn run(options: &Options, context: &Context) -> Outcome {
     context.warn(None, problem.warnings());
     context.answer(output, || answer.text(digits), || answer.json(digits))?;
     Ok(if answer.value().stable.is_some() { Status::Holds } else { Status::DoesNotHold })
+}
+
+/// The values of a parameter for which the loop has each margin.
+fn ranges(name: &str, (model, question): (&Model, Question), options: &Options, context: &Context) -> Outcome {
+    let output = &options.output;
+    known_names(context, model, "--param", std::slice::from_ref(&name.to_owned()))?;
+    let digits = output.digits() as usize;
+    let problem = question.free(name).problem()?;
+    context.explain(&options.explain, output, &problem, Asked::Intervals)?;
+    let margins = model.usual_margins(&context.budget);
+    let found = margins.and_then(|list| problem.margin_ranges(&list, options.at.as_deref(), &context.budget));
+    match decided(found)? {
+        Ok(answer) => {
+            context.warn(None, problem.warnings());
+            context.answer(output, || answer.text(digits), || answer.json(digits))?;
+            Ok(Status::Holds)
+        }
+        Err(stopped) => {
+            context.undecided(output, &stopped, || None, || MarginRanges::new(&problem, Err(&stopped), digits))
+        }
+    }
 }

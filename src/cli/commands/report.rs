@@ -1,7 +1,7 @@
 //! `jurist report`: one page about one's own loop.
 
 use super::{Context, Runs};
-use crate::certified_intervals::certify_intervals;
+use crate::certified::certify_intervals;
 use crate::cli::arguments::{ModelOptions, RegionOptions, RunOptions};
 use crate::cli::destinations::Files;
 use crate::cli::input::{load, question};

@@ -2,9 +2,9 @@
 
 use super::statement::{about_at_rates, number, object, region, set};
 use super::text::to_text;
-use super::{no_certificate, refuse_requirements};
+use super::{refuse_free_bound, refuse_requirements};
 use crate::error::Error;
-use crate::problem::{Bound, Problem};
+use crate::problem::Problem;
 use crate::stability::plane::boxes::Window;
 use jurist_algebra::number::Rational;
 
@@ -63,12 +63,5 @@ impl Problem {
             ("order", order.into()),
             ("bits", bits.into()),
         ])))
-    }
-}
-
-fn refuse_free_bound(problem: &Problem) -> Result<(), Error> {
-    match problem.region().bound() {
-        Bound::Free => Err(no_certificate("no certificate of a map on which the bound of the region is free")),
-        Bound::Number(_) => Ok(()),
     }
 }

@@ -8,6 +8,7 @@ mod dead_time;
 mod digest;
 mod emit;
 mod enclosed;
+mod for_all;
 mod gain;
 mod held;
 mod line;
@@ -20,10 +21,11 @@ mod text;
 
 use crate::coverage::refusals::{NO_CERTIFICATE, NOT_ALGEBRAIC};
 use crate::error::{Code, Diagnostic, Error};
-use crate::problem::Problem;
+use crate::problem::{Bound, Problem};
 use crate::stability::StableSet;
 
 pub use emit::SCHEMA;
+pub use for_all::ForAllClaim;
 
 /// Certificates are made of polynomials over the integers.
 fn refuse_transcendental(set: &StableSet, what: &str) -> Result<(), Error> {
@@ -38,6 +40,14 @@ fn refuse_requirements(problem: &Problem) -> Result<(), Error> {
     match problem.model().require().is_empty() {
         true => Ok(()),
         false => Err(no_certificate("no certificate: nothing proves the requirements of the model")),
+    }
+}
+
+/// Boxes and maps are of a region whose bound is a number.
+fn refuse_free_bound(problem: &Problem) -> Result<(), Error> {
+    match problem.region().bound() {
+        Bound::Free => Err(no_certificate("no certificate of a map on which the bound of the region is free")),
+        Bound::Number(_) => Ok(()),
     }
 }
 

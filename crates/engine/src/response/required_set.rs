@@ -127,7 +127,7 @@ impl RequiredEnd {
 
 impl RequiredEnd {
     /// True if the value itself is in the set.
-    fn is_closed(&self) -> bool {
+    pub(crate) fn is_closed(&self) -> bool {
         match self {
             RequiredEnd::Stability(end) => end.closed,
             RequiredEnd::Requirement { closed, .. } => *closed,
@@ -218,7 +218,7 @@ impl Problem {
     }
 
     /// The parts of the stable set in which requirements on margins are met.
-    fn with_margins(
+    pub(super) fn with_margins(
         self: &Arc<Self>,
         requirements: &[Requirement],
         stable: &StableSet,

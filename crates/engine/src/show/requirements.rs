@@ -1,10 +1,11 @@
 //! Requirements for people.
 
-use super::intervals::{free_domain_text, heading, nominal_first, nowhere, undecided_lines};
+use super::intervals::{free_domain_text, heading, intervals_text, nominal_first, nowhere, undecided_lines};
 use super::layout::Columns;
 use super::{real, region};
 use crate::answer::Answer;
-use crate::response::{Found, RequiredEnd, RequiredSet, Requirement, RequirementMet};
+use crate::problem::Problem;
+use crate::response::{Found, MarginRanges, RequiredEnd, RequiredSet, Requirement, RequirementMet};
 use jurist_algebra::number::{Rational, parse_number};
 
 impl Answer<RequiredSet> {
@@ -24,36 +25,64 @@ impl Answer<RequiredSet> {
         if self.value().intervals.is_empty() {
             return out + " " + nowhere(&self.value().undecided) + "\n" + &undecided;
         }
+        let (lines, ends) = interval_lines(self.value(), problem, digits);
         out.push_str(" for\n");
+        lines.iter().for_each(|line| out.push_str(&format!("    {line}\n")));
         let mut columns = Columns::new("    ");
-        let intervals = &self.value().intervals;
-        let nominal = problem.parameter().nominal.as_ref();
-        let place = nominal.and_then(|x| intervals.iter().position(|interval| interval.contains(x)));
-        for interval in nominal_first(intervals.iter().collect(), place) {
-            let decimal = |end: &RequiredEnd| real::rounded(&end.value(), digits).decimal;
-            let sign = |end: &RequiredEnd| {
-                let is_closed = match end {
-                    RequiredEnd::Requirement { closed, .. } => *closed,
-                    RequiredEnd::Stability(end) => end.closed,
-                };
-                if is_closed { "<=" } else { "<" }
-            };
-            let line = match (&interval.lower, &interval.upper) {
-                (None, None) => format!("every {name}"),
-                (Some(l), None) => format!("{} {} {name}", decimal(l), sign(l)),
-                (None, Some(u)) => format!("{name} {} {}", sign(u), decimal(u)),
-                (Some(l), Some(u)) => format!("{} {} {name} {} {}", decimal(l), sign(l), sign(u), decimal(u)),
-            };
-            out.push_str(&format!("    {line}\n"));
-            for end in [&interval.lower, &interval.upper].into_iter().flatten() {
-                let why = match end {
-                    RequiredEnd::Stability(end) => region::causes_text(&end.causes, problem),
-                    RequiredEnd::Requirement { names, .. } => names.join("+"),
-                };
-                columns.row([decimal(end), why]);
-            }
-        }
+        ends.into_iter().for_each(|end| columns.row(end));
         format!("{out}ends\n{columns}{undecided}")
+    }
+}
+
+/// The intervals, that with the nominal value first, and each end with what binds there.
+fn interval_lines(set: &RequiredSet, problem: &Problem, digits: usize) -> (Vec<String>, Vec<[String; 2]>) {
+    let (name, nominal) = (&problem.parameter().name, problem.parameter().nominal.as_ref());
+    let place = nominal.and_then(|x| set.intervals.iter().position(|interval| interval.contains(x)));
+    let decimal = |end: &RequiredEnd| real::rounded(&end.value(), digits).decimal;
+    let (mut lines, mut ends) = (Vec::new(), Vec::new());
+    for interval in nominal_first(set.intervals.iter().collect(), place) {
+        let sign = |end: &RequiredEnd| if end.is_closed() { "<=" } else { "<" };
+        lines.push(match (&interval.lower, &interval.upper) {
+            (None, None) => format!("every {name}"),
+            (Some(l), None) => format!("{} {} {name}", decimal(l), sign(l)),
+            (None, Some(u)) => format!("{name} {} {}", sign(u), decimal(u)),
+            (Some(l), Some(u)) => format!("{} {} {name} {} {}", decimal(l), sign(l), sign(u), decimal(u)),
+        });
+        for end in [&interval.lower, &interval.upper].into_iter().flatten() {
+            let why = match end {
+                RequiredEnd::Stability(end) => region::causes_text(&end.causes, problem),
+                RequiredEnd::Requirement { names, .. } => names.join("+"),
+            };
+            ends.push([decimal(end), why]);
+        }
+    }
+    (lines, ends)
+}
+
+impl Answer<MarginRanges> {
+    /// The ranges for people: of stability, and of each margin.
+    pub fn text(&self, digits: usize) -> String {
+        let problem = self.problem();
+        let mut out = intervals_text(problem, Ok(&self.value().stable), digits);
+        for level in &self.value().levels {
+            let asked = level.requirement.text();
+            let set = match &level.found {
+                Ok(set) => set,
+                Err(why) => {
+                    out.push_str(&format!("{asked}: not decided: {why}\n"));
+                    continue;
+                }
+            };
+            if set.intervals.is_empty() {
+                out.push_str(&format!("{asked} {}\n", nowhere(&set.undecided)));
+            } else {
+                out.push_str(&format!("{asked} for\n"));
+                let lines = interval_lines(set, problem, digits).0;
+                lines.iter().for_each(|line| out.push_str(&format!("    {line}\n")));
+            }
+            out.push_str(&undecided_lines(&set.undecided, digits));
+        }
+        out
     }
 }
 

@@ -1,8 +1,8 @@
 //! The kinds of documents: one list, of which the published schemas are made, and by which a document is read.
 
 use super::{
-    Analysis, Body, Charpoly, Check, Intervals, Jury, Lock, Map, MapBoxes, Margins, Norm, RootLocusForm, Roots, Test,
-    Tolerance, Transfer, Verdict,
+    Analysis, Body, Charpoly, Check, Intervals, Jury, Lock, Map, MapBoxes, MarginRanges, Margins, Norm, RootLocusForm,
+    Roots, Test, Tolerance, Transfer, Verdict,
 };
 use serde_json::{Error, Value, from_value, to_value};
 
@@ -49,6 +49,7 @@ documents! {
     Lock: "jurist/lock/1",
     Map: "jurist/map/1",
     MapBoxes: "jurist/map-boxes/1",
+    MarginRanges: "jurist/margin-ranges/1",
     Margins: "jurist/margins/1",
     Norm: "jurist/norm/1",
     RootLocusForm: "jurist/root-locus-form/1",

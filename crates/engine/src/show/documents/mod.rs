@@ -27,6 +27,7 @@ mod jury;
 mod list;
 mod lock;
 mod map;
+mod margin_ranges;
 mod margins;
 mod norm;
 mod number;
@@ -69,6 +70,7 @@ pub use map::{
     Branch, Cell, CellVerdict, Curve, CurveTerm, Map, MapName, MapOpen, MapQuestion, Pair, Place, PlaneRegion,
     RegionEnd, RegionLimit, Regions, Strip, Wall,
 };
+pub use margin_ranges::{MarginRange, MarginRanges, MarginRangesName};
 pub use margins::{
     ComplementaryPeak, DelayMarginFound, DiskMarginFound, GainMargins, Margins, MarginsFound, MarginsName, MarginsOpen,
     ModulusMargin, PhaseMarginFound,

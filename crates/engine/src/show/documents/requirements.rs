@@ -2,6 +2,7 @@
 
 use super::{Bounds, End};
 use crate::answer::Answer;
+use crate::problem::Problem;
 use crate::response::{RequiredEnd, RequiredSet, Requirement, RequirementMet};
 use crate::show::documents::{Intervals, ParameterQuestion};
 use serde::{Deserialize, Serialize};
@@ -54,18 +55,22 @@ impl Answer<RequiredSet> {
     /// The document `jurist/intervals/1`, with `require`, and `requirement` at ends.
     pub fn json(&self, requirements: &[Requirement], digits: usize) -> Intervals {
         let problem = self.problem();
-        let end = |end: &Option<RequiredEnd>| match end.as_ref()? {
-            RequiredEnd::Stability(end) => Some(End::new(end, problem, digits)),
-            RequiredEnd::Requirement { value, names, closed } => {
-                Some(End::of_requirement(value, names.join("+"), *closed, problem, digits))
-            }
-        };
-        let bounds = self.value().intervals.iter().map(|i| Bounds { lower: end(&i.lower), upper: end(&i.upper) });
         Intervals::of_bounds(
             ParameterQuestion::new(problem),
-            bounds.collect(),
+            bounds(self.value(), problem, digits),
             &self.value().undecided,
             requirements.iter().map(Into::into).collect(),
         )
     }
+}
+
+/// The intervals of a set that meets requirements.
+pub(super) fn bounds(set: &RequiredSet, problem: &Problem, digits: usize) -> Vec<Bounds<End>> {
+    let end = |end: &Option<RequiredEnd>| match end.as_ref()? {
+        RequiredEnd::Stability(end) => Some(End::new(end, problem, digits)),
+        RequiredEnd::Requirement { value, names, closed } => {
+            Some(End::of_requirement(value, names.join("+"), *closed, problem, digits))
+        }
+    };
+    set.intervals.iter().map(|i| Bounds { lower: end(&i.lower), upper: end(&i.upper) }).collect()
 }

@@ -1,6 +1,7 @@
 //! Certificates of the answer about one parameter: exact ones, and boxes where there are none.
 
-use crate::certified_boxes::{Search, judge, precision};
+use super::boxes::{Boxes, judge, precision};
+use super::search::Search;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Rational, parse_number, to_scientific};
 use jurist_engine::answer::Answer;
@@ -110,7 +111,8 @@ fn by_boxes(answer: &Answer<StableSet>, budget: &Budget) -> Result<Option<Certif
     cut(answer.value(), ends.clone(), 0, &mut |x, verdict| pieces.push(PlaneBox { window: over(x), verdict }));
     let goal = Rational::dyadic(&1.into(), LEFT_BITS);
     let (order, bits) = precision(&plane, budget)?;
-    let search = Search::new(&pieces, &over(ends.clone()), goal, &judge, true);
+    let judge = Boxes { judge: &judge, is_line: true };
+    let search = Search::new(&pieces, &over(ends.clone()), goal, &judge);
     let (tree, [stable, unstable]) = search.tree(problem.model().source().text.len(), MOST_WORK, budget);
     let proved = &stable + &unstable;
     if proved.is_zero() {

@@ -1,0 +1,161 @@
+//! Certificates of what holds for all values of some names, and of requirements: the statement around a tree of boxes.
+
+use super::statement::{about, about_at_rates, number, object, region, set};
+use super::text::to_text;
+use super::{no_certificate, refuse_free_bound};
+use crate::error::Error;
+use crate::model::Cut;
+use crate::problem::{Problem, Region};
+use crate::response::{AllOf, Requirement, Rule, half_tangent};
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::RealAlgebraic;
+use serde_json::Value;
+
+/// The schema of these certificates.
+const SCHEMA: &str = "jurist/certificate/10";
+
+/// The tangent of half of an angle is enclosed to so many bits.
+const TURN_BITS: u64 = 48;
+
+/// A factor that is not rational is rounded to so many digits.
+const FACTOR_DIGITS: usize = 12;
+
+/// What is said of the boxes of a tree, of up to two names: whether the loop is stable, and meets what is required, at all points of a box for all values of
+/// further names.
+///
+/// ```
+/// use jurist_engine::prove::ForAllClaim;
+/// use jurist_engine::response::AllOf;
+/// let claim = ForAllClaim::new(vec![AllOf::new("K", 1.into(), 2.into()).unwrap()], Vec::new());
+/// assert!(claim.requirements.is_empty() && claim.beyond.is_none());
+/// ```
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct ForAllClaim {
+    /// The names of the boxes, and their window.
+    pub axes: Vec<AllOf>,
+    /// Names for all of whose values it is said.
+    pub all: Vec<AllOf>,
+    /// What is required beside stability.
+    pub requirements: Vec<Requirement>,
+    /// Where margins are taken.
+    pub at: Option<String>,
+    /// Without axes: a point that is not good, and how that is shown.
+    pub beyond: Option<(Vec<Rational>, String)>,
+}
+
+impl ForAllClaim {
+    /// Stability alone.
+    pub fn new(axes: Vec<AllOf>, all: Vec<AllOf>) -> ForAllClaim {
+        ForAllClaim { axes, all, requirements: Vec::new(), at: None, beyond: None }
+    }
+
+    /// Requirements as well, margins being taken at a cut.
+    pub fn with_requirements(self, requirements: Vec<Requirement>, at: Option<String>) -> ForAllClaim {
+        ForAllClaim { requirements, at, ..self }
+    }
+}
+
+impl Problem {
+    /// A certificate that says of the boxes of a window what a tree says of them. The names of the claim may be free in the problem, or have values there; all
+    /// others have one. It proves nothing where the tree says more than the checkers see: who makes one asks `jurist_check::ForAllJudge`. The package
+    /// `jurist` does that in `certify_for_all`.
+    ///
+    /// How a tree is written is in `jurist_check::grammar`, *for all values*.
+    ///
+    /// Cost: that of writing it.
+    ///
+    /// # Errors
+    /// [`Error::Refused`] (`E-no-certificate`) for requirements that the checkers do not read, for margins beside a smaller region, and for a region whose bound
+    /// is free; as [`Model::cut`](crate::model::Model::cut).
+    pub fn for_all_certificate(
+        &self,
+        claim: &ForAllClaim,
+        tree: &str,
+        (order, bits): (usize, usize),
+        budget: &Budget,
+    ) -> Result<String, Error> {
+        refuse_free_bound(self)?;
+        if !claim.requirements.is_empty() && self.region() != &Region::of(self.time()) {
+            return Err(no_certificate(
+                "no certificate: margins are proved of the loop's stability, not of a smaller region",
+            ));
+        }
+        let requirements = claim.requirements.iter().map(|r| self.requirement(r, claim.at.as_deref(), budget));
+        let requirements = requirements.collect::<Result<Vec<_>, Error>>()?;
+        let ranges = |list: &[AllOf]| list.iter().map(range).collect::<Vec<_>>();
+        let is_named = |name: &str| claim.axes.iter().chain(&claim.all).any(|all| all.name == name);
+        let others: Vec<_> = self.set().iter().filter(|(name, _)| !is_named(name)).cloned().collect();
+        let beyond = claim.beyond.as_ref().map_or(Value::Null, |(point, steps)| {
+            object([("point", point.iter().map(number).collect()), ("not", steps.as_str().into())])
+        });
+        let statement = object([
+            ("kind", "for_all".into()),
+            ("time", self.time().name().into()),
+            ("axes", ranges(&claim.axes).into()),
+            ("for_all", ranges(&claim.all).into()),
+            ("set", set(&others)),
+            ("region", region(self.region())),
+            ("require", requirements.into()),
+            ("tree", tree.into()),
+            ("beyond", beyond),
+        ]);
+        let about = if claim.requirements.is_empty() { about_at_rates(self)? } else { about(self)? };
+        Ok(to_text(&object([
+            ("schema", SCHEMA.into()),
+            ("model", about),
+            ("statement", statement),
+            ("order", order.into()),
+            ("bits", bits.into()),
+        ])))
+    }
+
+    fn requirement(&self, requirement: &Requirement, at: Option<&str>, budget: &Budget) -> Result<Value, Error> {
+        let refused = || Err(no_certificate(format!("no certificate: nothing proves '{}'", requirement.text())));
+        let mut bound = match requirement.rule() {
+            Rule::Factors(factor) => vec![("bound", number(&above(factor)))],
+            Rule::Turned { twice_cosine } => {
+                let Some(degrees) = requirement.required_number(0) else { return refused() };
+                let turns = turns(twice_cosine, budget)?;
+                vec![("bound", number(&degrees)), ("turns", turns.iter().map(number).collect())]
+            }
+            Rule::Circle(circle) => vec![("bound", number(circle.asked()))],
+            Rule::DeadTime(_) | Rule::Sector(_) | Rule::Modulus { .. } => return refused(),
+        };
+        let cut = match self.model().cut(at)? {
+            Cut::Signal(name) => object([("signal", name.into())]),
+            Cut::Input(name) => object([("input", name.into())]),
+            Cut::Gain(name) => object([("parameter", name.into())]),
+            Cut::PlantInput => return refused(),
+        };
+        let mut all = vec![("kind", requirement.name().into()), ("at", cut)];
+        all.append(&mut bound);
+        Ok(Value::Object(all.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()))
+    }
+}
+
+fn range(of: &AllOf) -> Value {
+    object([("name", of.name.as_str().into()), ("between", of.range.iter().map(number).collect())])
+}
+
+/// A factor, rounded up to some digits where it is not rational.
+fn above(factor: &RealAlgebraic) -> Rational {
+    factor.exact().unwrap_or_else(|| {
+        let upper = factor.refined_to_digits(2 * FACTOR_DIGITS).enclosure().1;
+        let unit = Rational::from(10).pow(-(FACTOR_DIGITS as i64)).expect("ten is not zero");
+        rounded_down(&upper, &unit) + unit
+    })
+}
+
+/// Two numbers around the tangent of half of an angle, of which twice the cosine is given.
+fn turns(twice_cosine: &RealAlgebraic, budget: &Budget) -> Result<[Rational; 2], Exhausted> {
+    let tangent = half_tangent(twice_cosine, budget)?;
+    let (low, high) = tangent.refined_to_digits(TURN_BITS as usize).enclosure();
+    let unit = Rational::dyadic(&1.into(), TURN_BITS);
+    Ok([rounded_down(&low, &unit), rounded_down(&high, &unit) + unit])
+}
+
+fn rounded_down(x: &Rational, unit: &Rational) -> Rational {
+    &Rational::from((x / unit).floor()) * unit
+}

@@ -1,0 +1,108 @@
+//! How much of each margin a loop has, by the value of one parameter.
+
+use super::required_set::RequiredSet;
+use super::requirement::Requirement;
+use crate::answer::Answer;
+use crate::error::Error;
+use crate::model::Model;
+use crate::problem::Problem;
+use crate::stability::StableSet;
+use jurist_algebra::limits::Budget;
+use std::sync::Arc;
+
+/// The margins that are looked at where nothing else is said: names of requirements with what they ask for.
+///
+/// ```
+/// use jurist_engine::response::USUAL_MARGINS;
+/// assert!(USUAL_MARGINS.contains(&("phase_margin", "45 deg")));
+/// ```
+pub const USUAL_MARGINS: &[(&str, &str)] = &[
+    ("gain_margin", "6 dB"),
+    ("gain_margin", "10 dB"),
+    ("phase_margin", "30 deg"),
+    ("phase_margin", "45 deg"),
+    ("phase_margin", "60 deg"),
+    ("modulus_margin", "1/2"),
+    ("modulus_margin", "7/10"),
+];
+
+/// The values of one parameter for which a loop is stable, and those for which it has margins of at least some sizes.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct MarginRanges {
+    /// Where the loop is stable.
+    pub stable: StableSet,
+    /// The margins, in the order in which they were asked for.
+    pub levels: Vec<MarginLevel>,
+}
+
+/// A margin of at least some size.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct MarginLevel {
+    /// What is asked for.
+    pub requirement: Requirement,
+    /// The values for which the loop has it, or why that is not decided.
+    pub found: Result<RequiredSet, String>,
+}
+
+impl Model {
+    /// The usual margins as requirements.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] when the budget runs out.
+    pub fn usual_margins(&self, budget: &Budget) -> Result<Vec<Requirement>, Error> {
+        let one = |&(name, text): &(&str, &str)| Ok(self.further_requirements(&[(name, text)], &[], budget)?.list);
+        let lists: Vec<Vec<Requirement>> = USUAL_MARGINS.iter().map(one).collect::<Result<_, Error>>()?;
+        Ok(lists.into_iter().flatten().collect())
+    }
+}
+
+impl Problem {
+    /// For which values of the free parameter the loop has each of some margins, taken at a cut.
+    ///
+    /// Each is decided by itself, as [`Problem::required_set`] decides it; the stable set is computed once.
+    ///
+    /// Cost: that of the stable set, and of one requirement for each margin.
+    ///
+    /// ```
+    /// use jurist_algebra::limits::Budget;
+    /// use jurist_engine::error::Source;
+    /// use jurist_engine::model::Model;
+    /// let (model, _) = Model::from_line(&Source::new("loop", "K/(s*(s + 1))"))?;
+    /// let budget = Budget::unlimited();
+    /// let ranges = model.ask().free("K").problem()?.margin_ranges(&model.usual_margins(&budget)?, None, &budget)?;
+    /// // tan(60 deg) = 1/w and K = w sqrt(1 + w^2) at the crossing: up to K = 2/3.
+    /// let level = ranges.value().levels.iter().find(|level| level.requirement.required() == "60 deg").unwrap();
+    /// let end = level.found.as_ref().unwrap().intervals[0].upper.as_ref().unwrap().value();
+    /// assert_eq!(end.exact(), Some("2/3".parse()?));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Problem::stable_set`]; [`Error::Refused`] for a cut that does not exist.
+    ///
+    /// # Panics
+    /// Unless one parameter is free.
+    pub fn margin_ranges(
+        self: &Arc<Self>,
+        margins: &[Requirement],
+        at: Option<&str>,
+        budget: &Budget,
+    ) -> Result<Answer<MarginRanges>, Error> {
+        self.refuse_complex(budget)?;
+        self.model().cut(at)?;
+        let stable = self.stable_set(budget)?.into_value();
+        let level = |requirement: &Requirement| {
+            budget.step(&requirement.text());
+            let found = match self.with_margins(std::slice::from_ref(requirement), &stable, at, budget) {
+                Ok(set) => Ok(set),
+                Err(Error::Refused(why)) => Err(why.diagnostics()[0].message.clone()),
+                Err(other) => return Err(other),
+            };
+            Ok(MarginLevel { requirement: requirement.clone(), found })
+        };
+        let levels = margins.iter().map(level).collect::<Result<_, Error>>()?;
+        Ok(Answer::new(Arc::clone(self), MarginRanges { stable, levels }))
+    }
+}

@@ -1,0 +1,151 @@
+//! Certificates of maps by boxes, made with what the check sees as the judge of each box.
+
+use super::search::{Judge, Search};
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_check::{BoxJudge, JudgedBox, Limits};
+use jurist_engine::answer::{Answer, MapBoxes};
+use jurist_engine::error::{Code, Diagnostic, Error};
+use jurist_engine::problem::Problem;
+use jurist_engine::stability::plane::boxes::Window;
+use std::time::Duration;
+
+/// Degree of the Taylor models and bits of their coefficients. Of loops of order 6 behind a hold some degrees less need twice the boxes, some
+/// more save none of them.
+const ORDER: usize = 6;
+const BITS: usize = 256;
+
+/// The same of loops with dead time: what is not linear in a box is left out. As many bits more than the frequencies have.
+const ORDER_WITH_DEAD_TIME: usize = 1;
+const BITS_WITH_DEAD_TIME: usize = 128;
+
+/// So much of what the answer decides may stay unknown: this power of two less than what may stay undecided in the answer.
+const LEFT_BITS: u64 = 3;
+
+/// More work is not done, counted by the judge: the slower checker takes half a minute at most for what comes out.
+const MOST_WORK: u64 = 40_000_000_000;
+
+/// A certificate of a map by boxes, and how much of the window it speaks of.
+///
+/// The shares are of the window's area; what is neither is unknown in the certificate.
+///
+/// ```
+/// use jurist::{BoxRequest, Budget, MapMethod, MapOrBoxes, Model, Range, certify_boxes};
+/// let side = |low: &str, high: &str| Range::between(low.parse().ok(), high.parse().ok());
+/// let request = BoxRequest::new([side("1/12000", "1/10000"), side("100", "110")], "1/10".parse().unwrap());
+/// let problem = Model::drive().ask().free("T").free("K_pwm").plane_problem()?;
+/// let MapOrBoxes::Boxes(boxes) = problem.map_by(MapMethod::Boxes, &request, 6, &Budget::unlimited())? else { panic!() };
+/// let certified = certify_boxes(&boxes, &Budget::unlimited())?;
+/// assert_eq!((certified.stable, certified.unstable), (1.into(), 0.into()));
+/// # Ok::<(), jurist::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct CertifiedBoxes {
+    /// The certificate.
+    pub text: String,
+    /// The share that is proved stable, 0 to 1.
+    pub stable: Rational,
+    /// The share that is proved to hold no stable point, 0 to 1.
+    pub unstable: Rational,
+}
+
+/// A certificate of a map by boxes.
+///
+/// Boxes of the answer are taken together where the check sees the whole of them, and halved where it does not see as much at once as the engine
+/// does. It never says more than the answer. A budget that runs out leaves more unknown.
+///
+/// What is shown of a box is shown by Taylor models ([MakinoBerz2003](jurist_algebra::bibliography#makinoberz2003)), see
+/// [`grammar`](jurist_check::grammar).
+///
+/// Cost: each box is tried, so for the tree twice what its check costs.
+///
+/// ```standalone_crate
+/// use jurist::{BoxRequest, Budget, Limits, MapMethod, MapOrBoxes, Model, Range, Source, certify_boxes, check};
+/// let text = std::fs::read_to_string("examples/dc-servo.toml").unwrap();
+/// let (model, _) = Model::from_toml(&Source::new("dc-servo.toml", &text))?;
+/// let side = |low: &str, high: &str| Range::between(low.parse().ok(), high.parse().ok());
+/// let request = BoxRequest::new([side("1", "200"), side("1/2000", "1/100")], "1/10".parse().unwrap());
+/// let problem = model.ask().free("K").free("T").plane_problem()?;
+/// let MapOrBoxes::Boxes(boxes) = problem.map_by(MapMethod::Boxes, &request, 6, &Budget::unlimited())? else { panic!() };
+/// let certified = certify_boxes(&boxes, &Budget::unlimited())?;
+/// assert!(&certified.stable + &certified.unstable > "4/5".parse().unwrap());
+/// assert_eq!(check(&text, &certified.text, &Limits::default()).unwrap().kind, "boxes");
+/// # Ok::<(), jurist::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Refused`] (`E-no-certificate`) for models with requirements, a region whose bound is free, and what else the check does
+/// not read.
+pub fn certify_boxes(answer: &Answer<MapBoxes>, budget: &Budget) -> Result<CertifiedBoxes, Error> {
+    budget.step("certificate");
+    let (problem, window) = (answer.problem(), &answer.value().boxes.window);
+    let judge = judge(problem, window, budget)?;
+    let map = &answer.value().boxes;
+    let goal = &answer.value().goal * &Rational::dyadic(&1.into(), LEFT_BITS);
+    let (order, bits) = precision(problem, budget)?;
+    let judge = Boxes { judge: &judge, is_line: false };
+    let search = Search::new(&map.boxes, &map.window, goal, &judge);
+    let (tree, [stable, unstable]) = search.tree(problem.model().source().text.len(), MOST_WORK, budget);
+    Ok(CertifiedBoxes { text: problem.boxes_certificate(window, &tree, order, bits)?, stable, unstable })
+}
+
+/// What the check sees of a window.
+///
+/// # Errors
+/// Those of [`certify_boxes`], which are known before there is a map.
+pub(crate) fn judge(problem: &Problem, window: &Window, budget: &Budget) -> Result<BoxJudge, Error> {
+    let (order, bits) = precision(problem, budget)?;
+    let draft = problem.boxes_certificate(window, "?", order, bits)?;
+    // Reading a model is counted work; between boxes the budget is asked.
+    let judge = BoxJudge::new(&problem.model().source().text, &draft, &Limits::within(Duration::MAX));
+    judge.map_err(|rejection| {
+        Diagnostic::error(Code::NoCertificate, format!("no certificate of this map by boxes: {}", rejection.reason))
+            .help("the checkers read the model themselves; the answer is printed without '--certificate'")
+            .into()
+    })
+}
+
+pub(crate) fn precision(problem: &Problem, budget: &Budget) -> Result<(usize, usize), Error> {
+    // Sampled loops have no such dead time, and polynomials over a hyperperiod are long.
+    if problem.model().hyperperiod() > 1 {
+        return Ok((ORDER, BITS));
+    }
+    Ok(match problem.algebra_over_symbols(budget)?.symbols().delays().is_empty() {
+        true => (ORDER, BITS),
+        false => (ORDER_WITH_DEAD_TIME, BITS_WITH_DEAD_TIME),
+    })
+}
+
+/// The judge of maps by boxes.
+pub(crate) struct Boxes<'a> {
+    pub judge: &'a BoxJudge,
+    /// Whether boxes are never halved in the second parameter.
+    pub is_line: bool,
+}
+
+impl Judge for Boxes<'_> {
+    type Box = JudgedBox;
+
+    const AXES: [char; 2] = ['x', 'y'];
+
+    fn whole(&self) -> JudgedBox {
+        self.judge.whole()
+    }
+
+    fn halves(&self, of: &mut JudgedBox, axis: usize) -> [JudgedBox; 2] {
+        self.judge.halves(of, axis)
+    }
+
+    fn axis(&self, of: &JudgedBox) -> usize {
+        if self.is_line { 0 } else { self.judge.axis(of) }
+    }
+
+    fn leaf(&self, of: &mut JudgedBox, good: bool, _: &Budget) -> Option<String> {
+        self.judge.shows(of, good).then(|| if good { "+" } else { "-" }.to_owned())
+    }
+
+    fn work(&self) -> u64 {
+        self.judge.work()
+    }
+}
