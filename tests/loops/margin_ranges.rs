@@ -2,6 +2,7 @@
 
 use crate::helpers::program::{jurist, jurist_with_input};
 use jurist::{Budget, Model, Rational, Source};
+use jurist_engine::response::RequiredSet;
 use serde_json::Value;
 
 /// The phase margin of `K/(s (s + 1))` is `p` at `K = cos p/sin^2 p`; the modulus margin of `K/s` is 1, and its gain margin has no bound.
@@ -52,6 +53,64 @@ fn margins_at_points_beside_each_end_agree() {
         }
     }
     assert!(ends >= 10, "{ends}");
+}
+
+/// A gain that multiplies the open loop is the same cut as the signal behind it: of rational loops, behind a hold, and with dead time; where it is free, and
+/// where it has a value and another name is free.
+#[test]
+fn a_parameter_as_the_cut_is_the_gain_of_the_loop() {
+    let plants = [
+        ("continuous", "(s + 2)/((s + 1)*(s^2 + a*s + 4))", ""),
+        ("discrete", "3/(s^2 + a*s + 2)", "discretize = { method = 'zoh', T = 0.2 }\n"),
+        ("continuous", "exp(-0.2*s)/(s + a)", ""),
+    ];
+    let budget = Budget::unlimited();
+    let mut compared = 0;
+    for (time, transfer, held) in plants {
+        let text = format!(
+            "time = '{time}'\nparameters = {{ K = {{ nominal = '3/4', min = 0, max = 20 }}, a = {{ nominal = 1, min = '1/4', max = 6 }} }}\n\
+             loop = {{ inputs = ['r'], outputs = ['y'] }}\n[[block]]\nname = 'C'\ninput = 'r - y'\noutput = 'u'\ngain = 'K'\n\
+             [[block]]\nname = 'P'\ninput = 'u'\noutput = 'y'\ntransfer = '{transfer}'\n{held}"
+        );
+        let (model, _) = Model::from_toml(&Source::new("loop.toml", &text)).unwrap();
+        let margins = model.usual_margins(&budget).unwrap();
+        for name in ["K", "a"] {
+            // A name inside of functions beside a gain with a value is refused.
+            if name == "a" && !held.is_empty() {
+                let refused =
+                    model.ask().free("a").problem().unwrap().margin_ranges(&margins[3..4], Some("K"), &budget);
+                assert!(refused.unwrap().value().levels[0].found.is_err());
+                continue;
+            }
+            let ranges = |at: &str| {
+                let found = model.ask().free(name).problem().unwrap().margin_ranges(&margins[2..], Some(at), &budget);
+                found.unwrap().into_value().levels.into_iter().map(|level| level.found.unwrap()).collect::<Vec<_>>()
+            };
+            for (by_gain, by_signal) in ranges("K").iter().zip(&ranges("u")) {
+                let ends = |set: &RequiredSet| -> Vec<String> {
+                    let ends = set.intervals.iter().flat_map(|i| [&i.lower, &i.upper]);
+                    ends.map(|end| end.as_ref().map_or(String::new(), |end| end.value().decimal(15))).collect()
+                };
+                assert_eq!(ends(by_gain), ends(by_signal), "{transfer} {name}");
+                compared += ends(by_gain).len();
+            }
+        }
+    }
+    assert!(compared >= 40, "{compared}");
+}
+
+/// A model without signals is cut at the parameter that is asked about.
+#[test]
+fn the_drive_in_matrices_has_margins_by_its_gain() {
+    let run = jurist(&["margins", "--param", "K_pwm", "-q"]);
+    assert!(
+        run.stdout.contains("gain_margin > 6 dB for\n    0.0760205583701 < K_pwm < 276.124679223\n"),
+        "{}",
+        run.stdout
+    );
+    let run = jurist(&["intervals", "--param", "T", "--at", "T", "--phase-margin", "45 deg"]);
+    assert_eq!(run.status, 2);
+    assert!(run.stderr.contains("'T' is not a gain of the loop"), "{}", run.stderr);
 }
 
 #[test]

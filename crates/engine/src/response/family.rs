@@ -1,11 +1,11 @@
 //! The open loop with a parameter left in it, and where its margins may pass a required value.
 
 use super::open_loop::OpenLoop;
+use super::opened::OpenedLoop;
 use super::place::{modulus_squared, product};
 use super::requirement::{Circle, Requirement, Rule};
-use crate::coverage::refusals::MARGINS_IN_ONE;
 use crate::error::{Code, Diagnostic, Error};
-use crate::model::{ClosedLoop, Cut, Opened};
+use crate::model::{ClosedLoop, Cut};
 use crate::problem::{Problem, fixed_symbols};
 use crate::stability::Shape;
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -122,23 +122,14 @@ pub(crate) struct Boundaries<R> {
 
 impl<R: Parameters> Family<R> {
     pub fn of(problem: &Problem, at: Option<&str>, budget: &Budget) -> Result<Family<R>, Error> {
-        let cut = problem.model().cut(at)?;
-        if let Cut::Gain(name) = &cut {
-            let message = format!("requirements on margins need a cut at a signal, and '{name}' is a parameter");
-            return Err(Diagnostic::error(Code::Require, message).into());
+        let mut opened = OpenedLoop::of(problem, at, budget)?;
+        if !R::HAS_SYMBOLS {
+            opened = opened.without_symbols()?;
         }
-        let kept: Vec<String> = problem.free().iter().map(|f| f.name.clone()).collect();
-        let Opened { system, sample_time, symbols } = problem.model().opened(&cut, &kept, problem.set(), budget)?;
-        if !symbols.is_empty() && !R::HAS_SYMBOLS {
-            return Err(MARGINS_IN_ONE.diagnostic(&[]).into());
-        }
-        let table = Arc::new(fixed_symbols(&symbols)?);
-        let (quotient, undefined) = Quotient::of(&system, problem.shape(), R::lowered, budget)?;
-        if quotient.numerator.is_zero() {
-            return Err(nothing_comes_back(&cut));
-        }
-        let sample_time = sample_time.and_then(|t| t.as_constant());
-        Ok(Family { quotient, sample_time, cut, free: kept.len(), symbols: table, undefined })
+        let symbols = Arc::new(fixed_symbols(&opened.symbols)?);
+        let (quotient, undefined) = opened.quotient(R::lowered, budget)?;
+        let sample_time = opened.sample_time.and_then(|t| t.as_constant());
+        Ok(Family { quotient, sample_time, cut: opened.cut, free: problem.free().len(), symbols, undefined })
     }
 
     /// `D0` and `N` with the open loop `N/D0`, in the variable of the closed loop.

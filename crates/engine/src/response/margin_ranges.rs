@@ -4,7 +4,7 @@ use super::required_set::RequiredSet;
 use super::requirement::Requirement;
 use crate::answer::Answer;
 use crate::error::Error;
-use crate::model::Model;
+use crate::model::{Form, Model};
 use crate::problem::Problem;
 use crate::stability::StableSet;
 use jurist_algebra::limits::Budget;
@@ -91,7 +91,12 @@ impl Problem {
         budget: &Budget,
     ) -> Result<Answer<MarginRanges>, Error> {
         self.refuse_complex(budget)?;
-        self.model().cut(at)?;
+        // Where there are no signals the parameter itself is the gain.
+        let own = || (!matches!(self.model().form(), Form::Blocks(_))).then_some(self.parameter().name.as_str());
+        let at = match self.model().cut(at) {
+            Ok(_) => at,
+            Err(refused) => Some(own().filter(|_| at.is_none()).ok_or(refused)?),
+        };
         let stable = self.stable_set(budget)?.into_value();
         let level = |requirement: &Requirement| {
             budget.step(&requirement.text());

@@ -38,6 +38,7 @@ mod on_circle;
 mod on_roots;
 mod one_sided;
 mod open_loop;
+mod opened;
 mod over_box;
 mod over_boxes;
 mod over_symbols;

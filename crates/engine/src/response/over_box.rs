@@ -6,13 +6,12 @@
 
 use super::along_circle::Asked;
 use super::axis_end::AxisSystem;
-use super::family::{Quotient, nothing_comes_back};
 use super::loop_functions::{LoopFunctions, dead_time, number_asked};
 use super::on_circle::twice_real;
+use super::opened::OpenedLoop;
 use super::requirement::{Requirement, Rule};
 use super::taylor_along::{beyond_axis, binomial, combined, combined_to, of_octave, on_ray, on_wider_disc};
-use crate::error::{Code, Diagnostic, Error};
-use crate::model::{Cut, Opened};
+use crate::error::Error;
 use crate::problem::{Problem, parametric_symbols};
 use crate::stability::Shape;
 use jurist_algebra::ball::{Ball, Elementary, MultiTaylorModel, exp};
@@ -349,23 +348,14 @@ fn open_loop(
     at: Option<&str>,
     budget: &Budget,
 ) -> Result<(ParametricSymbols, Asks), Error> {
-    let cut = problem.model().cut(at)?;
-    if let Cut::Gain(name) = &cut {
-        let message = format!("requirements on margins need a cut at a signal, and '{name}' is a parameter");
-        return Err(Diagnostic::error(Code::Require, message).into());
-    }
-    let kept: Vec<String> = problem.free().iter().map(|free| free.name.clone()).collect();
-    let Opened { system, symbols, .. } = problem.model().opened(&cut, &kept, problem.set(), budget)?;
-    let (mut quotient, undefined) = Quotient::of(&system, problem.shape(), MultiPoly::clone, budget)?;
-    if quotient.numerator.is_zero() {
-        return Err(nothing_comes_back(&cut));
-    }
-    let dead_time = dead_time(&mut quotient, &undefined, &symbols)?;
+    let opened = OpenedLoop::of(problem, at, budget)?;
+    let (mut quotient, undefined) = opened.quotient(MultiPoly::clone, budget)?;
+    let dead_time = dead_time(&mut quotient, &undefined, &opened.symbols)?;
     let table = match &dead_time {
         Some(_) => ParametricSymbols::new(Vec::new()),
-        None => parametric_symbols(&symbols)?,
+        None => parametric_symbols(&opened.symbols)?,
     };
-    let alpha = MultiPoly::variable(kept.len() + table.len());
+    let alpha = MultiPoly::variable(problem.free().len() + table.len());
     let parts = (&quotient, dead_time.as_ref());
     let functions = budget.enter(|| LoopFunctions::new(parts, &undefined, rule, alpha))?;
     Ok((table.with("alpha", Definition::Algebraic(number_asked(rule))), Asks::OpenLoop(functions)))

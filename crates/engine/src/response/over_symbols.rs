@@ -1,16 +1,16 @@
 //! Requirements on margins in one parameter where the loop contains functions that are not rational, such as a plant behind a hold.
 
 use super::cells::{around, beyond, edge, outward, parts_beside, required_parts};
-use super::family::{Elimination, Quotient, nothing_comes_back, plus_multiple, plus_multiple_of};
+use super::family::{Elimination, Quotient, plus_multiple, plus_multiple_of};
 use super::loop_functions::number_asked;
 use super::met::AtPoint;
 use super::open_loop::OpenLoop;
+use super::opened::OpenedLoop;
 use super::over_boxes::{OverBoxes, certain, segments};
 use super::requirement::{Requirement, Rule};
 use super::{RequiredEnd, RequiredInterval, RequiredSet};
 use crate::coverage::refusals::DELAY_AT_POINTS;
 use crate::error::{Code, Diagnostic, Error};
-use crate::model::{Cut, Opened};
 use crate::problem::{Problem, moving_symbols};
 use crate::stability::{Bracket, Range, StableInterval, StableSet, UndecidedBracket, told_apart, zeros_of_functions};
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -91,20 +91,13 @@ struct Candidate {
 impl<'a> SymbolicFamily<'a> {
     /// Of a loop without dead time; `None` of one in which everything is rational.
     pub fn of(problem: &'a Problem, at: Option<&'a str>, budget: &Budget) -> Result<Option<Self>, Error> {
-        let cut = problem.model().cut(at)?;
-        if matches!(cut, Cut::Gain(_)) {
+        let opened = OpenedLoop::of(problem, at, budget)?;
+        if opened.symbols.is_empty() {
             return Ok(None);
         }
-        let kept = [problem.parameter().name.clone()];
-        let Opened { system, symbols, .. } = problem.model().opened(&cut, &kept, problem.set(), budget)?;
-        if symbols.is_empty() {
-            return Ok(None);
-        }
-        let (quotient, undefined) = Quotient::of(&system, problem.shape(), MultiPoly::clone, budget)?;
-        if quotient.numerator.is_zero() {
-            return Err(nothing_comes_back(&cut));
-        }
-        Ok(Some(SymbolicFamily { problem, at, quotient, undefined, symbols: moving_symbols(&symbols)? }))
+        let (quotient, undefined) = opened.quotient(MultiPoly::clone, budget)?;
+        let symbols = moving_symbols(&opened.symbols)?;
+        Ok(Some(SymbolicFamily { problem, at, quotient, undefined, symbols }))
     }
 
     /// The parts of the stable set in which all requirements are met, and where that is not told.

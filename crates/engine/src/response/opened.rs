@@ -1,0 +1,129 @@
+//! The open loop of a problem with its free names left in it, wherever it is cut.
+
+use super::family::{Quotient, nothing_comes_back};
+use crate::coverage::refusals::MARGINS_IN_ONE;
+use crate::error::{Code, Diagnostic, Error};
+use crate::model::{ClosedLoop, Cut, Evaluated, Opened, Symbols};
+use crate::problem::Problem;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction};
+
+/// An open loop of which the polynomials are not made yet.
+pub(super) struct OpenedLoop<'p> {
+    problem: &'p Problem,
+    pub cut: Cut,
+    pub sample_time: Option<RationalFunction>,
+    /// What follows the free names.
+    pub symbols: Symbols,
+    of: Of,
+}
+
+enum Of {
+    /// The system from the cut to the cut.
+    System(Box<ClosedLoop>),
+    /// The characteristic polynomial without the gain, what the gain adds to it, and where they are undefined.
+    Gain { open: Poly<MultiPoly>, back: Poly<MultiPoly>, undefined: MultiPoly },
+}
+
+impl<'p> OpenedLoop<'p> {
+    /// Cost: that of evaluating the model.
+    ///
+    /// # Errors
+    /// As [`Model::cut`](crate::model::Model::cut); `E-cut` where a parameter does not enter as a gain.
+    pub fn of(problem: &'p Problem, at: Option<&str>, budget: &Budget) -> Result<OpenedLoop<'p>, Error> {
+        let cut = problem.model().cut(at)?;
+        let kept: Vec<String> = problem.free().iter().map(|free| free.name.clone()).collect();
+        let (of, sample_time, symbols) = match &cut {
+            Cut::Gain(name) => with_gain(problem, name, &kept, budget)?,
+            _ => {
+                let Opened { system, sample_time, symbols } =
+                    problem.model().opened(&cut, &kept, problem.set(), budget)?;
+                (Of::System(Box::new(system)), sample_time, symbols)
+            }
+        };
+        Ok(OpenedLoop { problem, cut, sample_time, symbols, of })
+    }
+
+    /// Refuses symbols, where polynomials have none.
+    pub fn without_symbols(self) -> Result<Self, Error> {
+        if self.symbols.is_empty() { Ok(self) } else { Err(MARGINS_IN_ONE.diagnostic(&[]).into()) }
+    }
+
+    /// `N/D0` over a ring, and the common denominator of all coefficients.
+    ///
+    /// # Errors
+    /// `E-cut` where nothing comes back to the cut; [`Error::Stopped`].
+    pub fn quotient<R: Domain>(
+        &self,
+        ring: impl Fn(&MultiPoly) -> R,
+        budget: &Budget,
+    ) -> Result<(Quotient<R>, R), Error> {
+        let shape = self.problem.shape();
+        let (quotient, undefined) = match &self.of {
+            Of::System(system) => Quotient::of(system, shape, ring, budget)?,
+            Of::Gain { open, back, undefined } => {
+                let over = |p: &Poly<MultiPoly>| Poly::new(p.coeffs().iter().map(&ring).collect());
+                (Quotient { denominator: over(open), numerator: over(back), shape }, ring(undefined))
+            }
+        };
+        if quotient.numerator.is_zero() {
+            return Err(nothing_comes_back(&self.cut));
+        }
+        Ok((quotient, undefined))
+    }
+}
+
+/// `D0 + K N` of a parameter `K` that enters to the first power: free itself, or with its value.
+fn with_gain(
+    problem: &Problem,
+    name: &str,
+    kept: &[String],
+    budget: &Budget,
+) -> Result<(Of, Option<RationalFunction>, Symbols), Error> {
+    let refused = |why: &str| -> Error {
+        let message = format!("'{}' is not a gain of the loop: {why}", crate::model::shorten(name));
+        let help = "a parameter is one where it enters the characteristic polynomial to the first power and is not 0";
+        Diagnostic::error(Code::Cut, message).help(help).into()
+    };
+    let own = kept.iter().position(|free| free == name);
+    let (names, at) = match own {
+        Some(at) => (kept.to_vec(), at),
+        None => (kept.iter().cloned().chain([name.to_owned()]).collect(), kept.len()),
+    };
+    let value = |name: &str| {
+        let constant = || problem.model().constant(name).and_then(|c| c.number.clone());
+        problem.set().iter().find(|(n, _)| n == name).map(|(_, value)| value.clone()).or_else(constant)
+    };
+    let others: Vec<(String, Rational)> = problem.set().iter().filter(|(n, _)| n != name).cloned().collect();
+    let Evaluated { polynomial, sample_time, symbols, .. } = problem.model().evaluate(&names, &others, budget)?;
+    let (p, denominator) = budget.enter(|| polynomial.cleared())?;
+    let is_inside = |f: &MultiPoly| f.degree_in(at) > 0;
+    let is_in_time = sample_time.iter().any(|t| is_inside(t.numerator()) || is_inside(t.denominator()));
+    if is_in_time || is_inside(&denominator) || polynomial.poles.iter().any(is_inside) {
+        return Err(refused("it is in a denominator, or in the sample time"));
+    }
+    if own.is_none() && symbols.is_moving() {
+        return Err(refused("beside functions of what is free it has to be free itself"));
+    }
+    let parts: Vec<Poly<MultiPoly>> = p.coeffs().iter().map(|c| c.as_poly_in(at)).collect();
+    if parts.iter().any(|c| c.coeffs().len() > 2) || parts.iter().all(|c| c.coeff(0).is_zero()) {
+        return Err(refused("it enters in another way"));
+    }
+    // What stands in the place of the parameter, which has no variable then.
+    let factor = match own {
+        Some(_) => (MultiPoly::variable(at), Rational::ONE),
+        None => match value(name).filter(|value| !value.is_zero()) {
+            Some(value) => (MultiPoly::one(), value),
+            None => return Err(refused("it has no value, or is zero")),
+        },
+    };
+    let beside = |f: MultiPoly| if own.is_some() { f } else { f.map_variables(|i| if i > at { i - 1 } else { i }) };
+    let part = |k: usize, scale: &jurist_algebra::number::Integer| -> Vec<MultiPoly> {
+        parts.iter().map(|c| beside(c.coeff(k)).scaled_by(scale)).collect()
+    };
+    let open = Poly::new(part(0, &factor.1.denominator()));
+    let back = Poly::new(part(1, &factor.1.numerator()).iter().map(|c| c.times(&factor.0)).collect());
+    let undefined = polynomial.poles.iter().fold(denominator, |product, pole| product.times(pole));
+    Ok((Of::Gain { open, back, undefined: beside(undefined) }, sample_time, symbols))
+}
