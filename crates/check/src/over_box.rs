@@ -52,8 +52,8 @@ pub(super) fn over_box(
 pub(super) enum By<'w> {
     /// As a polynomial in all variables.
     Expansion,
-    /// With a number of bits, over a window of the two parameters, if there are any. Each coefficient is a further variable, a number.
-    Enclosures { window: Option<&'w [[Q; 2]; 2]>, bits: usize },
+    /// With a number of bits, over a window of the parameters. Each coefficient is a further variable, a number.
+    Enclosures { window: &'w [[Q; 2]], bits: usize },
 }
 
 /// The same with functions and holds as further variables, if they are to be read, and what these are.
@@ -112,17 +112,15 @@ pub(super) fn with_sources(
         let (coefficients, sources) = match by {
             By::Expansion => (expanded(&rows, degree, clock)?, sources),
             By::Enclosures { window, bits } => {
-                let first = FIRST + if window.is_some() { 2 } else { 0 } + sources.len();
+                let first = FIRST + window.len() + sources.len();
                 let found =
                     Determinant { rows: &rows, degree, window, sources: &sources, bits, clock }.coefficients()?;
                 let mut coefficients = vec![Multi::default(); degree + 1];
-                for (i, [k, x, y]) in found.keys().enumerate() {
+                for (i, powers) in found.keys().enumerate() {
                     let mut e = vec![0; first + i + 1];
-                    if window.is_some() {
-                        (e[FIRST], e[FIRST + 1]) = (*x as u32, *y as u32);
-                    }
+                    e[FIRST..].iter_mut().zip(&powers[1..]).for_each(|(place, k)| *place = *k as u32);
                     e[first + i] = 1;
-                    coefficients[*k].add(e, Z::one());
+                    coefficients[powers[0]].add(e, Z::one());
                 }
                 (coefficients, sources.with_numbers(found.into_values().collect()))
             }

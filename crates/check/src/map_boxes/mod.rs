@@ -4,6 +4,7 @@ mod axis;
 mod delayed;
 mod functions;
 mod judge;
+mod one_loop;
 mod polynomial;
 
 use crate::clock::Clock;
@@ -12,22 +13,29 @@ use crate::number::Q;
 use crate::statement::{Extent, axes, count, fixed_extent, list, number, object, text, values};
 use crate::words::{exact, inward};
 use crate::{Proved, Rejection, Step, is_discrete, verdict};
-pub use judge::{BoxJudge, JudgedBox};
+pub use judge::BoxJudge;
 use num_traits::{One, Zero};
+pub use one_loop::JudgedBox;
 use std::fmt::Write;
 
 /// Trees with longer branches are refused.
 const MAX_DEPTH: usize = 160;
 
-/// The ends of a box in `x` and in `y`.
-pub(super) type Sides = [[Q; 2]; 2];
+/// The ends of a box, for each of its parameters.
+pub(super) type Sides = [[Q; 2]];
 
-pub(super) struct Statement {
+/// What is asked of a loop: of which parameters, between which ends, and with which region.
+pub(super) struct Question {
     pub discrete: bool,
     pub names: Vec<String>,
     pub set: Vec<(String, Q)>,
     pub extent: Extent,
-    pub window: Sides,
+    pub window: Vec<[Q; 2]>,
+}
+
+pub(super) struct Statement {
+    /// Of two parameters.
+    pub question: Question,
     tree: String,
 }
 
@@ -46,28 +54,30 @@ impl Statement {
         let names = axes(x, y)?;
         let [x, y] = object(window, "'window'", ["x", "y"], &[])?;
         let tree = text(tree, "'tree'")?.to_owned();
-        Ok(Statement { discrete, names, set: values(set)?, extent, window: [ends(x, false)?, ends(y, true)?], tree })
+        let window = vec![ends(x, false)?, ends(y, true)?];
+        Ok(Statement { question: Question { discrete, names, set: values(set)?, extent, window }, tree })
     }
 
     /// Whether the second parameter has one value.
     fn is_line(&self) -> bool {
-        self.window[1][0] == self.window[1][1]
+        self.question.window[1][0] == self.question.window[1][1]
     }
 
     fn in_words(&self, walked: &Walked) -> String {
         let mut out = String::from("For ");
-        let sides = self.names.iter().zip(&self.window);
+        let Question { discrete, names, set, extent, window } = &self.question;
+        let sides = names.iter().zip(window);
         for (i, (name, [low, high])) in sides.take(if self.is_line() { 1 } else { 2 }).enumerate() {
             let [low, high] = inward(low, high);
             let _ = write!(out, "{}{name} from {low} to {high}", if i == 0 { "" } else { " and " });
         }
-        let one = self.is_line().then(|| (&self.names[1], &self.window[1][0]));
-        for (i, (name, value)) in one.into_iter().chain(self.set.iter().map(|(name, q)| (name, q))).enumerate() {
+        let one = self.is_line().then(|| (&names[1], &window[1][0]));
+        for (i, (name, value)) in one.into_iter().chain(set.iter().map(|(name, q)| (name, q))).enumerate() {
             let _ = write!(out, "{}{name} = {}", if i == 0 { ", with " } else { ", " }, exact(value));
         }
-        let within = verdict::within(&self.extent, self.discrete);
+        let within = verdict::within(extent, *discrete);
         if self.is_line() {
-            let name = &self.names[0];
+            let name = &names[0];
             let pieces = |letter: char| {
                 let own = walked.pieces.iter().filter(|(l, _)| *l == letter);
                 let range = |[low, high]: [String; 2]| format!("{low} <= {name} <= {high}");
@@ -136,10 +146,21 @@ pub(super) fn check(model: &str, json: &Json, clock: Clock) -> Result<Proved, Re
     Ok(Proved { statement: judge.statement().in_words(&walked), kind: "boxes" })
 }
 
-/// The axis along which a box is wider, in shares of the window.
+/// The axis along which a box is widest, in shares of the window.
 fn share_of_window(sides: &Sides, window: &Sides) -> usize {
     let width = |[low, high]: &[Q; 2]| high - low;
-    usize::from(width(&sides[1]) * width(&window[0]) > width(&sides[0]) * width(&window[1]))
+    let share = |(side, whole)| {
+        let whole = width(whole);
+        if whole.is_zero() { whole } else { width(side) / whole }
+    };
+    largest(sides.iter().zip(window).map(share)).unwrap_or(0)
+}
+
+/// The place of the first of the largest, where not all are the same.
+fn largest<T: Ord>(all: impl Iterator<Item = T>) -> Option<usize> {
+    let all: Vec<T> = all.collect();
+    let most = all.iter().max()?;
+    if all.iter().all(|x| x == most) { None } else { all.iter().position(|x| x == most) }
 }
 
 /// What the leaves of a tree say.
