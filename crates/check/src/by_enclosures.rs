@@ -1,7 +1,7 @@
 //! Where the roots of a sampled loop are whose coefficients are only enclosed.
 
 use super::clock::Clock;
-use super::model::Functions;
+use super::model::{Boxed, Functions};
 use super::moving::value;
 use super::multivariate::Multi;
 use super::number::Q;
@@ -20,8 +20,9 @@ pub(super) fn places(
     bits: usize,
     clock: &Clock,
 ) -> Result<(usize, Places), Rejection> {
+    let boxed = Boxed { names: &[], set, factor: None };
     let by = By::Enclosures { window: &[], bits };
-    let (own, sources) = Step::Model.of(with_sources(model, (&[], set), Functions::Moving, by, clock))?;
+    let (own, sources) = Step::Model.of(with_sources(model, boxed, Functions::Moving, by, clock))?;
     if !own.discrete || sources.have_dead_time() {
         let reason = "the model's time is not that of the statement".into();
         return Err(Rejection { step: Step::Model, reason });

@@ -10,7 +10,7 @@ use super::characteristic::{Form, product};
 use super::clock::Clock;
 use super::complex::square_of_root;
 use super::enclosed::Determinant;
-use super::model::{self, Functions};
+use super::model::{self, Boxed, Functions};
 use super::moving::Sources;
 use super::multivariate::{Fraction, Multi};
 use super::number::{Q, Z};
@@ -34,6 +34,10 @@ pub(super) struct OverBox {
     pub is_doubled: bool,
     /// Whether the last of them is the leading coefficient, that of a determinant.
     pub has_lead_last: bool,
+    /// Polynomials that are positive wherever the loop is asked about.
+    pub positive: Vec<Multi>,
+    /// Whether the loop is complex without its factor, or the factor is not all that is complex beside it.
+    pub is_complex: bool,
 }
 
 /// Reads the model; `set` has the values of all parameters but those of the box. The symbols of a table are the variables behind them.
@@ -44,7 +48,8 @@ pub(super) fn over_box(
     table: &Table,
     clock: &Clock,
 ) -> Result<OverBox, String> {
-    with_sources(text, (names, set), Functions::OfNumbers(table), By::Expansion, clock).map(|(found, _)| found)
+    let boxed = Boxed { names, set, factor: None };
+    with_sources(text, boxed, Functions::OfNumbers(table), By::Expansion, clock).map(|(found, _)| found)
 }
 
 /// How the determinant is taken.
@@ -59,14 +64,16 @@ pub(super) enum By<'w> {
 /// The same with functions and holds as further variables, if they are to be read, and what these are.
 pub(super) fn with_sources(
     text: &str,
-    (names, set): (&[String], &[(String, Q)]),
+    boxed: Boxed<'_>,
     functions: Functions<'_>,
     by: By<'_>,
     clock: &Clock,
 ) -> Result<(OverBox, Sources), String> {
-    let asked = model::asked_over_box(text, names, set, functions, clock)?;
+    let asked = model::asked_over_box(text, boxed, functions, clock)?;
     clock.reading(|| {
         let values = &asked.values;
+        let positive = boxed.factor.map(|f| f.family.positive(FIRST + boxed.names.len(), clock)).transpose()?;
+        let positive = positive.unwrap_or_default();
         let mut divisors = Vec::with_capacity(asked.divisors.len());
         for divisor in &asked.divisors {
             divisors.push(substituted(&divisor.coefficients(0), values, clock)?);
@@ -87,6 +94,8 @@ pub(super) fn with_sources(
                     divisors,
                     is_doubled: asked.is_doubled,
                     has_lead_last: false,
+                    positive,
+                    is_complex: asked.is_complex,
                 };
                 return Ok((found, sources));
             }
@@ -133,6 +142,8 @@ pub(super) fn with_sources(
                 divisors,
                 is_doubled: asked.is_doubled,
                 has_lead_last: true,
+                positive,
+                is_complex: asked.is_complex,
             },
             sources,
         ))

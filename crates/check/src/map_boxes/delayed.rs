@@ -107,6 +107,7 @@ impl Delayed {
             return Err("an end of the window has too many digits".into());
         }
         let parameters = of.window.len();
+        let positive = own.positive.clone();
         let terms = Terms::new(own, sources, parameters, clock)?;
         let farthest: Vec<Q> = of.window.iter().map(|[low, high]| low.abs().max(high.abs())).collect();
         let scale = terms.scale(&farthest);
@@ -123,7 +124,7 @@ impl Delayed {
             |part: Vec<Multi>| part.into_iter().enumerate().map(|(j, c)| c.scaled(&factor(j))).collect::<Vec<_>>();
         let mut all: Vec<Multi> = primitive(coefficients.into_iter().flat_map(scaled).collect(), clock)?;
         let mut divisors = Vec::with_capacity(terms.divisors.len());
-        for list in separated(terms.divisors, clock)? {
+        for list in separated(terms.divisors, &positive, clock)? {
             divisors.push(all.len()..all.len() + list.len());
             all.extend(primitive(list, clock)?);
         }

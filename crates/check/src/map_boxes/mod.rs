@@ -8,18 +8,24 @@ mod one_loop;
 mod polynomial;
 
 use crate::clock::Clock;
+use crate::factor::Factor;
 use crate::format::Json;
 use crate::number::Q;
 use crate::statement::{Extent, axes, count, fixed_extent, list, number, object, text, values};
 use crate::words::{exact, inward};
 use crate::{Proved, Rejection, Step, is_discrete, verdict};
 pub use judge::BoxJudge;
+pub(super) use judge::on_a_large_stack;
 use num_traits::{One, Zero};
 pub use one_loop::JudgedBox;
+pub(super) use one_loop::OneLoop;
 use std::fmt::Write;
 
 /// Trees with longer branches are refused.
-const MAX_DEPTH: usize = 160;
+pub(super) const MAX_DEPTH: usize = 160;
+
+/// See [`Parts::share`].
+const SHARE: usize = 4;
 
 /// The ends of a box, for each of its parameters.
 pub(super) type Sides = [[Q; 2]];
@@ -30,6 +36,9 @@ pub(super) struct Question {
     pub names: Vec<String>,
     pub set: Vec<(String, Q)>,
     pub extent: Extent,
+    /// A factor at a cut of the loop, whose own names follow.
+    pub factor: Option<Factor>,
+    /// Of all names.
     pub window: Vec<[Q; 2]>,
 }
 
@@ -43,6 +52,18 @@ pub(super) struct Statement {
 pub(super) struct Parts {
     pub order: usize,
     pub bits: usize,
+    /// A half has the functions of the whole where what they leave out is less than this power of two of what they change.
+    pub share: usize,
+}
+
+impl Parts {
+    /// Of a certificate.
+    pub fn read(order: &Json, bits: &Json, share: usize) -> Result<Self, String> {
+        match (count(order, "'order'")?, count(bits, "'bits'")?) {
+            (order @ 1..=8, bits @ 64..=1024) => Ok(Parts { order, bits, share }),
+            _ => Err("'order' is not from 1 to 8, or 'bits' not from 64 to 1024".to_owned()),
+        }
+    }
 }
 
 impl Statement {
@@ -55,7 +76,7 @@ impl Statement {
         let [x, y] = object(window, "'window'", ["x", "y"], &[])?;
         let tree = text(tree, "'tree'")?.to_owned();
         let window = vec![ends(x, false)?, ends(y, true)?];
-        Ok(Statement { question: Question { discrete, names, set: values(set)?, extent, window }, tree })
+        Ok(Statement { question: Question { discrete, names, set: values(set)?, extent, factor: None, window }, tree })
     }
 
     /// Whether the second parameter has one value.
@@ -65,7 +86,7 @@ impl Statement {
 
     fn in_words(&self, walked: &Walked) -> String {
         let mut out = String::from("For ");
-        let Question { discrete, names, set, extent, window } = &self.question;
+        let Question { discrete, names, set, extent, window, .. } = &self.question;
         let sides = names.iter().zip(window);
         for (i, (name, [low, high])) in sides.take(if self.is_line() { 1 } else { 2 }).enumerate() {
             let [low, high] = inward(low, high);
@@ -78,12 +99,7 @@ impl Statement {
         let within = verdict::within(extent, *discrete);
         if self.is_line() {
             let name = &names[0];
-            let pieces = |letter: char| {
-                let own = walked.pieces.iter().filter(|(l, _)| *l == letter);
-                let range = |[low, high]: [String; 2]| format!("{low} <= {name} <= {high}");
-                own.map(|(_, [low, high])| range(inward(low, high))).collect::<Vec<_>>().join(" and ")
-            };
-            let (stable, unstable) = (pieces('+'), pieces('-'));
+            let (stable, unstable) = (walked.ranges('+', name), walked.ranges('-', name));
             let _ = match (stable.is_empty(), unstable.is_empty()) {
                 (true, true) => write!(out, ", nothing is said of the loop."),
                 (true, false) => write!(out, ", the loop is not stable{within} for any value in {unstable}."),
@@ -98,11 +114,6 @@ impl Statement {
             out.push_str(" Nothing is said of the rest.");
             return out;
         }
-        let percent = |q: &Q| {
-            // Rounded down: no more is claimed than is proved.
-            let tenths = (q * Q::from(num_bigint::BigInt::from(1000))).floor().to_integer();
-            format!("{}.{}", &tenths / 10, tenths % 10)
-        };
         let [stable, unstable, _] = walked.shares.each_ref().map(percent);
         let _ = write!(
             out,
@@ -113,8 +124,14 @@ impl Statement {
     }
 }
 
+/// A share of a whole in per cent, rounded down: no more is claimed than is proved.
+pub(super) fn percent(q: &Q) -> String {
+    let tenths = (q * Q::from(num_bigint::BigInt::from(1000))).floor().to_integer();
+    format!("{}.{}", &tenths / 10, tenths % 10)
+}
+
 /// Two numbers in order, which may be the same where one parameter alone is asked about.
-fn ends(json: &Json, may_be_one: bool) -> Result<[Q; 2], String> {
+pub(super) fn ends(json: &Json, may_be_one: bool) -> Result<[Q; 2], String> {
     match list(json, "a side of the window")? {
         [low, high] => {
             let side = [number(low, "a side of the window")?, number(high, "a side of the window")?];
@@ -132,10 +149,7 @@ fn ends(json: &Json, may_be_one: bool) -> Result<[Q; 2], String> {
 fn read(json: &Json) -> Result<(Statement, Parts), Rejection> {
     let keys = ["schema", "statement", "order", "bits"];
     let [_, statement, order, bits] = Step::Format.of(object(json, "the certificate", keys, &["model"]))?;
-    let parts = Step::Format.of((|| match (count(order, "'order'")?, count(bits, "'bits'")?) {
-        (order @ 1..=8, bits @ 64..=1024) => Ok(Parts { order, bits }),
-        _ => Err("'order' is not from 1 to 8, or 'bits' not from 64 to 1024".to_owned()),
-    })())?;
+    let parts = Step::Format.of(Parts::read(order, bits, SHARE))?;
     Ok((Step::Statement.of(Statement::read(statement))?, parts))
 }
 
@@ -164,15 +178,26 @@ fn largest<T: Ord>(all: impl Iterator<Item = T>) -> Option<usize> {
 }
 
 /// What the leaves of a tree say.
-struct Walked {
+pub(super) struct Walked {
     /// The shares of the window that are stable, not stable, and unknown.
-    shares: [Q; 3],
+    pub shares: [Q; 3],
     /// Where one parameter alone is asked about, its ranges that are stable or not, ascending, what follows each other taken together.
-    pieces: Vec<(char, [Q; 2])>,
+    pub pieces: Vec<(char, [Q; 2])>,
 }
 
 impl Walked {
-    fn add(&mut self, letter: char, [low, high]: &[Q; 2]) {
+    pub fn new() -> Self {
+        Walked { shares: [Q::zero(), Q::zero(), Q::zero()], pieces: Vec::new() }
+    }
+
+    /// The ranges of a parameter that have this letter.
+    pub fn ranges(&self, letter: char, name: &str) -> String {
+        let own = self.pieces.iter().filter(|(l, _)| *l == letter);
+        let range = |[low, high]: [String; 2]| format!("{low} <= {name} <= {high}");
+        own.map(|(_, [low, high])| range(inward(low, high))).collect::<Vec<_>>().join(" and ")
+    }
+
+    pub fn add(&mut self, letter: char, [low, high]: &[Q; 2]) {
         match self.pieces.last_mut() {
             Some((last, [_, end])) if *last == letter && end == low => *end = high.clone(),
             _ => self.pieces.push((letter, [low.clone(), high.clone()])),
@@ -184,8 +209,8 @@ impl BoxJudge {
     /// That each leaf of the tree is what it says.
     fn walk(&self) -> Result<Walked, Rejection> {
         let mut stack = vec![(self.whole(), 0)];
-        let (is_line, zero) = (self.statement().is_line(), Q::zero);
-        let mut walked = Walked { shares: [zero(), zero(), zero()], pieces: Vec::new() };
+        let is_line = self.statement().is_line();
+        let mut walked = Walked::new();
         let stable = |reason: String| Rejection { step: Step::Stable, reason };
         for letter in self.statement().tree.chars() {
             Step::Line.of(self.clock().tick())?;

@@ -5,7 +5,7 @@ use super::polynomial::{self, Polynomial};
 use super::{Parts, Question, Sides};
 use crate::blocks::has_several_rates;
 use crate::clock::Clock;
-use crate::model::Functions;
+use crate::model::{Boxed, Functions};
 use crate::number::{Q, Z};
 use crate::over_box::{By, FIRST, with_sources};
 use crate::{Rejection, Step, toml};
@@ -14,6 +14,8 @@ use std::fmt;
 /// A loop over a window.
 pub(crate) struct OneLoop {
     window: Vec<[Q; 2]>,
+    /// Whether it is complex without its factor.
+    pub is_complex: bool,
     of: Kind,
 }
 
@@ -40,6 +42,17 @@ impl JudgedBox {
     pub(crate) fn sides(&self) -> &Sides {
         &self.sides
     }
+
+    /// With another side along an axis; nothing is known of it yet.
+    pub(crate) fn with_side(&self, axis: usize, side: [Q; 2]) -> JudgedBox {
+        let mut sides = self.sides.clone();
+        sides[axis] = side;
+        let known = match self.known {
+            Known::Polynomial(_) => Known::Polynomial(polynomial::Known::default()),
+            Known::Delayed(_) => Known::Delayed(delayed::Known::default()),
+        };
+        JudgedBox { sides, known }
+    }
 }
 
 impl fmt::Display for JudgedBox {
@@ -58,7 +71,11 @@ impl OneLoop {
             true => By::Enclosures { window: &of.window, bits: parts.bits },
             false => By::Expansion,
         };
-        let asked = (of.names.as_slice(), of.set.as_slice());
+        if of.factor.as_ref().is_some_and(|f| f.family.is_complex()) && matches!(by, By::Enclosures { .. }) {
+            let reason = "a requirement of a loop with several rates has no certificate, but for a gain margin".into();
+            return Err(Rejection { step: Step::Model, reason });
+        }
+        let asked = Boxed { names: &of.names, set: &of.set, factor: of.factor.as_ref() };
         let (own, sources) = Step::Model.of(with_sources(model, asked, Functions::Moving, by, clock))?;
         if own.discrete != of.discrete {
             let reason = "the model's time is not that of the statement".into();
@@ -70,12 +87,13 @@ impl OneLoop {
             // Coefficients that are numbers of their own have nothing in common.
             By::Enclosures { .. } => own,
         };
+        let is_complex = own.is_complex;
         let kind = if sources.have_dead_time() {
             Delayed::new(own, &sources, of, parts, clock).map(Kind::Delayed)
         } else {
             Polynomial::new(own, sources, of, parts, clock).map(Kind::Polynomial)
         };
-        Ok(OneLoop { window: of.window.clone(), of: Step::Model.of(kind)? })
+        Ok(OneLoop { window: of.window.clone(), is_complex, of: Step::Model.of(kind)? })
     }
 
     /// A box of which nothing is known yet.

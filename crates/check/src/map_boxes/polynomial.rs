@@ -20,6 +20,8 @@ const BEYOND: [i64; 2] = [-3, -1];
 /// The characteristic polynomial over the window.
 pub(super) struct Polynomial {
     precision: Precision,
+    /// See [`Parts`].
+    share: usize,
     sources: Sources,
     /// Polynomials in the parameters and what depends on them: the coefficients in the half plane, then lists of divisors.
     functions: Functions,
@@ -49,19 +51,19 @@ impl Polynomial {
         let is_undefined = own.divisors.iter().any(|parts| parts.iter().all(Multi::is_zero));
         let is_nowhere = is_undefined || all.iter().any(Multi::is_zero);
         let mut divisors = Vec::with_capacity(own.divisors.len());
-        for parts in separated(own.divisors, clock)? {
+        for parts in separated(own.divisors, &own.positive, clock)? {
             divisors.push(all.len()..all.len() + parts.len());
             all.extend(primitive(parts, clock)?);
         }
         let functions = Functions::new(&all, of.window.len());
         let precision = Precision::new(of.window.len(), parts.order, parts.bits);
-        Ok(Polynomial { precision, sources, functions, coefficients, divisors, is_nowhere })
+        Ok(Polynomial { precision, share: parts.share, sources, functions, coefficients, divisors, is_nowhere })
     }
 
     /// Makes sure that the halves have something to begin with.
     pub fn prepare(&self, sides: &Sides, known: &mut Known, clock: &Clock) -> Result<(), String> {
         match &known.functions {
-            Some((known, is_own)) if *is_own || self.is_precise(known, 4) => Ok(()),
+            Some((known, is_own)) if *is_own || self.is_precise(known, self.share) => Ok(()),
             _ => self.compute(sides, known, clock),
         }
     }
