@@ -7,6 +7,7 @@
 
 #![expect(clippy::needless_range_loop, reason = "matrix indices, as in the formulas")]
 
+mod cut;
 mod hold_rows;
 mod prewarp;
 mod pulses;
@@ -17,6 +18,7 @@ use super::clock::Clock;
 use super::declarations::Declarations;
 use super::exponentials::without_exponentials;
 use super::expression::{Base, Names, Scope, number};
+use super::factor::Cut;
 use super::hold::{Hold, MovingHold};
 use super::model::{Ports, matrix, names, outputs, sized};
 use super::moving::Moving;
@@ -91,6 +93,9 @@ struct Diagram<'s, 'c> {
     rates: Rates,
     /// The rate of the block that is read.
     rate: Rate,
+    /// Where a factor is put in: the number of the signal behind it, and what enters it once that is known.
+    cut: Option<usize>,
+    cut_input: Option<Row>,
     /// `exp(jwT)` of the frame from which it is seen, and the factor of its inputs.
     frame: Option<[Fraction; 2]>,
 }
@@ -125,7 +130,9 @@ pub(super) fn system_matrix<'t>(
     let external = inputs.iter().enumerate().map(|(i, name)| (*name, usize::MAX - i));
     let numbered = driven.iter().enumerate().map(|(i, name)| (*name, i)).chain(external);
     let signals = numbered.map(|(name, i)| (name.to_owned(), i)).collect();
-    let unknowns = driven.len();
+    // Behind a factor a signal is another one.
+    let cut = scope.factor.as_ref().filter(|(cut, _)| !matches!(cut, Cut::Parameter(_))).map(|_| driven.len());
+    let unknowns = driven.len() + usize::from(cut.is_some());
     let (rows, alone) = (Vec::new(), Vec::new());
     let (rates, rate) = (Rates::default(), Rate { every: 1, phase: 0 });
     let mut diagram = Diagram {
@@ -140,6 +147,8 @@ pub(super) fn system_matrix<'t>(
         values,
         rates,
         rate,
+        cut,
+        cut_input: None,
         frame: None,
     };
     let mut first = 0;
@@ -151,10 +160,11 @@ pub(super) fn system_matrix<'t>(
         }
         diagram.rate = Rate::of(block, declared.discrete, diagram.scope.clock)?;
         diagram.block(block, first..first + own.len())?;
-        diagram.rates.note(diagram.rate, first..first + own.len(), diagram.rows.len(), diagram.unknowns - driven.len());
+        diagram.rates.note(diagram.rate, first..first + own.len(), diagram.rows.len(), diagram.unknowns - unknowns);
         first += own.len();
     }
-    diagram.lift(driven.len())?;
+    diagram.factor(driven.len(), unknowns)?;
+    diagram.lift(unknowns)?;
     let outputs = outputs(table, &diagram.signals, diagram.scope)?;
     Ok((diagram.form()?, Ports { inputs, states, signals: driven, outputs }))
 }
@@ -165,6 +175,7 @@ impl Diagram<'_, '_> {
         for text in block.get("input").map(Toml::one_or_more).unwrap_or_default() {
             inputs.push(self.scope.linear(text, &self.signals)?);
         }
+        self.behind_factor(block, &mut inputs)?;
         let (mut transfer, mut exponents) = (block.get("transfer").cloned(), Vec::new());
         if let (Some(Toml::Text(text)), Some(how)) = (&transfer, block.get("discretize"))
             && is_hold(how)?

@@ -1,7 +1,7 @@
 //! Where the roots of a sampled loop are whose coefficients are only enclosed.
 
 use super::clock::Clock;
-use super::model::Functions;
+use super::model::{Boxed, Functions};
 use super::moving::value;
 use super::multivariate::Multi;
 use super::number::Q;
@@ -20,14 +20,15 @@ pub(super) fn places(
     bits: usize,
     clock: &Clock,
 ) -> Result<(usize, Places), Rejection> {
-    let by = By::Enclosures { window: None, bits };
-    let (own, sources) = Step::Model.of(with_sources(model, (&[], set), Functions::Moving, by, clock))?;
+    let boxed = Boxed { names: &[], set, factor: None };
+    let by = By::Enclosures { window: &[], bits };
+    let (own, sources) = Step::Model.of(with_sources(model, boxed, Functions::Moving, by, clock))?;
     if !own.discrete || sources.have_dead_time() {
         let reason = "the model's time is not that of the statement".into();
         return Err(Rejection { step: Step::Model, reason });
     }
     Step::Stable.of((|| {
-        let p = Precision::new(1, bits);
+        let p = Precision::new(0, 1, bits);
         let known = sources.values(Vec::new(), &p, clock)?;
         let number = |f: &Multi| -> Result<Taylor, String> { value(f, &known, &p, clock) };
         for parts in &own.divisors {

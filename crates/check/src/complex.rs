@@ -46,7 +46,7 @@ fn conjugated(m: &Multi, unit: usize, clock: &Clock) -> Result<Multi, String> {
 }
 
 /// `x^2 + y^2`.
-fn square(m: &Multi, unit: usize, clock: &Clock) -> Result<Multi, String> {
+pub(super) fn square(m: &Multi, unit: usize, clock: &Clock) -> Result<Multi, String> {
     let [x, y] = parts(m, unit);
     Ok(x.times(&x, clock)?.plus(&y.times(&y, clock)?))
 }
@@ -109,6 +109,7 @@ impl Scope<'_> {
             return Ok(one);
         }
         let unit = self.unit.ok_or("'j' has another meaning here")?;
+        self.has_unit = true;
         let moving = self.moving.as_mut().ok_or("cosines and sines of a frame are read by enclosures alone")?;
         let [cosine, sine] = [Function::Cosine, Function::Sine].map(|f| moving.of(f, angle.clone()));
         cosine?.plus(&sine?.times(&Fraction::variable(unit), self.clock)?, self.clock)

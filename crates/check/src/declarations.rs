@@ -2,6 +2,7 @@
 
 use super::clock::Clock;
 use super::expression::{Scope, UNIT, is_name, names_in, number};
+use super::factor::Cut;
 use super::model::{matrix, sized};
 use super::moving::Moving;
 use super::multivariate::Fraction;
@@ -34,6 +35,8 @@ pub(super) struct Meaning<'q> {
     pub changes_constants: bool,
     /// The variable that is the imaginary unit; it has no value.
     pub unit: usize,
+    /// A factor at a cut of the loop, in so many names of its own, which are the variables behind those of a box.
+    pub factor: Option<(Cut, Fraction, usize)>,
 }
 
 impl<'t> Declarations<'t> {
@@ -95,6 +98,10 @@ impl<'t> Declarations<'t> {
         if self.discrete { "z" } else { "s" }
     }
 
+    pub fn is_parameter(&self, name: &str) -> bool {
+        self.parameters.contains(&name)
+    }
+
     pub fn is_taken(&self, name: &str) -> bool {
         self.taken.contains(name)
     }
@@ -117,7 +124,14 @@ impl<'t> Declarations<'t> {
     pub fn as_written(&self) -> Meaning<'static> {
         let variables = self.parameters.iter().enumerate().map(|(i, name)| ((*name).to_owned(), i + 1)).collect();
         let unit = self.parameters.len() + 1;
-        Meaning { variables, values: Vec::new(), replaced: BTreeMap::new(), changes_constants: false, unit }
+        Meaning {
+            variables,
+            values: Vec::new(),
+            replaced: BTreeMap::new(),
+            changes_constants: false,
+            unit,
+            factor: None,
+        }
     }
 
     /// The model with one name in question, or those of a box, and values for others: all parameters, and constants that are given
@@ -135,6 +149,7 @@ impl<'t> Declarations<'t> {
             replaced: BTreeMap::new(),
             changes_constants: false,
             unit: 0,
+            factor: None,
         };
         let mut seen = BTreeSet::new();
         let names = kept.into_iter().map(|name| (name, None));
@@ -181,8 +196,14 @@ impl<'t> Declarations<'t> {
     pub fn scope<'c>(&self, meaning: &Meaning<'_>, is_moving: bool, clock: &'c Clock) -> Result<Scope<'c>, String> {
         let mut scope = Scope::new(meaning.variables.clone(), clock);
         // Behind all others.
-        let last = meaning.variables.values().copied().max().unwrap_or(1).max(meaning.unit);
+        let mut last = meaning.variables.values().copied().max().unwrap_or(1).max(meaning.unit);
         scope.unit = (!self.is_taken(UNIT)).then_some(meaning.unit);
+        if let Some((cut, factor, names)) = &meaning.factor {
+            last += names;
+            // Where the name has another meaning it keeps that one.
+            scope.unit = Some(meaning.unit);
+            scope.factor = Some((cut.clone(), factor.clone()));
+        }
         scope.moving = is_moving.then(|| Moving::new(last + 1, !self.discrete));
         for (name, text) in self.constants.iter().filter(|(name, _)| !meaning.variables.contains_key(*name)) {
             let value = match meaning.replaced.get(name) {

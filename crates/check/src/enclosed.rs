@@ -21,19 +21,19 @@ const MAX_VALUES: usize = 800;
 /// So many more integers are tried than are needed.
 const MORE_TRIES: usize = 8;
 
-/// The exponents of the loop's variable and of the two parameters.
-type Powers = [usize; 3];
+/// The exponents of the loop's variable and of the parameters.
+type Powers = Vec<usize>;
 
 /// A row of a matrix: its entries by columns, each by powers.
 type Row = BTreeMap<usize, BTreeMap<Powers, Interval>>;
 
-/// A determinant over a window, times a number that is not zero. Variables are the loop's, the two parameters from [`FIRST`] on if there is a window,
-/// and the sources.
+/// A determinant over a window, times a number that is not zero. Variables are the loop's, the parameters of the window from [`FIRST`] on, and the
+/// sources.
 pub(super) struct Determinant<'d> {
     pub rows: &'d [Vec<Multi>],
     /// The degree in the loop's variable.
     pub degree: usize,
-    pub window: Option<&'d [[Q; 2]; 2]>,
+    pub window: &'d [[Q; 2]],
     pub sources: &'d Sources,
     pub bits: usize,
     pub clock: &'d Clock,
@@ -53,30 +53,49 @@ impl Determinant<'_> {
     /// The coefficients by powers, in units of `2^-bits`; the longest has about as many bits.
     pub fn coefficients(&self) -> Result<BTreeMap<Powers, Interval>, String> {
         let rows = self.enclosed_rows()?;
-        let counts = [self.degree + 1, 1 + bound(&rows, 1), 1 + bound(&rows, 2)];
-        if counts.iter().product::<usize>() > MAX_VALUES {
+        let mut counts = vec![self.degree + 1];
+        counts.extend((1..=self.window.len()).map(|v| 1 + bound(&rows, v)));
+        if counts.iter().try_fold(1, |all: usize, count| all.checked_mul(*count)).is_none_or(|all| all > MAX_VALUES) {
             return Err(self.clock.refuse("a determinant by enclosures has too many values"));
         }
-        let parameters = |count: usize| (0..count as i64).map(|k| if k % 2 == 1 { k / 2 + 1 } else { -k / 2 });
-        let mut planes = Vec::new();
-        for y in parameters(counts[2]) {
-            let mut lines = Vec::new();
-            for x in parameters(counts[1]) {
-                lines.push((x, self.in_variable(&rows, [x, y], counts[0])?));
-            }
-            planes.push((y, self.interpolated(lines)?));
-        }
-        let Scaled { mut lists, .. } = self.interpolated(planes)?;
+        let mut point = vec![0; self.window.len()];
+        let Scaled { mut lists, .. } = self.in_parameters(&rows, &counts, &mut point, self.window.len())?;
         balanced(&mut lists, self.bits);
-        let at = |k: usize| [k % counts[0], k / counts[0] % counts[1], k / (counts[0] * counts[1])];
+        let at = |mut k: usize| {
+            let mut powers = Powers::with_capacity(counts.len());
+            for count in &counts {
+                powers.push(k % count);
+                k /= count;
+            }
+            powers
+        };
         Ok(lists.into_iter().enumerate().map(|(k, c)| (at(k), c)).collect())
+    }
+
+    /// The coefficients in the loop's variable and in so many first parameters, the others being at a point.
+    fn in_parameters(
+        &self,
+        rows: &[Row],
+        counts: &[usize],
+        point: &mut [i64],
+        parameters: usize,
+    ) -> Result<Scaled, String> {
+        if parameters == 0 {
+            return self.in_variable(rows, point, counts[0]);
+        }
+        let mut values = Vec::new();
+        for k in 0..counts[parameters] as i64 {
+            let value = if k % 2 == 1 { k / 2 + 1 } else { -k / 2 };
+            point[parameters - 1] = value;
+            values.push((value, self.in_parameters(rows, counts, point, parameters - 1)?));
+        }
+        self.interpolated(values)
     }
 
     /// The variables behind the loop's and the one that is not used there, over the whole window.
     fn values(&self) -> Result<Vec<Interval>, String> {
-        let p = Precision::new(1, self.working());
-        let sides = self.window.iter().flat_map(|sides| sides.iter());
-        let parameters = sides.enumerate().map(|(i, side)| Taylor::coordinate(side, i, &p)).collect();
+        let p = Precision::new(self.window.len(), 1, self.working());
+        let parameters = self.window.iter().enumerate().map(|(i, side)| Taylor::coordinate(side, i, &p)).collect();
         let all = self.sources.values(parameters, &p, self.clock)?;
         Ok(all.iter().map(Taylor::range).collect())
     }
@@ -85,23 +104,26 @@ impl Determinant<'_> {
     fn enclosed_rows(&self) -> Result<Vec<Row>, String> {
         let bits = self.working();
         let values = self.values()?;
-        // Of a line the second parameter is a number.
-        let asked = self.window.map_or(0, |[_, [low, high]]| if low == high { 1 } else { 2 });
+        // A parameter that has one value is a number.
+        let is_number = |v: usize| self.window.get(v).is_none_or(|[low, high]| low == high);
         let mut out = Vec::with_capacity(self.rows.len());
         for row in self.rows {
             let mut entries = Row::new();
             for (column, p) in row.iter().enumerate() {
                 for (e, c) in &p.0 {
                     let mut of = Interval::integer(c, bits);
-                    for (x, k) in values.iter().zip(e.iter().skip(FIRST)).skip(asked) {
+                    for (v, (x, k)) in values.iter().zip(e.iter().skip(FIRST)).enumerate() {
+                        if !is_number(v) {
+                            continue;
+                        }
                         for _ in 0..*k {
                             self.clock.spend(4, of.magnitude().bits(), bits as u64)?;
                             of = of.times(x, bits);
                         }
                     }
                     let power = |v: usize| e.get(v).copied().unwrap_or(0) as usize;
-                    let of_parameter = |k: usize| if k < asked { power(FIRST + k) } else { 0 };
-                    let powers = [power(0), of_parameter(0), of_parameter(1)];
+                    let of_parameter = |v: usize| if is_number(v) { 0 } else { power(FIRST + v) };
+                    let powers = [power(0)].into_iter().chain((0..self.window.len()).map(of_parameter)).collect();
                     let sum = entries.entry(column).or_default().entry(powers).or_insert_with(Interval::zero);
                     *sum = sum.plus(&of);
                 }
@@ -115,15 +137,17 @@ impl Determinant<'_> {
     }
 
     /// The coefficients in the loop's variable at values of the parameters, from its values at integers that no usual root is at.
-    fn in_variable(&self, rows: &[Row], [x, y]: [i64; 2], count: usize) -> Result<Scaled, String> {
+    fn in_variable(&self, rows: &[Row], point: &[i64], count: usize) -> Result<Scaled, String> {
         let mut found = Vec::with_capacity(count);
         let nodes = (2..).flat_map(|k: i64| [k, -k]).take(count + MORE_TRIES);
         for z in nodes {
             if found.len() == count {
                 break;
             }
-            let power =
-                |[k, i, j]: &Powers| Z::from(z).pow(*k as u32) * Z::from(x).pow(*i as u32) * Z::from(y).pow(*j as u32);
+            let at = || [z].into_iter().chain(point.iter().copied());
+            let power = |powers: &Powers| {
+                at().zip(powers).map(|(x, k)| Z::from(x).pow(*k as u32)).fold(Z::one(), |all, own| all * own)
+            };
             let mut numbers = Vec::with_capacity(rows.len());
             for row in rows {
                 let mut entries = BTreeMap::new();
@@ -281,7 +305,7 @@ mod tests {
     use num_traits::ToPrimitive;
     use std::time::Duration;
 
-    /// A matrix of small polynomials in the loop's variable and two parameters, most of them zero.
+    /// A matrix of small polynomials in the loop's variable and three parameters, most of them zero.
     fn matrix(n: usize, seed: &mut u64) -> Vec<Vec<Multi>> {
         let mut below = |bound: u64| {
             *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -290,7 +314,7 @@ mod tests {
         let mut entry = |i: usize, j: usize| {
             let mut p = Multi::default();
             for _ in 0..if i == j { 2 } else { below(5) / 3 } {
-                let e = vec![below(2) as u32, 0, below(8) as u32 / 7, below(6) as u32 / 5];
+                let e = vec![below(2) as u32, 0, below(8) as u32 / 7, below(6) as u32 / 5, below(9) as u32 / 8];
                 p.add(e, Z::from(below(19) as i64 - 9));
             }
             p
@@ -303,18 +327,17 @@ mod tests {
     fn coefficients_are_those_of_the_expanded_determinant() {
         let (clock, mut seed, sources) = (Clock::new(Duration::MAX), 7, Sources::default());
         let side = |a: i64, b: i64| [a, b].map(|x| Q::from(Z::from(x)));
-        let window = [side(-1, 2), side(3, 4)];
+        let window = [side(-1, 2), side(3, 4), side(0, 5)];
         let mut told = 0;
         for case in 0..60 {
             let rows = matrix(2 + case % 6, &mut seed);
             let exact = determinant(&rows, &clock).unwrap();
             let degree = rows.len();
-            let of =
-                Determinant { rows: &rows, degree, window: Some(&window), sources: &sources, bits: 96, clock: &clock };
+            let of = Determinant { rows: &rows, degree, window: &window, sources: &sources, bits: 96, clock: &clock };
             let Ok(found) = of.coefficients() else { continue };
             let number = |x: &Z| x.to_f64().unwrap();
             let value = |key: &Powers| {
-                let mut e: Vec<u32> = vec![key[0] as u32, 0, key[1] as u32, key[2] as u32];
+                let mut e: Vec<u32> = vec![key[0] as u32, 0, key[1] as u32, key[2] as u32, key[3] as u32];
                 while e.last() == Some(&0) {
                     e.pop();
                 }
@@ -322,7 +345,7 @@ mod tests {
             };
             assert!(exact.0.keys().all(|e| {
                 let at = |i: usize| e.get(i).copied().unwrap_or(0) as usize;
-                found.contains_key(&[at(0), at(2), at(3)])
+                found.contains_key(&vec![at(0), at(2), at(3), at(4)])
             }));
             let largest = found.iter().max_by_key(|(_, x)| x.magnitude()).unwrap();
             let scale = if exact.is_zero() { 0.0 } else { number(&largest.1.lo) / value(largest.0) };

@@ -1,6 +1,7 @@
 //! Expressions: read and evaluated in one pass.
 
 use super::clock::Clock;
+use super::factor::Cut;
 use super::moving::{Function, Moving};
 use super::multivariate::{Fraction, Multi};
 use super::number::{Q, decimal, shorten};
@@ -45,6 +46,10 @@ pub(super) struct Scope<'c> {
     pub dead_time: Option<DeadTime>,
     /// The variable that is the imaginary unit, where the name has no other meaning.
     pub unit: Option<usize>,
+    /// Whether the imaginary unit was read.
+    pub has_unit: bool,
+    /// A factor at a cut of the loop.
+    pub factor: Option<(Cut, Fraction)>,
     /// Functions and holds, where they are read as further variables.
     pub moving: Option<Moving>,
     /// Values of constants.
@@ -85,6 +90,8 @@ impl<'c> Scope<'c> {
         Scope {
             dead_time: None,
             unit: None,
+            has_unit: false,
+            factor: None,
             moving: None,
             constants: BTreeMap::new(),
             matrices: BTreeMap::new(),
@@ -413,12 +420,17 @@ impl<'t> Parser<'_, '_, 't> {
             return Ok(Linear { constant: Fraction::number(&Q::zero()), signals });
         }
         if let Some(&i) = self.scope.parameters.get(name) {
-            return Ok(plain(Fraction::variable(i)));
+            let own = Fraction::variable(i);
+            return Ok(plain(match &self.scope.factor {
+                Some((Cut::Parameter(cut), factor)) if cut == name => own.times(factor, self.scope.clock)?,
+                _ => own,
+            }));
         }
         if let ("pi", false, Some(moving)) = (name, is_known, self.scope.moving.as_mut()) {
             return Ok(plain(moving.pi()));
         }
         if let (UNIT, false, Some(unit)) = (name, is_known, self.scope.unit) {
+            self.scope.has_unit = true;
             return Ok(plain(Fraction::variable(unit)));
         }
         let constant = self.scope.constants.get(name);

@@ -33,6 +33,9 @@ pub const SCHEMA_OF_BOXES_WITH_SYMBOLS: &str = "jurist/certificate/8";
 /// Of verdicts whose numbers are only enclosed.
 pub const SCHEMA_BY_ENCLOSURES: &str = "jurist/certificate/9";
 
+/// Of what holds for all values of names.
+pub const SCHEMA_FOR_ALL: &str = "jurist/certificate/10";
+
 /// Texts longer than this many bytes are refused unread.
 pub const MAX_TEXT: usize = 64 << 20;
 

@@ -6,6 +6,7 @@ use super::clock::Clock;
 use super::complex::doubled;
 use super::declarations::{Declarations, Meaning};
 use super::expression::{Base, DeadTime, Names, Scope, number};
+use super::factor::{Cut, Factor};
 use super::keys;
 use super::moving::Moving;
 use super::multivariate::{Fraction, Multi};
@@ -46,6 +47,8 @@ pub(super) struct Asked {
     pub moving: Option<Moving>,
     /// Whether the loop is complex, so that it is doubled.
     pub is_doubled: bool,
+    /// Whether that is so without its factor, or the unit is where the factor goes.
+    pub is_complex: bool,
 }
 
 /// Reads the model for a question, exponentials over the symbols of a table, dead times as multiples of `base`.
@@ -57,7 +60,8 @@ pub(super) fn asked(
     base: Option<Base<'_>>,
     clock: &Clock,
 ) -> Result<Asked, String> {
-    read_for((kept, &[], false), text, values, table, base, clock)
+    let boxed = Boxed { names: &[], set: values, factor: None };
+    read_for((kept, boxed, false), text, table, base, clock)
 }
 
 /// What the functions of a loop with a box of parameters are.
@@ -69,24 +73,31 @@ pub(super) enum Functions<'t> {
     Moving,
 }
 
-/// Reads the model for a question about a box of parameters, which are the variables behind those with a value.
+/// A box of parameters, which are the variables behind those with a value, the values of all others, and a factor at a cut of the loop. The own
+/// names of the factor are the variables behind the parameters.
+#[derive(Clone, Copy)]
+pub(super) struct Boxed<'q> {
+    pub names: &'q [String],
+    pub set: &'q [(String, Q)],
+    pub factor: Option<&'q Factor>,
+}
+
+/// Reads the model for a question about a box of parameters.
 pub(super) fn asked_over_box(
     text: &str,
-    boxed: &[String],
-    values: &[(String, Q)],
+    boxed: Boxed<'_>,
     functions: Functions<'_>,
     clock: &Clock,
 ) -> Result<Asked, String> {
     match functions {
-        Functions::OfNumbers(table) => read_for((None, boxed, false), text, values, table, None, clock),
-        Functions::Moving => read_for((None, boxed, true), text, values, &Table::empty(), None, clock),
+        Functions::OfNumbers(table) => read_for((None, boxed, false), text, table, None, clock),
+        Functions::Moving => read_for((None, boxed, true), text, &Table::empty(), None, clock),
     }
 }
 
 fn read_for(
-    (kept, boxed, is_moving): (Option<&str>, &[String], bool),
+    (kept, boxed, is_moving): (Option<&str>, Boxed<'_>, bool),
     text: &str,
-    values: &[(String, Q)],
     table: &Table,
     base: Option<Base<'_>>,
     clock: &Clock,
@@ -95,27 +106,67 @@ fn read_for(
     keys::known(&root)?;
     clock.reading(|| {
         let declared = Declarations::read(&root, clock)?;
-        let meaning = declared.asked(kept, boxed, values, clock)?;
+        let mut meaning = declared.asked(kept, boxed.names, boxed.set, clock)?;
         if meaning.changes_constants {
             // The model must be right as it is; dead times are read without their values.
             let is_moving = is_moving || base.is_some();
             evaluated(&root, &declared, (&declared.as_written(), is_moving), None, clock)?;
         }
-        let of = Values { numbers: &meaning.values, first: meaning.values.len() + boxed.len(), table, base };
-        let (form, divisors, moving) = evaluated(&root, &declared, (&meaning, is_moving), Some(of), clock)?;
-        let (form, divisors, is_doubled) = doubled(form, &divisors, meaning.unit, clock)?;
-        Ok(Asked { discrete: declared.discrete, form, divisors, values: meaning.values, moving, is_doubled })
+        let mut first = meaning.values.len() + boxed.names.len();
+        let mut is_complex = false;
+        if let Some(factor) = boxed.factor {
+            // Without the factor it must be right as well.
+            let of = Values { numbers: &meaning.values, first, table, base };
+            let plain = evaluated(&root, &declared, (&meaning, is_moving), Some(of), clock)?;
+            let (Cut::Parameter(name) | Cut::Signal(name) | Cut::Input(name)) = &factor.cut;
+            let is_parameter = matches!(factor.cut, Cut::Parameter(_));
+            if is_parameter && !declared.is_parameter(name) {
+                return Err(format!("the loop has no parameter '{}' to be cut at", shorten(name)));
+            }
+            if !is_parameter && !matches!(plain.form, Form::System(..)) {
+                return Err("a loop without blocks is cut at a parameter alone".into());
+            }
+            // Conjugated factors make conjugated loops, unless the unit stands beside the parameter.
+            is_complex = is_parameter && plain.has_unit;
+            is_complex |= doubled(plain.form, &plain.divisors, meaning.unit, clock)?.2;
+            let value = factor.family.value(first, meaning.unit, clock)?;
+            let names = factor.family.names();
+            meaning.factor = Some((factor.cut.clone(), value, names));
+            first += names;
+        }
+        let of = Values { numbers: &meaning.values, first, table, base };
+        let found = evaluated(&root, &declared, (&meaning, is_moving), Some(of), clock)?;
+        let (form, divisors, is_doubled) = doubled(found.form, &found.divisors, meaning.unit, clock)?;
+        let moving = found.moving;
+        Ok(Asked {
+            discrete: declared.discrete,
+            form,
+            divisors,
+            values: meaning.values,
+            moving,
+            is_doubled,
+            is_complex,
+        })
     })
 }
 
-/// The loop, everything that its model divides by, and the functions in it if they are read.
+/// A loop as it is read.
+struct Evaluated {
+    form: Form,
+    /// Everything that the model divides by.
+    divisors: BTreeSet<Multi>,
+    /// The functions in it, if they are read.
+    moving: Option<Moving>,
+    has_unit: bool,
+}
+
 fn evaluated(
     root: &Toml,
     declared: &Declarations<'_>,
     (meaning, is_moving): (&Meaning<'_>, bool),
     values: Option<Values<'_>>,
     clock: &Clock,
-) -> Result<(Form, BTreeSet<Multi>, Option<Moving>), String> {
+) -> Result<Evaluated, String> {
     let mut scope = declared.scope(meaning, is_moving, clock)?;
     if let Some(Values { numbers, base: Some(base), .. }) = values.filter(|_| !declared.discrete) {
         let (base, power) = match base {
@@ -158,7 +209,7 @@ fn evaluated(
         (Form::Feedback([a, b, c, k]), ports)
     };
     simulation(root, &ports, clock)?;
-    Ok((form, scope.divisors, scope.moving))
+    Ok(Evaluated { form, divisors: scope.divisors, moving: scope.moving, has_unit: scope.has_unit })
 }
 
 /// What a loop calls what enters it, what it remembers, and what is seen of it.

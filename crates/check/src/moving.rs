@@ -10,8 +10,8 @@ use super::multivariate::{Fraction, Multi};
 use super::number::Q;
 use super::over_symbols::substituted;
 use super::taylor::{Precision, Taylor};
-pub(super) use exponential::pi;
-use exponential::{Matrix, exponential, flow, held, prewarped, turned};
+use exponential::{Matrix, exponential, flow, held, prewarped};
+pub(super) use exponential::{pi, turned};
 use num_traits::{One, Signed};
 
 /// A function that expressions know.

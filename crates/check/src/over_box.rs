@@ -10,7 +10,7 @@ use super::characteristic::{Form, product};
 use super::clock::Clock;
 use super::complex::square_of_root;
 use super::enclosed::Determinant;
-use super::model::{self, Functions};
+use super::model::{self, Boxed, Functions};
 use super::moving::Sources;
 use super::multivariate::{Fraction, Multi};
 use super::number::{Q, Z};
@@ -34,6 +34,10 @@ pub(super) struct OverBox {
     pub is_doubled: bool,
     /// Whether the last of them is the leading coefficient, that of a determinant.
     pub has_lead_last: bool,
+    /// Polynomials that are positive wherever the loop is asked about.
+    pub positive: Vec<Multi>,
+    /// Whether the loop is complex without its factor, or the factor is not all that is complex beside it.
+    pub is_complex: bool,
 }
 
 /// Reads the model; `set` has the values of all parameters but those of the box. The symbols of a table are the variables behind them.
@@ -44,7 +48,8 @@ pub(super) fn over_box(
     table: &Table,
     clock: &Clock,
 ) -> Result<OverBox, String> {
-    with_sources(text, (names, set), Functions::OfNumbers(table), By::Expansion, clock).map(|(found, _)| found)
+    let boxed = Boxed { names, set, factor: None };
+    with_sources(text, boxed, Functions::OfNumbers(table), By::Expansion, clock).map(|(found, _)| found)
 }
 
 /// How the determinant is taken.
@@ -52,21 +57,23 @@ pub(super) fn over_box(
 pub(super) enum By<'w> {
     /// As a polynomial in all variables.
     Expansion,
-    /// With a number of bits, over a window of the two parameters, if there are any. Each coefficient is a further variable, a number.
-    Enclosures { window: Option<&'w [[Q; 2]; 2]>, bits: usize },
+    /// With a number of bits, over a window of the parameters. Each coefficient is a further variable, a number.
+    Enclosures { window: &'w [[Q; 2]], bits: usize },
 }
 
 /// The same with functions and holds as further variables, if they are to be read, and what these are.
 pub(super) fn with_sources(
     text: &str,
-    (names, set): (&[String], &[(String, Q)]),
+    boxed: Boxed<'_>,
     functions: Functions<'_>,
     by: By<'_>,
     clock: &Clock,
 ) -> Result<(OverBox, Sources), String> {
-    let asked = model::asked_over_box(text, names, set, functions, clock)?;
+    let asked = model::asked_over_box(text, boxed, functions, clock)?;
     clock.reading(|| {
         let values = &asked.values;
+        let positive = boxed.factor.map(|f| f.family.positive(FIRST + boxed.names.len(), clock)).transpose()?;
+        let positive = positive.unwrap_or_default();
         let mut divisors = Vec::with_capacity(asked.divisors.len());
         for divisor in &asked.divisors {
             divisors.push(substituted(&divisor.coefficients(0), values, clock)?);
@@ -87,6 +94,8 @@ pub(super) fn with_sources(
                     divisors,
                     is_doubled: asked.is_doubled,
                     has_lead_last: false,
+                    positive,
+                    is_complex: asked.is_complex,
                 };
                 return Ok((found, sources));
             }
@@ -112,17 +121,15 @@ pub(super) fn with_sources(
         let (coefficients, sources) = match by {
             By::Expansion => (expanded(&rows, degree, clock)?, sources),
             By::Enclosures { window, bits } => {
-                let first = FIRST + if window.is_some() { 2 } else { 0 } + sources.len();
+                let first = FIRST + window.len() + sources.len();
                 let found =
                     Determinant { rows: &rows, degree, window, sources: &sources, bits, clock }.coefficients()?;
                 let mut coefficients = vec![Multi::default(); degree + 1];
-                for (i, [k, x, y]) in found.keys().enumerate() {
+                for (i, powers) in found.keys().enumerate() {
                     let mut e = vec![0; first + i + 1];
-                    if window.is_some() {
-                        (e[FIRST], e[FIRST + 1]) = (*x as u32, *y as u32);
-                    }
+                    e[FIRST..].iter_mut().zip(&powers[1..]).for_each(|(place, k)| *place = *k as u32);
                     e[first + i] = 1;
-                    coefficients[*k].add(e, Z::one());
+                    coefficients[powers[0]].add(e, Z::one());
                 }
                 (coefficients, sources.with_numbers(found.into_values().collect()))
             }
@@ -135,6 +142,8 @@ pub(super) fn with_sources(
                 divisors,
                 is_doubled: asked.is_doubled,
                 has_lead_last: true,
+                positive,
+                is_complex: asked.is_complex,
             },
             sources,
         ))

@@ -1,10 +1,13 @@
-//! Functions of the two coordinates of a box as polynomials with a bound of what is left out.
+//! Functions of the coordinates of a box as polynomials with a bound of what is left out.
 //!
-//! Taylor models \[MakinoBerz2003\], for use in this package only. The coordinates `u`, `v` go from -1 to 1. Coefficients are integers in units of `2^-bits`; every rounding is in the bound.
+//! Taylor models \[MakinoBerz2003\], for use in this package only. Each coordinate goes from -1 to 1. Coefficients are integers in units of `2^-bits`; every rounding is in the bound.
+
+mod monomials;
 
 use super::clock::Clock;
 use super::interval::Interval;
 use super::number::{Q, Z};
+use monomials::Monomials;
 use num_traits::{Euclid, One, Signed, Zero};
 use std::iter::repeat_n;
 
@@ -13,21 +16,15 @@ use std::iter::repeat_n;
 pub(super) struct Precision {
     pub order: usize,
     pub bits: usize,
-    /// The exponents of each coefficient, by total degree.
-    exponents: Vec<[usize; 2]>,
+    monomials: Monomials,
 }
 
-/// `sum c_ij u^i v^j`, off by at most `rest` at every point of the box.
+/// A sum of monomials in the coordinates, off by at most `rest` at every point of the box.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Taylor {
-    /// By total degree, then by the exponent of `v`; the terms of the highest degrees that are zero may be left out.
+    /// In the order of [`Monomials`]; the terms of the highest degrees that are zero may be left out.
     c: Vec<Z>,
     pub rest: Z,
-}
-
-/// The place of a coefficient.
-fn at([i, j]: [usize; 2]) -> usize {
-    (i + j) * (i + j + 1) / 2 + j
 }
 
 /// The quotient by `2^bits`, rounded up.
@@ -36,9 +33,19 @@ fn up(x: &Z, bits: usize) -> Z {
 }
 
 impl Precision {
-    pub fn new(order: usize, bits: usize) -> Self {
-        let exponents = (0..=order).flat_map(|d| (0..=d).map(move |j| [d - j, j])).collect();
-        Precision { order, bits, exponents }
+    /// Over a box of so many parameters.
+    pub fn new(parameters: usize, order: usize, bits: usize) -> Self {
+        Precision { order, bits, monomials: Monomials::new(parameters, order) }
+    }
+
+    /// The number of parameters.
+    pub fn parameters(&self) -> usize {
+        self.monomials.variables()
+    }
+
+    /// The number of coefficients of a function.
+    pub fn terms(&self) -> usize {
+        self.monomials.len()
     }
 
     fn one_unit(&self) -> Z {
@@ -80,7 +87,7 @@ impl Taylor {
     pub fn coordinate([low, high]: &[Q; 2], axis: usize, p: &Precision) -> Self {
         let two = Q::from(Z::from(2));
         let (middle, half) = (Taylor::number(&((low + high) / &two), p), Taylor::number(&((high - low) / &two), p));
-        let mut c = vec![Z::zero(); 3];
+        let mut c = vec![Z::zero(); 2 + axis];
         c[0] = middle.constant();
         c[1 + axis] = half.constant();
         Taylor { c, rest: middle.rest + half.rest }
@@ -153,8 +160,8 @@ impl Taylor {
     /// Sums of the moduli of the coefficients of each degree.
     fn sizes(&self, p: &Precision) -> Vec<Z> {
         let mut out = vec![Z::zero(); p.order + 1];
-        for (c, [i, j]) in self.c.iter().zip(&p.exponents) {
-            out[i + j] += c.abs();
+        for (place, c) in self.c.iter().enumerate() {
+            out[p.monomials.degree(place)] += c.abs();
         }
         out
     }
@@ -167,12 +174,13 @@ impl Taylor {
     pub fn times(&self, other: &Self, p: &Precision, clock: &Clock) -> Result<Self, String> {
         clock.spend(self.c.len() * other.c.len(), self.longest(p), other.longest(p))?;
         let mut full: Vec<Z> = Vec::new();
-        for (a, [i, j]) in self.c.iter().zip(&p.exponents).filter(|(a, _)| !a.is_zero()) {
-            for (b, [k, l]) in other.c.iter().zip(&p.exponents).filter(|(b, _)| !b.is_zero()) {
-                if i + j + k + l > p.order {
+        for (i, a) in self.c.iter().enumerate().filter(|(_, a)| !a.is_zero()) {
+            let most = p.order - p.monomials.degree(i);
+            for (k, b) in other.c.iter().enumerate().filter(|(_, b)| !b.is_zero()) {
+                if p.monomials.degree(k) > most {
                     break;
                 }
-                let place = at([i + k, j + l]);
+                let place = p.monomials.product(i, k);
                 if full.len() <= place {
                     full.resize(place + 1, Z::zero());
                 }
@@ -195,14 +203,12 @@ impl Taylor {
     pub fn halves(&self, axis: usize, p: &Precision) -> [Self; 2] {
         [-1, 1].map(|shift| {
             let mut c = vec![Z::zero(); self.c.len()];
-            for (x, e) in self.c.iter().zip(&p.exponents).filter(|(x, _)| !x.is_zero()) {
+            for (place, x) in self.c.iter().enumerate().filter(|(_, x)| !x.is_zero()) {
                 // x ((u + shift)/2)^n, in units of 2^-order.
-                let n = e[axis];
+                let n = p.monomials.exponent(place, axis);
                 let mut way = Z::one() << (p.order - n);
                 for k in (0..=n).rev() {
-                    let mut place = *e;
-                    place[axis] = k;
-                    c[at(place)] += x * &way;
+                    c[p.monomials.lowered(place, axis, n - k)] += x * &way;
                     way = way * Z::from(k) * Z::from(shift) / Z::from(n - k + 1);
                 }
             }
@@ -280,7 +286,7 @@ mod tests {
     use std::time::Duration;
 
     fn precision() -> Precision {
-        Precision::new(4, 96)
+        Precision::new(2, 4, 96)
     }
 
     fn clock() -> Clock {
@@ -295,8 +301,11 @@ mod tests {
     fn value(t: &Taylor, [u, v]: [f64; 2]) -> (f64, f64) {
         let p = precision();
         let unit = 2f64.powi(-96);
-        let term = |(c, [i, j]): (&Z, &[usize; 2])| c.to_f64().unwrap() * unit * u.powi(*i as i32) * v.powi(*j as i32);
-        (t.c.iter().zip(&p.exponents).map(term).sum(), t.rest.to_f64().unwrap() * unit)
+        let term = |(place, c): (usize, &Z)| {
+            let [i, j] = [0, 1].map(|axis| p.monomials.exponent(place, axis) as i32);
+            c.to_f64().unwrap() * unit * u.powi(i) * v.powi(j)
+        };
+        (t.c.iter().enumerate().map(term).sum(), t.rest.to_f64().unwrap() * unit)
     }
 
     fn encloses(t: &Taylor, expected: impl Fn(f64, f64) -> f64) {

@@ -26,7 +26,7 @@ pub(super) struct Rate {
 }
 
 impl Rate {
-    const ALWAYS: Rate = Rate { every: 1, phase: 0 };
+    pub const ALWAYS: Rate = Rate { every: 1, phase: 0 };
 
     /// What a block says of it.
     pub fn of(block: &Toml, discrete: bool, clock: &Clock) -> Result<Rate, String> {

@@ -70,7 +70,7 @@ impl Direction {
 }
 
 /// A half plane that all values are in: along an axis, or across the ways on which they change most, if one is found.
-fn half_plane(last: Option<Direction>, e: &[Taylor], o: &[Taylor]) -> Option<Direction> {
+fn half_plane(last: Option<Direction>, parameters: usize, e: &[Taylor], o: &[Taylor]) -> Option<Direction> {
     let k = e.len() / 2;
     let middle = || [e[k].constant(), o[k].constant()];
     let chord = || {
@@ -78,10 +78,10 @@ fn half_plane(last: Option<Direction>, e: &[Taylor], o: &[Taylor]) -> Option<Dir
         [along(e), along(o)]
     };
     let across = |way: usize| {
-        let way = if way < 2 { [e[k].linear(way), o[k].linear(way)] } else { chord() };
+        let way = if way < parameters { [e[k].linear(way), o[k].linear(way)] } else { chord() };
         Direction::across(way, middle())
     };
-    let mut all = last.into_iter().chain(AXES).chain((0..3).filter_map(across));
+    let mut all = last.into_iter().chain(AXES).chain((0..=parameters).filter_map(across));
     all.find(|direction| direction.holds(e, o))
 }
 
@@ -99,21 +99,21 @@ pub(super) fn right(p: &[Taylor], precision: &Precision, clock: &Clock) -> Resul
     let mut looked_at = 0;
     while let Some(part) = parts.pop() {
         looked_at += 1;
-        clock.spend(8 * (n + 1) * (precision.order + 1) * (precision.order + 2), precision.bits as u64, 0)?;
+        clock.spend(16 * (n + 1) * precision.terms(), precision.bits as u64, 0)?;
         let [e, o] = &part.pair;
-        if let Some(next) = half_plane(Some(direction), e, o)
+        if let Some(next) = half_plane(Some(direction), precision.parameters(), e, o)
             && let Some(turn) = direction.turn_to(next)
         {
             (direction, turns) = (next, turns + turn);
             continue;
         }
         // Where not even one point of the axis is told from a root there is nothing to halve for.
-        let is_seen = |k: usize| half_plane(None, &e[k..=k], &o[k..=k]).is_some();
+        let is_seen = |k: usize| half_plane(None, precision.parameters(), &e[k..=k], &o[k..=k]).is_some();
         if !is_seen(0) || !is_seen(e.len() - 1) || part.halvings >= MAX_HALVINGS || looked_at >= MAX_PARTS {
             return Ok(None);
         }
         let k = e.len() - 1;
-        clock.spend(k * k * (precision.order + 1) * (precision.order + 2) / 2, precision.bits as u64, 0)?;
+        clock.spend(k * k * precision.terms(), precision.bits as u64, 0)?;
         let [low, high] = halves(part);
         parts.extend([high, low]);
     }
@@ -181,7 +181,7 @@ pub(super) fn shifted(p: &[Taylor], exponent: i64, of: &Precision, clock: &Clock
         *x = x.scaled(&power(k));
     }
     for i in 0..n {
-        clock.spend((n - i) * (of.order + 1) * (of.order + 2) / 2, of.bits as u64, 0)?;
+        clock.spend((n - i) * of.terms(), of.bits as u64, 0)?;
         for j in (i..n).rev() {
             c[j] = c[j].plus(&c[j + 1]);
         }
@@ -203,7 +203,7 @@ mod tests {
 
     #[test]
     fn polynomials_have_as_many_roots_to_the_right_as_they_have() {
-        let (precision, clock) = (Precision::new(2, 128), Clock::new(Duration::MAX));
+        let (precision, clock) = (Precision::new(1, 2, 128), Clock::new(Duration::MAX));
         let mut seed = 1_u64;
         let mut seen = [0; 5];
         for round in 0..300 {
@@ -233,7 +233,7 @@ mod tests {
 
     #[test]
     fn a_box_that_a_boundary_runs_through_has_no_count() {
-        let (precision, clock) = (Precision::new(2, 128), Clock::new(Duration::MAX));
+        let (precision, clock) = (Precision::new(1, 2, 128), Clock::new(Duration::MAX));
         let of = |low: (i64, i64), high: (i64, i64)| {
             let x = Taylor::coordinate(&[q(low.0, low.1), q(high.0, high.1)], 0, &precision);
             // s^2 + x s + 1

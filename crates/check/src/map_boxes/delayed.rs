@@ -7,7 +7,7 @@ mod turn;
 
 use super::functions::Functions;
 use super::polynomial::are_defined;
-use super::{Parts, Sides, Statement, share_of_window};
+use super::{Parts, Question, Sides, largest, share_of_window};
 use crate::clock::Clock;
 use crate::moving::Sources;
 use crate::multivariate::Multi;
@@ -99,15 +99,18 @@ impl Known {
 }
 
 impl Delayed {
-    pub fn new(own: OverBox, sources: &Sources, of: &Statement, parts: &Parts, clock: &Clock) -> Result<Self, String> {
+    pub fn new(own: OverBox, sources: &Sources, of: &Question, parts: &Parts, clock: &Clock) -> Result<Self, String> {
         if own.discrete || of.extent != Extent::Number(Q::zero()) {
             return Err("a loop with dead time is not continuous, or its boundary is not the imaginary axis".into());
         }
         if of.window.iter().flatten().any(is_long) {
             return Err("an end of the window has too many digits".into());
         }
-        let terms = Terms::new(own, sources, clock)?;
-        let scale = terms.scale(&of.window.each_ref().map(|[low, high]| low.abs().max(high.abs())));
+        let parameters = of.window.len();
+        let positive = own.positive.clone();
+        let terms = Terms::new(own, sources, parameters, clock)?;
+        let farthest: Vec<Q> = of.window.iter().map(|[low, high]| low.abs().max(high.abs())).collect();
+        let scale = terms.scale(&farthest);
         if scale.abs() > MOST_SCALE {
             return Err("the frequencies are too low or too high".into());
         }
@@ -121,7 +124,7 @@ impl Delayed {
             |part: Vec<Multi>| part.into_iter().enumerate().map(|(j, c)| c.scaled(&factor(j))).collect::<Vec<_>>();
         let mut all: Vec<Multi> = primitive(coefficients.into_iter().flat_map(scaled).collect(), clock)?;
         let mut divisors = Vec::with_capacity(terms.divisors.len());
-        for list in separated(terms.divisors, clock)? {
+        for list in separated(terms.divisors, &positive, clock)? {
             divisors.push(all.len()..all.len() + list.len());
             all.extend(primitive(list, clock)?);
         }
@@ -130,10 +133,10 @@ impl Delayed {
             scale,
             order,
             times: terms.times,
-            functions: Functions::new(&all),
+            functions: Functions::new(&all, parameters),
             divisors,
             is_nowhere,
-            precision: Precision::new(parts.order, parts.bits),
+            precision: Precision::new(parameters, parts.order, parts.bits),
             turns: Turns::new(parts.bits),
         })
     }
@@ -170,7 +173,7 @@ impl Delayed {
         let count = (self.order + 1) * self.delays.len();
         let coefficients: Vec<&[Taylor]> = functions[..count].chunks(self.order + 1).collect();
         let top = &coefficients[0][self.order];
-        let Some(is_positive) = top.sign() else { return Ok(self.cut_at_top(&coefficients, known)) };
+        let Some(is_positive) = top.sign() else { return Ok(Self::cut_at_top(&coefficients, sides.len(), known)) };
         let zero = coefficients.iter().fold(Taylor::zero(), |sum, part| sum.plus(&part[0]));
         let mut way = match way {
             Some(way) => way,
@@ -179,7 +182,7 @@ impl Delayed {
                     if self.has_chain_on_the_right(&coefficients, sides) {
                         return Ok(Some(false));
                     }
-                    return Ok(self.cut_at_top(&coefficients, known));
+                    return Ok(Self::cut_at_top(&coefficients, sides.len(), known));
                 };
                 let pieces = cells_up_to(bound).map(|cell| Piece::Open { cell, slopes: 0 }).collect();
                 Way { is_negative: !is_positive, pieces }
@@ -190,7 +193,8 @@ impl Delayed {
             return Ok(Some(false));
         }
         let parts = self.parts(&coefficients, sides);
-        let mut walk = Walk { judge: self, parts: &parts, clock, pieces: Vec::new(), votes: [[0; 2]; 2], looked_at: 0 };
+        let votes = [(); 2].map(|()| vec![0; sides.len()]);
+        let mut walk = Walk { judge: self, parts: &parts, clock, pieces: Vec::new(), votes, looked_at: 0 };
         let is_whole = walk.along(std::mem::take(&mut way.pieces))?;
         known.axis = walk.axis();
         way.pieces = walk.pieces;
@@ -204,9 +208,10 @@ impl Delayed {
     }
 
     /// Nothing is seen, and the axis to cut is that on which the highest power depends.
-    fn cut_at_top(&self, coefficients: &[&[Taylor]], known: &mut Known) -> Option<bool> {
-        let by = |axis: usize| coefficients.iter().map(|part| part[self.order].linear(axis).abs()).sum::<Z>();
-        known.axis = Some([by(0), by(1)]).filter(|[u, v]| u != v).map(|[u, v]| usize::from(v > u));
+    fn cut_at_top(coefficients: &[&[Taylor]], parameters: usize, known: &mut Known) -> Option<bool> {
+        let top = |part: &&[Taylor], axis: usize| part.last().map(|top| top.linear(axis).abs()).unwrap_or_default();
+        let by = |axis: usize| coefficients.iter().map(|part| top(part, axis)).sum::<Z>();
+        known.axis = largest((0..parameters).map(by));
         None
     }
 
@@ -258,7 +263,7 @@ impl Delayed {
         let part = |(coefficients, time): (&&[Taylor], &Time)| {
             let short: Vec<Taylor> = coefficients.iter().map(|c| c.halved(down)).collect();
             let delay = (!time.is_zero()).then(|| time.about_middle(sides, &factor));
-            Part::new(&short, delay, bits)
+            Part::new(&short, sides.len(), delay, bits)
         };
         coefficients.iter().zip(&self.delays).map(part).collect()
     }
@@ -279,8 +284,8 @@ struct Walk<'a> {
     parts: &'a [Part],
     clock: &'a Clock,
     pieces: Vec<Piece<Cell>>,
-    /// How much either parameter moves the function where it may vanish: where nothing is known, and where its direction is.
-    votes: [[u64; 2]; 2],
+    /// How much each parameter moves the function where it may vanish: where nothing is known, and where its direction is.
+    votes: [Vec<u64>; 2],
     looked_at: usize,
 }
 
@@ -341,9 +346,8 @@ impl Walk<'_> {
                     continue;
                 }
             }
-            let own = local.shares(slopes);
-            let votes = &mut self.votes[usize::from(slopes != 0)];
-            *votes = [votes[0] + own[0], votes[1] + own[1]];
+            let votes = self.votes[usize::from(slopes != 0)].iter_mut();
+            votes.zip(local.shares(slopes)).for_each(|(sum, own)| *sum += own);
             self.pieces.push(Piece::Open { cell, slopes });
             if self.open_slopes() == 0 {
                 self.pieces.extend(cells.into_iter().rev().map(|cell| Piece::Open { cell, slopes: 0 }));
@@ -373,12 +377,13 @@ impl Walk<'_> {
         self.looked_at += 1;
         let bits = self.judge.precision.bits;
         // By the time that the slower checker takes.
-        let operations = 250 + 60 * (self.judge.order + 1) * self.parts.len();
+        let vectors = 2 + self.votes[0].len();
+        let operations = 250 + 15 * vectors * (self.judge.order + 1) * self.parts.len();
         self.clock.spend(operations, bits as u64, FREQUENCY_BITS as u64)?;
         Ok(Local::new(self.parts, middle, half, &self.judge.turns, bits))
     }
 
     fn axis(&self) -> Option<usize> {
-        self.votes.iter().find(|[u, v]| u != v).map(|[u, v]| usize::from(v > u))
+        self.votes.iter().find_map(|votes| largest(votes.iter().copied()))
     }
 }

@@ -10,32 +10,36 @@ use std::collections::BTreeMap;
 
 /// Polynomials as sums over the monomials of what depends on the parameters, each times a polynomial in these.
 pub(super) struct Functions {
+    /// The number of parameters.
+    parameters: usize,
     /// The exponents of the variables behind the parameters.
     monomials: Vec<Vec<u32>>,
     /// Exponents of the parameters.
-    powers: Vec<[u32; 2]>,
+    powers: Vec<Vec<u32>>,
     /// Of each polynomial and each of its monomials the coefficients of powers of the parameters.
     rows: Vec<BTreeMap<usize, Vec<(usize, Z)>>>,
 }
 
 impl Functions {
-    pub fn new(all: &[Multi]) -> Self {
+    /// Of polynomials in so many parameters, and in what is behind them.
+    pub fn new(all: &[Multi], parameters: usize) -> Self {
         let (mut monomials, mut powers) = (BTreeMap::new(), BTreeMap::new());
         let mut rows = Vec::with_capacity(all.len());
         for p in all {
             let mut row: BTreeMap<usize, Vec<(usize, Z)>> = BTreeMap::new();
             for (e, c) in &p.0 {
-                let at = |i: usize| e.get(FIRST + i).copied().unwrap_or(0);
-                let behind = e.get(FIRST + 2..).unwrap_or(&[]).to_vec();
+                let own = |i: usize| e.get(FIRST + i).copied().unwrap_or(0);
+                let of_parameters: Vec<u32> = (0..parameters).map(own).collect();
+                let behind = e.get(FIRST + parameters..).unwrap_or(&[]).to_vec();
                 let next = monomials.len();
                 let monomial = *monomials.entry(behind).or_insert(next);
                 let next = powers.len();
-                let power = *powers.entry([at(0), at(1)]).or_insert(next);
+                let power = *powers.entry(of_parameters).or_insert(next);
                 row.entry(monomial).or_default().push((power, c.clone()));
             }
             rows.push(row);
         }
-        Functions { monomials: in_order(monomials), powers: in_order(powers), rows }
+        Functions { parameters, monomials: in_order(monomials), powers: in_order(powers), rows }
     }
 
     /// At the values of all variables from [`FIRST`] on.
@@ -58,14 +62,14 @@ impl Functions {
             Ok(product.unwrap_or_else(|| Taylor::number(&Q::one(), p)))
         };
         let powers = self.powers.iter().map(|e| product(e, 0)).collect::<Result<Vec<_>, _>>()?;
-        let monomials = self.monomials.iter().map(|e| product(e, 2)).collect::<Result<Vec<_>, _>>()?;
+        let monomials = self.monomials.iter().map(|e| product(e, self.parameters)).collect::<Result<Vec<_>, _>>()?;
         let mut out = Vec::with_capacity(self.rows.len());
         for row in &self.rows {
             let mut sum = Taylor::zero();
             for (&monomial, terms) in row {
                 let mut factor = Taylor::zero();
                 for (power, c) in terms {
-                    clock.spend(p.order * p.order, c.bits(), p.bits as u64)?;
+                    clock.spend(p.terms(), c.bits(), p.bits as u64)?;
                     factor.add_scaled(&powers[*power], c);
                 }
                 let is_one = self.monomials[monomial].iter().all(|k| *k == 0);

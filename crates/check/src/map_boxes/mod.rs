@@ -4,30 +4,47 @@ mod axis;
 mod delayed;
 mod functions;
 mod judge;
+mod one_loop;
 mod polynomial;
 
 use crate::clock::Clock;
+use crate::factor::Factor;
 use crate::format::Json;
 use crate::number::Q;
 use crate::statement::{Extent, axes, count, fixed_extent, list, number, object, text, values};
 use crate::words::{exact, inward};
 use crate::{Proved, Rejection, Step, is_discrete, verdict};
-pub use judge::{BoxJudge, JudgedBox};
+pub use judge::BoxJudge;
+pub(super) use judge::on_a_large_stack;
 use num_traits::{One, Zero};
+pub use one_loop::JudgedBox;
+pub(super) use one_loop::OneLoop;
 use std::fmt::Write;
 
 /// Trees with longer branches are refused.
-const MAX_DEPTH: usize = 160;
+pub(super) const MAX_DEPTH: usize = 160;
 
-/// The ends of a box in `x` and in `y`.
-pub(super) type Sides = [[Q; 2]; 2];
+/// See [`Parts::share`].
+const SHARE: usize = 4;
 
-pub(super) struct Statement {
+/// The ends of a box, for each of its parameters.
+pub(super) type Sides = [[Q; 2]];
+
+/// What is asked of a loop: of which parameters, between which ends, and with which region.
+pub(super) struct Question {
     pub discrete: bool,
     pub names: Vec<String>,
     pub set: Vec<(String, Q)>,
     pub extent: Extent,
-    pub window: Sides,
+    /// A factor at a cut of the loop, whose own names follow.
+    pub factor: Option<Factor>,
+    /// Of all names.
+    pub window: Vec<[Q; 2]>,
+}
+
+pub(super) struct Statement {
+    /// Of two parameters.
+    pub question: Question,
     tree: String,
 }
 
@@ -35,6 +52,18 @@ pub(super) struct Statement {
 pub(super) struct Parts {
     pub order: usize,
     pub bits: usize,
+    /// A half has the functions of the whole where what they leave out is less than this power of two of what they change.
+    pub share: usize,
+}
+
+impl Parts {
+    /// Of a certificate.
+    pub fn read(order: &Json, bits: &Json, share: usize) -> Result<Self, String> {
+        match (count(order, "'order'")?, count(bits, "'bits'")?) {
+            (order @ 1..=8, bits @ 64..=1024) => Ok(Parts { order, bits, share }),
+            _ => Err("'order' is not from 1 to 8, or 'bits' not from 64 to 1024".to_owned()),
+        }
+    }
 }
 
 impl Statement {
@@ -46,34 +75,31 @@ impl Statement {
         let names = axes(x, y)?;
         let [x, y] = object(window, "'window'", ["x", "y"], &[])?;
         let tree = text(tree, "'tree'")?.to_owned();
-        Ok(Statement { discrete, names, set: values(set)?, extent, window: [ends(x, false)?, ends(y, true)?], tree })
+        let window = vec![ends(x, false)?, ends(y, true)?];
+        Ok(Statement { question: Question { discrete, names, set: values(set)?, extent, factor: None, window }, tree })
     }
 
     /// Whether the second parameter has one value.
     fn is_line(&self) -> bool {
-        self.window[1][0] == self.window[1][1]
+        self.question.window[1][0] == self.question.window[1][1]
     }
 
     fn in_words(&self, walked: &Walked) -> String {
         let mut out = String::from("For ");
-        let sides = self.names.iter().zip(&self.window);
+        let Question { discrete, names, set, extent, window, .. } = &self.question;
+        let sides = names.iter().zip(window);
         for (i, (name, [low, high])) in sides.take(if self.is_line() { 1 } else { 2 }).enumerate() {
             let [low, high] = inward(low, high);
             let _ = write!(out, "{}{name} from {low} to {high}", if i == 0 { "" } else { " and " });
         }
-        let one = self.is_line().then(|| (&self.names[1], &self.window[1][0]));
-        for (i, (name, value)) in one.into_iter().chain(self.set.iter().map(|(name, q)| (name, q))).enumerate() {
+        let one = self.is_line().then(|| (&names[1], &window[1][0]));
+        for (i, (name, value)) in one.into_iter().chain(set.iter().map(|(name, q)| (name, q))).enumerate() {
             let _ = write!(out, "{}{name} = {}", if i == 0 { ", with " } else { ", " }, exact(value));
         }
-        let within = verdict::within(&self.extent, self.discrete);
+        let within = verdict::within(extent, *discrete);
         if self.is_line() {
-            let name = &self.names[0];
-            let pieces = |letter: char| {
-                let own = walked.pieces.iter().filter(|(l, _)| *l == letter);
-                let range = |[low, high]: [String; 2]| format!("{low} <= {name} <= {high}");
-                own.map(|(_, [low, high])| range(inward(low, high))).collect::<Vec<_>>().join(" and ")
-            };
-            let (stable, unstable) = (pieces('+'), pieces('-'));
+            let name = &names[0];
+            let (stable, unstable) = (walked.ranges('+', name), walked.ranges('-', name));
             let _ = match (stable.is_empty(), unstable.is_empty()) {
                 (true, true) => write!(out, ", nothing is said of the loop."),
                 (true, false) => write!(out, ", the loop is not stable{within} for any value in {unstable}."),
@@ -88,11 +114,6 @@ impl Statement {
             out.push_str(" Nothing is said of the rest.");
             return out;
         }
-        let percent = |q: &Q| {
-            // Rounded down: no more is claimed than is proved.
-            let tenths = (q * Q::from(num_bigint::BigInt::from(1000))).floor().to_integer();
-            format!("{}.{}", &tenths / 10, tenths % 10)
-        };
         let [stable, unstable, _] = walked.shares.each_ref().map(percent);
         let _ = write!(
             out,
@@ -103,8 +124,14 @@ impl Statement {
     }
 }
 
+/// A share of a whole in per cent, rounded down: no more is claimed than is proved.
+pub(super) fn percent(q: &Q) -> String {
+    let tenths = (q * Q::from(num_bigint::BigInt::from(1000))).floor().to_integer();
+    format!("{}.{}", &tenths / 10, tenths % 10)
+}
+
 /// Two numbers in order, which may be the same where one parameter alone is asked about.
-fn ends(json: &Json, may_be_one: bool) -> Result<[Q; 2], String> {
+pub(super) fn ends(json: &Json, may_be_one: bool) -> Result<[Q; 2], String> {
     match list(json, "a side of the window")? {
         [low, high] => {
             let side = [number(low, "a side of the window")?, number(high, "a side of the window")?];
@@ -122,10 +149,7 @@ fn ends(json: &Json, may_be_one: bool) -> Result<[Q; 2], String> {
 fn read(json: &Json) -> Result<(Statement, Parts), Rejection> {
     let keys = ["schema", "statement", "order", "bits"];
     let [_, statement, order, bits] = Step::Format.of(object(json, "the certificate", keys, &["model"]))?;
-    let parts = Step::Format.of((|| match (count(order, "'order'")?, count(bits, "'bits'")?) {
-        (order @ 1..=8, bits @ 64..=1024) => Ok(Parts { order, bits }),
-        _ => Err("'order' is not from 1 to 8, or 'bits' not from 64 to 1024".to_owned()),
-    })())?;
+    let parts = Step::Format.of(Parts::read(order, bits, SHARE))?;
     Ok((Step::Statement.of(Statement::read(statement))?, parts))
 }
 
@@ -136,22 +160,44 @@ pub(super) fn check(model: &str, json: &Json, clock: Clock) -> Result<Proved, Re
     Ok(Proved { statement: judge.statement().in_words(&walked), kind: "boxes" })
 }
 
-/// The axis along which a box is wider, in shares of the window.
+/// The axis along which a box is widest, in shares of the window.
 fn share_of_window(sides: &Sides, window: &Sides) -> usize {
     let width = |[low, high]: &[Q; 2]| high - low;
-    usize::from(width(&sides[1]) * width(&window[0]) > width(&sides[0]) * width(&window[1]))
+    let share = |(side, whole)| {
+        let whole = width(whole);
+        if whole.is_zero() { whole } else { width(side) / whole }
+    };
+    largest(sides.iter().zip(window).map(share)).unwrap_or(0)
+}
+
+/// The place of the first of the largest, where not all are the same.
+fn largest<T: Ord>(all: impl Iterator<Item = T>) -> Option<usize> {
+    let all: Vec<T> = all.collect();
+    let most = all.iter().max()?;
+    if all.iter().all(|x| x == most) { None } else { all.iter().position(|x| x == most) }
 }
 
 /// What the leaves of a tree say.
-struct Walked {
+pub(super) struct Walked {
     /// The shares of the window that are stable, not stable, and unknown.
-    shares: [Q; 3],
+    pub shares: [Q; 3],
     /// Where one parameter alone is asked about, its ranges that are stable or not, ascending, what follows each other taken together.
-    pieces: Vec<(char, [Q; 2])>,
+    pub pieces: Vec<(char, [Q; 2])>,
 }
 
 impl Walked {
-    fn add(&mut self, letter: char, [low, high]: &[Q; 2]) {
+    pub fn new() -> Self {
+        Walked { shares: [Q::zero(), Q::zero(), Q::zero()], pieces: Vec::new() }
+    }
+
+    /// The ranges of a parameter that have this letter.
+    pub fn ranges(&self, letter: char, name: &str) -> String {
+        let own = self.pieces.iter().filter(|(l, _)| *l == letter);
+        let range = |[low, high]: [String; 2]| format!("{low} <= {name} <= {high}");
+        own.map(|(_, [low, high])| range(inward(low, high))).collect::<Vec<_>>().join(" and ")
+    }
+
+    pub fn add(&mut self, letter: char, [low, high]: &[Q; 2]) {
         match self.pieces.last_mut() {
             Some((last, [_, end])) if *last == letter && end == low => *end = high.clone(),
             _ => self.pieces.push((letter, [low.clone(), high.clone()])),
@@ -163,8 +209,8 @@ impl BoxJudge {
     /// That each leaf of the tree is what it says.
     fn walk(&self) -> Result<Walked, Rejection> {
         let mut stack = vec![(self.whole(), 0)];
-        let (is_line, zero) = (self.statement().is_line(), Q::zero);
-        let mut walked = Walked { shares: [zero(), zero(), zero()], pieces: Vec::new() };
+        let is_line = self.statement().is_line();
+        let mut walked = Walked::new();
         let stable = |reason: String| Rejection { step: Step::Stable, reason };
         for letter in self.statement().tree.chars() {
             Step::Line.of(self.clock().tick())?;

@@ -2,14 +2,13 @@
 
 use super::axis::{right, scale, shifted};
 use super::functions::Functions;
-use super::{Sides, share_of_window};
+use super::{Parts, Question, Sides, largest, share_of_window};
 use crate::clock::Clock;
 use crate::moving::Sources;
 use crate::multivariate::Multi;
 use crate::number::Z;
 use crate::over_box::{OverBox, in_half_plane, in_region, separated};
 use crate::over_symbols::primitive;
-use crate::statement::Extent;
 use crate::taylor::{Precision, Taylor};
 use num_traits::{One, Signed};
 use std::ops::Range;
@@ -21,6 +20,8 @@ const BEYOND: [i64; 2] = [-3, -1];
 /// The characteristic polynomial over the window.
 pub(super) struct Polynomial {
     precision: Precision,
+    /// See [`Parts`].
+    share: usize,
     sources: Sources,
     /// Polynomials in the parameters and what depends on them: the coefficients in the half plane, then lists of divisors.
     functions: Functions,
@@ -42,32 +43,27 @@ pub(super) struct Known {
 }
 
 impl Polynomial {
-    pub fn new(
-        own: OverBox,
-        sources: Sources,
-        extent: &Extent,
-        precision: Precision,
-        clock: &Clock,
-    ) -> Result<Self, String> {
-        let in_this_region = in_region(&own.coefficients, own.discrete, extent, clock)?;
+    pub fn new(own: OverBox, sources: Sources, of: &Question, parts: &Parts, clock: &Clock) -> Result<Self, String> {
+        let in_this_region = in_region(&own.coefficients, own.discrete, &of.extent, clock)?;
         let all = if own.discrete { in_half_plane(&in_this_region, clock)? } else { in_this_region };
         let mut all = primitive(all, clock)?;
         let coefficients = all.len();
         let is_undefined = own.divisors.iter().any(|parts| parts.iter().all(Multi::is_zero));
         let is_nowhere = is_undefined || all.iter().any(Multi::is_zero);
         let mut divisors = Vec::with_capacity(own.divisors.len());
-        for parts in separated(own.divisors, clock)? {
+        for parts in separated(own.divisors, &own.positive, clock)? {
             divisors.push(all.len()..all.len() + parts.len());
             all.extend(primitive(parts, clock)?);
         }
-        let functions = Functions::new(&all);
-        Ok(Polynomial { precision, sources, functions, coefficients, divisors, is_nowhere })
+        let functions = Functions::new(&all, of.window.len());
+        let precision = Precision::new(of.window.len(), parts.order, parts.bits);
+        Ok(Polynomial { precision, share: parts.share, sources, functions, coefficients, divisors, is_nowhere })
     }
 
     /// Makes sure that the halves have something to begin with.
     pub fn prepare(&self, sides: &Sides, known: &mut Known, clock: &Clock) -> Result<(), String> {
         match &known.functions {
-            Some((known, is_own)) if *is_own || self.is_precise(known, 4) => Ok(()),
+            Some((known, is_own)) if *is_own || self.is_precise(known, self.share) => Ok(()),
             _ => self.compute(sides, known, clock),
         }
     }
@@ -149,11 +145,10 @@ impl Polynomial {
         Ok(false)
     }
 
-    /// The axis along which the functions change most in a box, 0 or 1; of one that is not known, 0 where it is the wider one in shares of
-    /// the window.
+    /// The axis along which the functions change most in a box; of one that is not known, the widest in shares of the window.
     pub fn axis(&self, sides: &Sides, window: &Sides, of: &Known) -> usize {
         let Some((known, _)) = &of.functions else { return share_of_window(sides, window) };
-        let mut sums = [0_u64; 2];
+        let mut sums = vec![0_u64; sides.len()];
         for f in &known[..self.coefficients] {
             let size = f.magnitude().max(Z::one());
             for (axis, sum) in sums.iter_mut().enumerate() {
@@ -162,7 +157,7 @@ impl Polynomial {
                 *sum += u64::from(share);
             }
         }
-        usize::from(sums[1] > sums[0])
+        largest(sums.into_iter()).unwrap_or(0)
     }
 }
 

@@ -158,7 +158,7 @@ pub(super) fn prewarped(w: &Taylor, time: &Taylor, p: &Precision, clock: &Clock)
 }
 
 /// Cosine and sine.
-pub(super) fn turned(x: Taylor, p: &Precision, clock: &Clock) -> Result<[Taylor; 2], String> {
+pub(crate) fn turned(x: Taylor, p: &Precision, clock: &Clock) -> Result<[Taylor; 2], String> {
     let m = vec![vec![Taylor::zero(), x.clone()], vec![x.scaled(&-Z::one()), Taylor::zero()]];
     let [mut whole, ..] = exponential(&m, p, clock)?;
     let mut first = whole.swap_remove(0);

@@ -25,7 +25,7 @@ fn is_within(t: &Taylor, exact: &Q, most: u32, p: &Precision) {
 #[test]
 fn the_circle_number_has_its_digits() {
     for bits in [1, 8, 64, 128] {
-        let p = Precision::new(1, bits);
+        let p = Precision::new(2, 1, bits);
         is_within(&pi(&p), &decimal("31415926535897932384626433832795028841971694", 43), 4, &p);
     }
 }
@@ -34,7 +34,7 @@ fn the_circle_number_has_its_digits() {
 /// larger row that says how often the matrix is halved.
 #[test]
 fn exponentials_of_numbers_have_their_digits() {
-    let p = Precision::new(2, 96);
+    let p = Precision::new(2, 2, 96);
     let known = [
         (
             Q::new(1.into(), 512.into()),
@@ -80,7 +80,7 @@ fn exponentials_of_numbers_have_their_digits() {
 
 #[test]
 fn sines_cosines_and_roots_have_their_digits() {
-    let p = Precision::new(2, 96);
+    let p = Precision::new(2, 2, 96);
     let two = || Taylor::number(&Q::from(Z::from(2)), &p);
     for (function, exact) in [
         (Function::Sine, decimal("9092974268256816953960198659117448427023", 40)),
@@ -96,7 +96,7 @@ fn sines_cosines_and_roots_have_their_digits() {
 /// What is left out stays a bound when a negative number divides.
 #[test]
 fn quotients_by_negative_numbers_keep_their_bound() {
-    let p = Precision::new(2, 32);
+    let p = Precision::new(2, 2, 32);
     let minus_two = Multi::constant(Z::from(-2));
     let x = Multi::variable(super::super::over_box::FIRST);
     let known = Taylor::units(Z::from(3) << 32_usize, Z::from(1000));
@@ -120,7 +120,7 @@ fn functions_of_the_variable_of_the_loop_are_refused() {
 /// `H(t) = [t^2/4, t^3/12; 0, t^2/4]`.
 #[test]
 fn holds_of_two_integrators_are_powers_of_the_time() {
-    let p = Precision::new(2, 64);
+    let p = Precision::new(2, 2, 64);
     let (zero, one) = (Taylor::zero, || Taylor::number(&Q::one(), &p));
     let a = vec![vec![zero(), one()], vec![zero(), zero()]];
     let time = Taylor::number(&Q::from(Z::from(2)), &p);
@@ -162,7 +162,7 @@ fn holds_of_two_integrators_are_powers_of_the_time() {
 /// `w/tan(w T/2)` of an angle below and one above a right angle, and the limit of small ones, `2/T`.
 #[test]
 fn factors_of_prewarped_rules_have_their_digits() {
-    let p = Precision::new(2, 160);
+    let p = Precision::new(2, 2, 160);
     let number = |q: Q| Taylor::number(&q, &p);
     for (w, time, exact) in [
         (
@@ -185,7 +185,7 @@ fn factors_of_prewarped_rules_have_their_digits() {
 /// A box has a factor only if the frequency, the sample time and the way to half the sampling rate are positive in all of it.
 #[test]
 fn factors_of_prewarped_rules_are_of_angles_between_zero_and_pi() {
-    let p = Precision::new(4, 128);
+    let p = Precision::new(2, 4, 128);
     let side = |low: (i64, i64), high: (i64, i64), axis: usize| {
         Taylor::coordinate(&[low, high].map(|(n, d)| Q::new(n.into(), d.into())), axis, &p)
     };

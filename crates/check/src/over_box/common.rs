@@ -34,8 +34,9 @@ impl OverBox {
 }
 
 /// Lists of which not all polynomials may vanish together, without factors that others say already: a sign of a product is harder to see than those of
-/// its factors. A list of one polynomial is divided by the variables and by those that come before it in the order of their degrees.
-pub fn separated(lists: Vec<Vec<Multi>>, clock: &Clock) -> Result<Vec<Vec<Multi>>, String> {
+/// its factors. A list of one polynomial is divided by the variables and by those that come before it in the order of their degrees. Nothing is said of
+/// polynomials that are known to be positive.
+pub fn separated(lists: Vec<Vec<Multi>>, positive: &[Multi], clock: &Clock) -> Result<Vec<Vec<Multi>>, String> {
     let is_single = |list: &Vec<Multi>| list.len() == 1 && !list[0].is_zero();
     let (single, several): (Vec<_>, Vec<_>) = lists.into_iter().partition(is_single);
     let mut single = single
@@ -45,7 +46,7 @@ pub fn separated(lists: Vec<Vec<Multi>>, clock: &Clock) -> Result<Vec<Vec<Multi>
         .collect::<Result<Vec<_>, String>>()?;
     let degree = |p: &Multi| p.0.keys().map(|e| e.iter().sum::<u32>()).max().unwrap_or(0);
     single.sort_by_cached_key(|p| (degree(p), p.clone()));
-    let mut known: Vec<Multi> = Vec::new();
+    let mut known: Vec<Multi> = positive.to_vec();
     for p in single {
         let last = p.0.keys().map(Vec::len).max().unwrap_or(0);
         let variables =
@@ -62,7 +63,7 @@ pub fn separated(lists: Vec<Vec<Multi>>, clock: &Clock) -> Result<Vec<Vec<Multi>
             out.push(rest);
         }
     }
-    out.extend(known.into_iter().map(|p| vec![p]));
+    out.extend(known.into_iter().skip(positive.len()).map(|p| vec![p]));
     Ok(out)
 }
 

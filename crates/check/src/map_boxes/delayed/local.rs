@@ -1,5 +1,5 @@
 //! The characteristic function on a stretch of the imaginary axis, for all points of a box: its value in the middle, by how much the frequency and
-//! both parameters change it, and bounds of the rest.
+//! the parameters change it, and bounds of the rest.
 
 use super::headings::{Headings, LENGTH, TURN, heading};
 use super::turn::Turns;
@@ -10,8 +10,11 @@ use num_traits::{Euclid, One, Signed, ToPrimitive, Zero};
 /// Frequencies are in units of two to the minus this power.
 pub(super) const FREQUENCY_BITS: usize = 64;
 
-/// More than the roundings of the three evaluations of a polynomial, for each coefficient.
-const ROUNDED: u32 = 8;
+/// More than the roundings of three evaluations of a polynomial, for each coefficient.
+const ROUNDED: usize = 8;
+
+/// More than the roundings of all vectors of a delayed part: three each, beside those in proportion to what is rounded.
+const ROUNDED_VECTORS: u32 = 64;
 
 /// Bits of what is compared.
 const SHORT: u64 = 56;
@@ -21,8 +24,8 @@ type Complex = [Z; 2];
 
 /// A polynomial in `s` times `exp(-tau s)`, over a box.
 pub(super) struct Part {
-    /// The coefficients in the middle, and their changes by half of either side.
-    about: [Vec<Z>; 3],
+    /// The coefficients in the middle, and their changes by half of each side.
+    about: Vec<Vec<Z>>,
     /// The coefficients of the derivative by `s`, in the middle.
     derivative: Vec<Z>,
     /// What is left out of each coefficient.
@@ -37,31 +40,33 @@ pub(super) struct Part {
 /// A dead time over a box.
 struct Delay {
     middle: Q,
-    /// The middle in units, rounded down, and the changes by half of either side.
+    /// The middle in units, rounded down, and the changes by half of each side.
     floor: Z,
-    changes: [Z; 2],
-    /// A bound of the moduli of both changes together.
+    changes: Vec<Z>,
+    /// A bound of the moduli of all changes together.
     spread: Z,
 }
 
 impl Part {
-    /// Of the coefficients over a box, and the dead time: its middle and its changes by half of either side.
-    pub fn new(coefficients: &[Taylor], delay: Option<(Q, [Q; 2])>, bits: usize) -> Self {
-        let about = [0, 1, 2].map(|way| {
-            let of = |c: &Taylor| if way == 0 { c.constant() } else { c.linear(way - 1) };
+    /// Of the coefficients over a box of so many parameters, and the dead time: its middle and its changes by half of each side.
+    pub fn new(coefficients: &[Taylor], parameters: usize, delay: Option<(Q, Vec<Q>)>, bits: usize) -> Self {
+        let of = |way: usize| {
+            let of = move |c: &Taylor| if way == 0 { c.constant() } else { c.linear(way - 1) };
             coefficients.iter().map(of).collect::<Vec<Z>>()
-        });
-        let moduli = |j: usize| [1, 2].iter().map(|&way| about[way][j].abs()).sum::<Z>();
+        };
+        let about: Vec<Vec<Z>> = (0..=parameters).map(of).collect();
+        let moduli = |j: usize| about[1..].iter().map(|own| own[j].abs()).sum::<Z>();
+        let rounded = Z::from((ROUNDED * about.len()).div_ceil(3));
         let n = coefficients.len();
-        let rest: Vec<Z> = (0..n).map(|j| coefficients[j].variation() - moduli(j) + Z::from(ROUNDED)).collect();
+        let rest: Vec<Z> = (0..n).map(|j| coefficients[j].variation() - moduli(j) + &rounded).collect();
         let change: Vec<Z> = (0..n).map(|j| &rest[j] + moduli(j)).collect();
         let derivative = derivative(&about[0]);
         let first: Vec<Z> = derivative.iter().map(Z::abs).collect();
         let second = self::derivative(&first);
         let changes = [change.clone(), self::derivative(&change)];
-        let delay = delay.map(|(middle, both)| {
+        let delay = delay.map(|(middle, changes)| {
             let floor = |q: &Q| ((q.numer() << bits) as Z).div_euclid(q.denom());
-            let changes = both.each_ref().map(floor);
+            let changes: Vec<Z> = changes.iter().map(floor).collect();
             let spread = changes.iter().map(|x| x.abs() + Z::one()).sum();
             Delay { floor: floor(&middle), middle, changes, spread }
         });
@@ -121,14 +126,14 @@ fn times([re, im]: &Complex, [c, s]: &[Z; 2], bits: usize) -> Complex {
 /// The function about the middle of a stretch and of a box.
 pub(super) struct Local {
     value: [i128; 2],
-    /// The changes by half of either side of the box, and by half of the stretch.
-    changes: [[i128; 2]; 3],
+    /// The changes by half of each side of the box, and by half of the stretch.
+    changes: Vec<[i128; 2]>,
     rest: i128,
     /// The derivative by the frequency, and how far it is off anywhere.
     slope: [i128; 2],
     slope_rest: i128,
-    /// How much of the rest is there because of either side of the box, for a choice and no proof.
-    blame: [i128; 2],
+    /// How much of the rest is there because of each side of the box, for a choice and no proof.
+    blame: Vec<i128>,
 }
 
 impl Local {
@@ -139,10 +144,14 @@ impl Local {
         // The frequency, rounded up to a whole number, and one.
         let above: Z = (&far >> FREQUENCY_BITS) + 2_u32;
         let by_half = |x: Z| up(x * half, FREQUENCY_BITS);
-        let [mut value, mut by_u, mut by_v, mut slope] = [(); 4].map(|()| [Z::zero(), Z::zero()]);
-        let (mut rest, mut slope_rest, mut blame) = (Z::zero(), Z::zero(), [Z::zero(), Z::zero()]);
+        let parameters = parts.first().map_or(0, |part| part.about.len() - 1);
+        let nothing = || [Z::zero(), Z::zero()];
+        let (mut value, mut slope) = (nothing(), nothing());
+        let mut by_sides: Vec<Complex> = (0..parameters).map(|_| nothing()).collect();
+        let (mut rest, mut slope_rest, mut blame) = (Z::zero(), Z::zero(), vec![Z::zero(); parameters]);
         for part in parts {
-            let [p, u, v] = part.about.each_ref().map(|c| on_axis(c, middle));
+            let p = on_axis(&part.about[0], middle);
+            let of_sides = part.about[1..].iter().map(|c| on_axis(c, middle));
             let [re, im] = on_axis(&part.derivative, middle);
             let d = [-im, re];
             let [change, change_slope] = part.changes.each_ref().map(|c| at_most(c, &far));
@@ -154,8 +163,7 @@ impl Local {
                 at_most(&part.rest, &far) + by_half(change_slope) + up(second * half * half, 2 * FREQUENCY_BITS + 1);
             let Some(delay) = &part.delay else {
                 add(&mut value, p);
-                add(&mut by_u, u);
-                add(&mut by_v, v);
+                by_sides.iter_mut().zip(of_sides).for_each(|(sum, own)| add(sum, own));
                 add(&mut slope, d);
                 rest += bent;
                 slope_rest += slope_off;
@@ -177,14 +185,14 @@ impl Local {
                 rest += all;
                 continue;
             };
-            let changes = [u, v].into_iter().zip(&delay.changes).map(|(mut own, time)| {
+            let changes = of_sides.zip(&delay.changes).map(|(mut own, time)| {
                 add(&mut own, turned_back(&p, &((middle * time) >> FREQUENCY_BITS), bits));
                 own
             });
             let mut d = d;
             add(&mut d, turned_back(&p, &delay.floor, bits));
-            let (mut rounded, d_size) = (&size * &above * 2_u32, modulus(&d));
-            for (sum, own) in [&mut by_u, &mut by_v].into_iter().zip(changes) {
+            let (mut rounded, d_size) = (&size * &above * parameters.max(2), modulus(&d));
+            for (sum, own) in by_sides.iter_mut().zip(changes) {
                 rounded += modulus(&own);
                 add(sum, times(&own, &turn, bits));
             }
@@ -192,34 +200,35 @@ impl Local {
             add(&mut slope, times(&d, &turn, bits));
             // exp(-i x) is off 1 - i x by at most x^2/2, and off 1 by at most x.
             let square = by_half(delay.spread.clone()) + up(&angle * &angle, bits + 1);
-            rest += bent + up(&size * square + &off * &angle, bits) + (rounded >> (bits - 3)) + 64_u32;
-            let slope_rounded: Z = ((&size + &d_size) >> (bits - 3)) + 64_u32;
+            rest += bent + up(&size * square + &off * &angle, bits) + (rounded >> (bits - 3)) + ROUNDED_VECTORS;
+            let slope_rounded: Z = ((&size + &d_size) >> (bits - 3)) + ROUNDED_VECTORS;
             rest += by_half(slope_rounded.clone());
             slope_rest +=
                 slope_off + up(longest * &off + &delay.spread * (size + off) + d_size * angle, bits) + slope_rounded;
         }
         let by_omega = slope.each_ref().map(|x| (x * half) >> FREQUENCY_BITS);
-        Local::short([value, by_u, by_v, by_omega, slope], rest, slope_rest, blame)
+        let changes = by_sides.into_iter().chain([by_omega]).collect();
+        Local::short((value, changes, slope), rest, slope_rest, blame)
     }
 
     /// With as many bits as are of use. The slope has a unit of its own.
-    fn short(vectors: [Complex; 5], rest: Z, slope_rest: Z, blame: [Z; 2]) -> Self {
-        let down = |numbers: &[Complex], rest: &Z| {
-            let longest = numbers.iter().flatten().chain([rest]).map(Z::bits).max().unwrap_or(0);
+    fn short((value, changes, slope): (Complex, Vec<Complex>, Complex), rest: Z, slope_rest: Z, blame: Vec<Z>) -> Self {
+        let down = |numbers: &[Complex], own: &Complex, rest: &Z| {
+            let longest = numbers.iter().chain([own]).flatten().chain([rest]).map(Z::bits).max().unwrap_or(0);
             longest.saturating_sub(SHORT)
         };
-        let (far, own) = (down(&vectors[..4], &rest), down(&vectors[4..], &slope_rest));
+        let (far, own) = (down(&changes, &value, &rest), down(&[], &slope, &slope_rest));
         // Numbers of so few bits always fit.
         let floor = |x: &Z, by: u64| (x >> by).to_i128().unwrap_or(i128::MAX >> 32);
-        let [value, u, v, w] = [0, 1, 2, 3].map(|i| vectors[i].each_ref().map(|x| floor(x, far)));
+        let shorter = |vector: &Complex| vector.each_ref().map(|x| floor(x, far));
         Local {
-            value,
-            changes: [u, v, w],
-            // Each of four vectors is rounded by less than 3/2.
-            rest: floor(&rest, far) + 8,
-            slope: vectors[4].each_ref().map(|x| floor(x, own)),
+            value: shorter(&value),
+            changes: changes.iter().map(shorter).collect(),
+            // Each vector is rounded by less than 3/2, the rest by less than 1.
+            rest: floor(&rest, far) + 2 * (1 + changes.len()) as i128,
+            slope: slope.each_ref().map(|x| floor(x, own)),
             slope_rest: floor(&slope_rest, own) + 4,
-            blame: blame.each_ref().map(|x| floor(x, far)),
+            blame: blame.iter().map(|x| floor(x, far)).collect(),
         }
     }
 
@@ -245,18 +254,20 @@ impl Local {
         (0..TURN).filter(is_along).fold(0, |all, k| all | 1 << k)
     }
 
-    /// By how much half of either side moves the function, in parts of 1024 of both: across its way where that is known.
-    pub fn shares(&self, slopes: Headings) -> [u64; 2] {
-        let [u, v] = [0, 1].map(|i| {
-            let [a, b] = self.changes[i];
-            let size = |k: i64| along(k, &[a, b]).abs();
+    /// By how much half of each side moves the function, in parts of 1024 of all together: across its way where that is known.
+    pub fn shares(&self, slopes: Headings) -> Vec<u64> {
+        let of_side = |(change, blame): (&[i128; 2], &i128)| {
+            let size = |k: i64| along(k, change).abs();
             let own = match (0..TURN).filter(|k| slopes & 1 << k != 0).max_by_key(|k| along(*k, &self.slope)) {
                 Some(k) => size(k + 4),
                 None => size(0).max(size(4)),
             };
-            own + LENGTH * self.blame[i]
-        });
-        [u, v].map(|x| u64::try_from((x << 10) / (u + v + 1)).unwrap_or(0))
+            own + LENGTH * blame
+        };
+        // The last change is that by the stretch.
+        let all: Vec<i128> = self.changes.iter().zip(&self.blame).map(of_side).collect();
+        let sum = all.iter().sum::<i128>() + 1;
+        all.iter().map(|x| u64::try_from((x << 10) / sum).unwrap_or(0)).collect()
     }
 }
 
@@ -277,7 +288,7 @@ mod tests {
     /// half plane is found the function in floating point is in it, on a grid of points that has all corners; so is its derivative.
     /// How often either was found.
     fn seen_half_planes(bits: usize) -> [usize; 2] {
-        let (p, clock, turns) = (Precision::new(1, bits), Clock::new(Duration::MAX), Turns::new(bits));
+        let (p, clock, turns) = (Precision::new(2, 1, bits), Clock::new(Duration::MAX), Turns::new(bits));
         let mut seed = 7_u64;
         let mut random = |n: u64| {
             seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
@@ -303,8 +314,8 @@ mod tests {
             if time.is_negative() {
                 continue;
             }
-            let changes = [over(rx, 100), over(-ry, 200)];
-            let parts = [Part::new(&first, None, bits), Part::new(&second, Some((time, changes)), bits)];
+            let changes = vec![over(rx, 100), over(-ry, 200)];
+            let parts = [Part::new(&first, 2, None, bits), Part::new(&second, 2, Some((time, changes)), bits)];
             // Short and long stretches, of small and of large boxes.
             let longest = [20, 200][random(2) as usize];
             let half = if is_point { 0 } else { random(longest) };

@@ -1,6 +1,7 @@
 //! The characteristic function of a loop with dead time, sorted by its dead times.
 
 use crate::clock::Clock;
+use crate::map_boxes::Sides;
 use crate::moving::Sources;
 use crate::multivariate::Multi;
 use crate::number::{Q, Z};
@@ -15,28 +16,30 @@ const MAX_ORDER: usize = 64;
 /// Dead times with longer numbers are refused.
 const MAX_BITS: u64 = 4096;
 
-/// `offset + slopes[0] x + slopes[1] y`.
+/// The offset, and a slope for each parameter of the box.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Time {
     offset: Q,
-    slopes: [Q; 2],
+    slopes: Vec<Q>,
 }
 
 impl Time {
-    fn zero() -> Self {
-        Time { offset: Q::zero(), slopes: [Q::zero(), Q::zero()] }
+    fn zero(parameters: usize) -> Self {
+        Time { offset: Q::zero(), slopes: vec![Q::zero(); parameters] }
     }
 
     /// A quotient that is linear in the parameters of the box.
-    fn of((top, below): (&Multi, &Multi)) -> Result<Self, String> {
-        let not_linear = || "a dead time is not linear in the two parameters".to_owned();
+    fn of((top, below): (&Multi, &Multi), parameters: usize) -> Result<Self, String> {
+        let not_linear = || "a dead time is not linear in the parameters of the box".to_owned();
         let over = below.0.get(&Vec::new()).filter(|_| below.is_constant()).ok_or_else(not_linear)?;
-        let mut time = Time::zero();
+        let mut time = Time::zero(parameters);
         for (e, c) in &top.0 {
             let place = match e.get(FIRST..).unwrap_or(&[]) {
                 [] => &mut time.offset,
-                [1] => &mut time.slopes[0],
-                [0, 1] => &mut time.slopes[1],
+                // No zeros are at the end.
+                [others @ .., 1] if others.iter().all(|k| *k == 0) => {
+                    time.slopes.get_mut(others.len()).ok_or_else(not_linear)?
+                }
                 _ => return Err(not_linear()),
             };
             *place = Q::new(c.clone(), over.clone());
@@ -49,16 +52,16 @@ impl Time {
 
     fn plus(&self, other: &Time, times: i64) -> Time {
         let times = Q::from(Z::from(times));
-        let slopes = [0, 1].map(|i| &self.slopes[i] + &other.slopes[i] * &times);
+        let slopes = self.slopes.iter().zip(&other.slopes).map(|(own, other)| own + other * &times).collect();
         Time { offset: &self.offset + &other.offset * &times, slopes }
     }
 
     pub fn is_zero(&self) -> bool {
-        *self == Time::zero()
+        self.offset.is_zero() && self.slopes.iter().all(Zero::is_zero)
     }
 
     /// The least and the greatest value in a box.
-    pub fn range(&self, sides: &[[Q; 2]; 2]) -> [Q; 2] {
+    pub fn range(&self, sides: &Sides) -> [Q; 2] {
         let [mut least, mut most] = [self.offset.clone(), self.offset.clone()];
         for (slope, [low, high]) in self.slopes.iter().zip(sides) {
             let (a, b) = (slope * low, slope * high);
@@ -69,10 +72,11 @@ impl Time {
         [least, most]
     }
 
-    /// The value in the middle of a box, and by how much half of either side changes it, times a number.
-    pub fn about_middle(&self, sides: &[[Q; 2]; 2], factor: &Q) -> (Q, [Q; 2]) {
+    /// The value in the middle of a box, and by how much half of each side changes it, times a number.
+    pub fn about_middle(&self, sides: &Sides, factor: &Q) -> (Q, Vec<Q>) {
         let two = Q::from(Z::from(2));
-        let change = [0, 1].map(|i| &self.slopes[i] * (&sides[i][1] - &sides[i][0]) / &two * factor);
+        let by_half = |(slope, [low, high]): (&Q, &[Q; 2])| slope * (high - low) / &two * factor;
+        let change = self.slopes.iter().zip(sides).map(by_half).collect();
         let [least, most] = self.range(sides);
         ((least + most) / two * factor, change)
     }
@@ -93,10 +97,12 @@ pub(super) struct Terms {
 }
 
 impl Terms {
-    pub fn new(own: OverBox, sources: &Sources, clock: &Clock) -> Result<Self, String> {
-        let times = sources.dead_times()?.into_iter().map(Time::of).collect::<Result<Vec<_>, _>>()?;
+    /// Of a box of so many parameters.
+    pub fn new(own: OverBox, sources: &Sources, parameters: usize, clock: &Clock) -> Result<Self, String> {
+        let times = sources.dead_times()?.into_iter();
+        let times = times.map(|time| Time::of(time, parameters)).collect::<Result<Vec<_>, _>>()?;
         let n = own.coefficients.len() - 1;
-        let is_delayed = |p: &Multi| p.0.keys().any(|e| e.len() > FIRST + 2);
+        let is_delayed = |p: &Multi| p.0.keys().any(|e| e.len() > FIRST + parameters);
         let mut divisors = own.divisors;
         if own.has_lead_last {
             // It is looked at where the highest power is to outweigh the rest.
@@ -109,11 +115,11 @@ impl Terms {
         for (j, coefficient) in primitive(own.coefficients, clock)?.into_iter().enumerate() {
             for (e, c) in coefficient.0 {
                 clock.tick()?;
-                let mut total = Time::zero();
-                for (time, &k) in times.iter().zip(e.iter().skip(FIRST + 2)) {
+                let mut total = Time::zero(parameters);
+                for (time, &k) in times.iter().zip(e.iter().skip(FIRST + parameters)) {
                     total = total.plus(time, i64::from(k));
                 }
-                let mut own: Vec<u32> = e.into_iter().take(FIRST + 2).collect();
+                let mut own: Vec<u32> = e.into_iter().take(FIRST + parameters).collect();
                 while own.last() == Some(&0) {
                     own.pop();
                 }
@@ -138,12 +144,12 @@ impl Terms {
 
     /// The exponent of a power of two that is about the size of the roots: where the highest power begins to outweigh the others, by the
     /// lengths of the largest terms of all coefficients at a point.
-    pub fn scale(&self, point: &[Q; 2]) -> i64 {
+    pub fn scale(&self, point: &[Q]) -> i64 {
         let length = |q: &Q| q.numer().bits() as i64 - q.denom().bits() as i64;
-        let lengths = point.each_ref().map(length);
+        let lengths: Vec<i64> = point.iter().map(length).collect();
         let of_term = |(e, c): (&Vec<u32>, &Z)| {
-            let power = |i: usize| i64::from(e.get(FIRST + i).copied().unwrap_or(0)) * lengths[i];
-            c.bits() as i64 + power(0) + power(1)
+            let powers = e.iter().skip(FIRST).zip(&lengths);
+            c.bits() as i64 + powers.map(|(k, length)| i64::from(*k) * length).sum::<i64>()
         };
         let n = self.terms[0].1.len() - 1;
         let size = |j: usize| self.terms.iter().flat_map(|(_, part)| part[j].0.iter()).map(of_term).max();

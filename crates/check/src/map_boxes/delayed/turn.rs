@@ -26,7 +26,7 @@ pub(super) struct Turns {
 
 impl Turns {
     pub fn new(bits: usize) -> Self {
-        let pi = moving::pi(&Precision::new(1, bits + GUARD)).constant();
+        let pi = moving::pi(&Precision::new(0, 1, bits + GUARD)).constant();
         Turns { bits, quarter: pi >> 1, known: RefCell::default() }
     }
 

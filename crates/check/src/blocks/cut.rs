@@ -1,0 +1,60 @@
+//! A factor at a signal, or at the input of a block: what is behind it is one more signal.
+
+use super::rates::Rate;
+use super::{Diagram, Row};
+use crate::factor::Cut;
+use crate::multivariate::{Fraction, Multi};
+use crate::number::{Q, shorten};
+use crate::toml::Toml;
+use num_traits::One;
+
+impl Diagram<'_, '_> {
+    /// Puts the signal behind the factor into the inputs of a block, where it belongs.
+    pub(super) fn behind_factor(&mut self, block: &Toml, inputs: &mut [Row]) -> Result<(), String> {
+        let (Some(behind), Some((cut, _))) = (self.cut, &self.scope.factor) else { return Ok(()) };
+        match cut {
+            Cut::Signal(name) => {
+                let signal = self.signals.get(name);
+                for input in inputs {
+                    if let Some(c) = signal.and_then(|signal| input.remove(signal)) {
+                        input.insert(behind, c);
+                    }
+                }
+            }
+            Cut::Input(name) if block.get("name").is_some_and(|own| own.text() == Ok(name)) => {
+                let [input] = inputs else {
+                    return Err(format!("the block '{}' has not one input to be cut at", shorten(name)));
+                };
+                let new = Row::from([(behind, Fraction::number(&Q::one()))]);
+                self.cut_input = Some(std::mem::replace(input, new));
+            }
+            Cut::Input(_) | Cut::Parameter(_) => {}
+        }
+        Ok(())
+    }
+
+    /// The equation of the signal behind the factor. The first `driven` unknowns are signals of blocks, the first `signals` are signals.
+    pub(super) fn factor(&mut self, driven: usize, signals: usize) -> Result<(), String> {
+        let (Some(behind), Some((cut, factor))) = (self.cut, &self.scope.factor) else { return Ok(()) };
+        let before = match cut {
+            Cut::Signal(name) => {
+                let signal = self.signals.get(name).filter(|signal| **signal < driven);
+                let signal =
+                    signal.ok_or_else(|| format!("no block has the output '{}' to be cut at", shorten(name)))?;
+                Row::from([(*signal, Fraction::number(&Q::one()))])
+            }
+            Cut::Input(name) => {
+                let input = self.cut_input.take();
+                input.ok_or_else(|| format!("no block is called '{}' to be cut at", shorten(name)))?
+            }
+            Cut::Parameter(_) => return Ok(()),
+        };
+        let whole = |m: &Multi| Fraction { numerator: m.clone(), denominator: Multi::one(), scalar: Multi::one() };
+        let mut row = Row::from([(behind, whole(&factor.scalar))]);
+        let minus = whole(&factor.numerator).negated();
+        self.feed(&mut row, &minus, &before)?;
+        self.rows.push(row);
+        self.rates.note(Rate::ALWAYS, behind..behind + 1, self.rows.len(), self.unknowns - signals);
+        Ok(())
+    }
+}

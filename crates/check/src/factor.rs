@@ -1,0 +1,106 @@
+//! A factor at a cut of a loop: what a requirement on a margin asks the loop to bear.
+
+use super::clock::Clock;
+use super::complex::square;
+use super::multivariate::{Fraction, Multi};
+use super::number::{Q, Z};
+
+/// Where a factor is put in.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Cut {
+    /// Wherever a signal is used in an input of a block.
+    Signal(String),
+    /// At the only input of a block.
+    Input(String),
+    /// Wherever a parameter stands.
+    Parameter(String),
+}
+
+/// The factors, by one or two names of their own: the last is `t`, or the factor itself. With `d = r (1 + j t)/(1 - j t)`:
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Family {
+    /// `k`.
+    Gain,
+    /// `(1 - j t)/(1 + j t)`.
+    Turn,
+    /// `1/(1 - m d)`.
+    Modulus(Q),
+    /// `(1 + a d/2)/(1 - a d/2)`.
+    Disk(Q),
+    /// `1 + d/M`.
+    Complementary(Q),
+}
+
+/// A family of factors at a cut.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Factor {
+    pub cut: Cut,
+    pub family: Family,
+}
+
+impl Family {
+    /// The number of its own names.
+    pub fn names(&self) -> usize {
+        match self {
+            Family::Gain | Family::Turn => 1,
+            Family::Modulus(_) | Family::Disk(_) | Family::Complementary(_) => 2,
+        }
+    }
+
+    pub fn is_complex(&self) -> bool {
+        *self != Family::Gain
+    }
+
+    /// Numerator and denominator, polynomials in the own names, which are the variables from `first` on, and the imaginary unit. The denominator is
+    /// nowhere zero for real names, between -1 and 1 where there are two.
+    fn quotient(&self, first: usize, unit: usize, clock: &Clock) -> Result<[Multi; 2], String> {
+        let [one, last] = [Multi::one(), Multi::variable(first + self.names() - 1)];
+        if *self == Family::Gain {
+            return Ok([last, one]);
+        }
+        let turned = last.times(&Multi::variable(unit), clock)?;
+        let [plus, minus] = [one.plus(&turned), one.minus(&turned)];
+        // With d = p/q: q plus and minus a share n/m of p, times m.
+        let shares = |share: &Q| -> Result<[Multi; 3], String> {
+            let d = plus.times(&Multi::variable(first), clock)?.scaled(share.numer());
+            let whole = minus.scaled(share.denom());
+            Ok([whole.plus(&d), whole.minus(&d), whole])
+        };
+        Ok(match self {
+            Family::Gain | Family::Turn => [minus, plus],
+            Family::Modulus(m) => {
+                let [_, below, whole] = shares(m)?;
+                [whole, below]
+            }
+            Family::Disk(a) => {
+                let [top, below, _] = shares(&(a / Q::from(Z::from(2))))?;
+                [top, below]
+            }
+            Family::Complementary(most) => {
+                let [top, _, whole] = shares(&most.recip())?;
+                [top, whole]
+            }
+        })
+    }
+
+    /// The factor.
+    pub fn value(&self, first: usize, unit: usize, clock: &Clock) -> Result<Fraction, String> {
+        let [numerator, scalar] = self.quotient(first, unit, clock)?;
+        Ok(Fraction { numerator, denominator: Multi::one(), scalar })
+    }
+
+    /// Polynomials in the own names that are positive wherever the factors are asked about.
+    pub fn positive(&self, first: usize, clock: &Clock) -> Result<Vec<Multi>, String> {
+        if !self.is_complex() {
+            return Ok(Vec::new());
+        }
+        let unit = first + self.names();
+        let [top, below] = self.quotient(first, unit, clock)?;
+        let may_vanish = matches!(self, Family::Complementary(_));
+        let all = if may_vanish { vec![below] } else { vec![below, top] };
+        let mut squares: Vec<Multi> = all.iter().map(|m| square(m, unit, clock)).collect::<Result<_, _>>()?;
+        squares.retain(|p| !p.is_constant());
+        squares.dedup();
+        Ok(squares)
+    }
+}

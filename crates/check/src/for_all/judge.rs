@@ -1,0 +1,198 @@
+//! Who decides the boxes of a certificate for all values.
+
+use super::{SHARE, Statement, read};
+use crate::clock::Clock;
+use crate::format::Json;
+use crate::map_boxes::{JudgedBox, OneLoop, Parts, on_a_large_stack};
+use crate::number::{Q, Z};
+use crate::{Limits, Rejection, Step};
+
+/// Decides boxes as the check of a certificate for all values does. Who writes a certificate asks it what a checker can see.
+///
+/// There is one loop for each requirement, with the factor of it at its cut, or one without requirements. A box of a loop has a side for each of the names: the
+/// axes, those for all, and the own ones of the requirement.
+///
+/// What is shown of a box depends on the way to it: the checker takes the box that [`over`](ForAllJudge::over) makes of the axes of a leaf; for a leaf `+` of the
+/// tree it halves that along the proof by [`halves`](ForAllJudge::halves), for a leaf `-` it takes parts by [`part`](ForAllJudge::part). In between a box may be
+/// asked about.
+///
+/// ```
+/// use jurist_check::{ForAllJudge, Limits, Part};
+/// let model = "time = 'continuous'\nparameters = { a = {}, b = {} }\nloop.characteristic = 's^2 + a*s + b'";
+/// let certificate = r#"{
+///     "schema": "jurist/certificate/10",
+///     "statement": {"kind": "for_all", "time": "continuous", "axes": [{"name": "a", "between": ["-1", "3"]}],
+///         "for_all": [{"name": "b", "between": ["1", "2"]}], "set": {}, "region": {"decay": "0"}, "require": [], "tree": "?", "beyond": null},
+///     "order": 2, "bits": 64
+/// }"#;
+/// let judge = ForAllJudge::new(model, certificate, &Limits::default()).unwrap();
+/// let whole = judge.whole(0, false);
+/// let [lower, upper] = [Part::Lower, Part::Upper].map(|half| judge.part(&whole, half, 0));
+/// assert_eq!(judge.sides(&upper)[0], ["1", "3"]);
+/// assert!(judge.shows(0, &mut judge.over(&upper, 0, false), true));
+/// let lower = judge.part(&lower, Part::Lower, 0);
+/// assert!(judge.shows(0, &mut judge.part(&judge.over(&lower, 0, true), Part::Middle, 1), false), "a from -1 to 0, b = 3/2");
+/// ```
+pub struct ForAllJudge {
+    statement: Statement,
+    clock: Clock,
+    loops: Vec<OneLoop>,
+}
+
+/// A part of a side of a box.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// The lower half.
+    Lower,
+    /// The upper half.
+    Upper,
+    /// The point in the middle.
+    Middle,
+    /// The lower end.
+    Low,
+    /// The upper end.
+    High,
+}
+
+impl Part {
+    /// All of them.
+    pub const ALL: [Part; 5] = [Part::Lower, Part::Upper, Part::Middle, Part::Low, Part::High];
+
+    /// Its letter in a certificate.
+    pub fn letter(self) -> char {
+        match self {
+            Part::Lower => 'l',
+            Part::Upper => 'u',
+            Part::Middle => 'm',
+            Part::Low => '<',
+            Part::High => '>',
+        }
+    }
+
+    pub(super) fn named(letter: char) -> Option<Part> {
+        Part::ALL.into_iter().find(|part| part.letter() == letter)
+    }
+
+    fn of([low, high]: &[Q; 2]) -> impl Fn(Part) -> [Q; 2] {
+        let middle = (low + high) / Q::from(Z::from(2));
+        let (low, high) = (low.clone(), high.clone());
+        move |part| {
+            let [a, b] = match part {
+                Part::Lower => [&low, &middle],
+                Part::Upper => [&middle, &high],
+                Part::Middle => [&middle, &middle],
+                Part::Low => [&low, &low],
+                Part::High => [&high, &high],
+            };
+            [a.clone(), b.clone()]
+        }
+    }
+}
+
+impl ForAllJudge {
+    /// Of a certificate, whose tree is not looked at.
+    ///
+    /// Cost: for each requirement the characteristic polynomial in all names and functions of them, expanded.
+    ///
+    /// # Errors
+    /// [`Rejection`] where the certificate has not the form of one for all values, or the model cannot be read.
+    pub fn new(model: &str, certificate: &str, limits: &Limits) -> Result<Self, Rejection> {
+        on_a_large_stack(|| {
+            let (statement, parts) = read(&Step::Format.of(Json::parse(certificate))?)?;
+            ForAllJudge::of(model, statement, &parts, Clock::new(limits.timeout))
+        })
+    }
+
+    pub(super) fn of(model: &str, statement: Statement, parts: &Parts, clock: Clock) -> Result<Self, Rejection> {
+        debug_assert_eq!(parts.share, SHARE);
+        let requirements = statement.require.iter().map(Some);
+        let all: Vec<_> = if statement.require.is_empty() { vec![None] } else { requirements.collect() };
+        let one = |requirement| OneLoop::new(model, &statement.question(requirement), parts, &clock);
+        let loops = all.into_iter().map(one).collect::<Result<Vec<_>, _>>()?;
+        Ok(ForAllJudge { statement, clock, loops })
+    }
+
+    pub(super) fn statement(&self) -> &Statement {
+        &self.statement
+    }
+
+    pub(super) fn clock(&self) -> &Clock {
+        &self.clock
+    }
+
+    /// The number of loops: that of requirements, or 1 where there are none.
+    pub fn loops(&self) -> usize {
+        self.loops.len()
+    }
+
+    /// How many names the boxes of a loop have.
+    pub fn names(&self, number: usize) -> usize {
+        self.statement.names.len() + self.statement.require.get(number).map_or(0, super::Requirement::names)
+    }
+
+    /// Everything that is asked of the loop with this number: with `refute` as far as a leaf `-` may go, which is less of the angles of a phase margin.
+    pub fn whole(&self, number: usize, refute: bool) -> JudgedBox {
+        self.over_axes(&self.statement.window[..self.statement.axes], number, refute)
+    }
+
+    /// The same where the axes have the sides that they have in another box, of any of the loops.
+    pub fn over(&self, axes: &JudgedBox, number: usize, refute: bool) -> JudgedBox {
+        self.over_axes(&axes.sides()[..self.statement.axes], number, refute)
+    }
+
+    pub(super) fn over_axes(&self, axes: &[[Q; 2]], number: usize, refute: bool) -> JudgedBox {
+        let of = &self.loops[number];
+        let own = self.statement.require.get(number).map(|own| own.ranges(of.is_complex, refute));
+        let for_all = &self.statement.window[self.statement.axes..];
+        of.over(axes.iter().chain(for_all).cloned().chain(own.into_iter().flatten()).collect())
+    }
+
+    /// The lower and the upper half of a box of a loop along an axis, any of its names.
+    ///
+    /// Cost: that of computing the functions over the box, unless those of a larger one are precise enough for it; with dead time that of
+    /// [`shows`](ForAllJudge::shows).
+    pub fn halves(&self, number: usize, of: &mut JudgedBox, axis: usize) -> [JudgedBox; 2] {
+        // Where time is over, all that follows is not shown.
+        self.halved(number, of, axis).unwrap_or_else(|_| self.loops[number].cut(of, axis))
+    }
+
+    pub(super) fn halved(&self, number: usize, of: &mut JudgedBox, axis: usize) -> Result<[JudgedBox; 2], String> {
+        self.loops[number].halved(of, axis, &self.clock)
+    }
+
+    /// A part of a box along an axis. Nothing is known of it yet.
+    pub fn part(&self, of: &JudgedBox, part: Part, axis: usize) -> JudgedBox {
+        of.with_side(axis, Part::of(&of.sides()[axis])(part))
+    }
+
+    /// Whether a loop is shown to be stable at every point of the closed box, or, with `stable` false, at none.
+    ///
+    /// Cost: that of [`BoxJudge::shows`](crate::BoxJudge::shows), where the loop has twice the order if a factor is complex.
+    pub fn shows(&self, number: usize, of: &mut JudgedBox, stable: bool) -> bool {
+        self.shown(number, of, stable).unwrap_or(false)
+    }
+
+    pub(super) fn shown(&self, number: usize, of: &mut JudgedBox, stable: bool) -> Result<bool, String> {
+        self.loops[number].shown(of, stable, &self.clock)
+    }
+
+    /// The axis along which the functions of a loop change most in a box; of one that is not known, the widest in shares of everything that is asked.
+    pub fn axis(&self, number: usize, of: &JudgedBox) -> usize {
+        self.loops[number].axis(of)
+    }
+
+    /// The ends of the sides, as they are written in a certificate.
+    pub fn sides(&self, of: &JudgedBox) -> Vec<[String; 2]> {
+        of.sides().iter().map(|side| side.each_ref().map(ToString::to_string)).collect()
+    }
+
+    /// How much has been done, see [`BoxJudge::work`](crate::BoxJudge::work).
+    pub fn work(&self) -> u64 {
+        self.clock.work()
+    }
+
+    /// The work that a check may be, see [`BoxJudge::allowed`](crate::BoxJudge::allowed).
+    pub fn allowed(bytes: usize) -> u64 {
+        Clock::allowed(bytes)
+    }
+}

@@ -1,0 +1,134 @@
+//! What holds for all values of names: that a loop is stable, and meets requirements on margins, in boxes of none, one or two further names.
+
+mod judge;
+mod requirement;
+mod sentence;
+mod walk;
+
+use crate::clock::Clock;
+use crate::format::Json;
+use crate::map_boxes::{Parts, Question, ends};
+use crate::number::Q;
+use crate::statement::{Extent, fixed_extent, identifier, list, number, object, text, values};
+use crate::{Proved, Rejection, Step, is_discrete};
+pub use judge::{ForAllJudge, Part};
+use num_traits::{One, Zero};
+use requirement::Requirement;
+
+/// So many names at most: axes, those for all, and the own ones of a requirement.
+const MAX_NAMES: usize = 8;
+
+/// More requirements are refused.
+const MAX_REQUIREMENTS: usize = 9;
+
+/// See [`Parts::share`]: as in [`shown`](crate::map_boxes), so that a box is halved alike whether it was looked at or not.
+const SHARE: usize = 10;
+
+struct Statement {
+    discrete: bool,
+    /// The axes, then the names for all whose values it holds.
+    names: Vec<String>,
+    axes: usize,
+    window: Vec<[Q; 2]>,
+    set: Vec<(String, Q)>,
+    extent: Extent,
+    require: Vec<Requirement>,
+    tree: String,
+    beyond: Option<Beyond>,
+}
+
+/// A point that is not good.
+struct Beyond {
+    point: Vec<Q>,
+    not: String,
+}
+
+impl Statement {
+    fn read(json: &Json) -> Result<Self, String> {
+        let keys = ["kind", "time", "axes", "for_all", "set", "region", "require", "tree", "beyond"];
+        let [_, time, axes, for_all, set, region, require, tree, beyond] = object(json, "the statement", keys, &[])?;
+        let discrete = is_discrete(time)?;
+        let extent = fixed_extent(region, discrete)?;
+        let (axes, for_all) = (ranges(axes, "'axes'", false)?, ranges(for_all, "'for_all'", true)?);
+        let require = list(require, "'require'")?.iter().map(Requirement::read).collect::<Result<Vec<_>, _>>()?;
+        if axes.len() > 2 || require.len() > MAX_REQUIREMENTS {
+            return Err("there are more than two axes, or more than nine requirements".into());
+        }
+        let count = axes.len() + for_all.len();
+        if count == 0 && require.is_empty() {
+            return Err("nothing is asked for all values".into());
+        }
+        if count + require.iter().map(Requirement::names).max().unwrap_or(0) > MAX_NAMES {
+            return Err(format!("there are more than {MAX_NAMES} names"));
+        }
+        let usual = if discrete { Q::one() } else { Q::zero() };
+        if !require.is_empty() && extent != Extent::Number(usual) {
+            return Err("a requirement goes with the unit disc, or the left half plane, alone".into());
+        }
+        let beyond = match beyond {
+            Json::Null => None,
+            json => Some(Beyond::read(json, for_all.len())?),
+        };
+        if beyond.is_some() && (!axes.is_empty() || for_all.is_empty()) {
+            return Err("a point beyond goes with names for all, and with no axes".into());
+        }
+        let axes_count = axes.len();
+        let (names, window) = axes.into_iter().chain(for_all).unzip();
+        let (set, tree) = (values(set)?, text(tree, "'tree'")?.to_owned());
+        Ok(Statement { discrete, names, axes: axes_count, window, set, extent, require, tree, beyond })
+    }
+
+    /// What is asked of the loop with this number. Each is asked about its whole window, with a point beyond.
+    fn question(&self, requirement: Option<&Requirement>) -> Question {
+        let mut window = self.window.clone();
+        for ([low, high], x) in window.iter_mut().zip(self.beyond.iter().flat_map(|beyond| &beyond.point)) {
+            *low = x.min(low).clone();
+            *high = x.max(high).clone();
+        }
+        window.extend(requirement.into_iter().flat_map(|own| own.ranges(true, false)));
+        Question {
+            discrete: self.discrete,
+            names: self.names.clone(),
+            set: self.set.clone(),
+            extent: self.extent.clone(),
+            factor: requirement.map(|own| own.factor.clone()),
+            window,
+        }
+    }
+}
+
+impl Beyond {
+    fn read(json: &Json, names: usize) -> Result<Self, String> {
+        let [point, not] = object(json, "'beyond'", ["point", "not"], &[])?;
+        let point = list(point, "'point'")?.iter().map(|x| number(x, "'point'")).collect::<Result<Vec<_>, _>>()?;
+        if point.len() != names {
+            return Err("'point' has not one value for each name for all".into());
+        }
+        Ok(Beyond { point, not: text(not, "'not'")?.to_owned() })
+    }
+}
+
+/// Names with their ranges.
+fn ranges(json: &Json, what: &str, may_be_one: bool) -> Result<Vec<(String, [Q; 2])>, String> {
+    let mut out: Vec<(String, [Q; 2])> = Vec::new();
+    for range in list(json, what)? {
+        let [name, between] = object(range, "a range", ["name", "between"], &[])?;
+        out.push((identifier(text(name, "'name'")?)?.to_owned(), ends(between, may_be_one)?));
+    }
+    Ok(out)
+}
+
+/// What is said, and how it is to be shown.
+fn read(json: &Json) -> Result<(Statement, Parts), Rejection> {
+    let keys = ["schema", "statement", "order", "bits"];
+    let [_, statement, order, bits] = Step::Format.of(object(json, "the certificate", keys, &["model"]))?;
+    let parts = Step::Format.of(Parts::read(order, bits, SHARE))?;
+    Ok((Step::Statement.of(Statement::read(statement))?, parts))
+}
+
+pub(super) fn check(model: &str, json: &Json, clock: Clock) -> Result<Proved, Rejection> {
+    let (statement, parts) = read(json)?;
+    let judge = ForAllJudge::of(model, statement, &parts, clock)?;
+    let walked = judge.walk()?;
+    Ok(Proved { statement: judge.statement().in_words(&walked), kind: "for_all" })
+}

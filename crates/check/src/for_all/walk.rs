@@ -1,0 +1,158 @@
+//! The walk over the tree of a certificate for all values.
+
+use super::{Beyond, ForAllJudge, Part};
+use crate::map_boxes::{JudgedBox, MAX_DEPTH, Walked};
+use crate::number::{Q, Z};
+use crate::{Rejection, Step};
+use num_traits::One;
+use std::str::Chars;
+
+/// The names by their letters.
+fn axis(letter: char) -> Option<usize> {
+    ('a'..='h').position(|own| own == letter)
+}
+
+fn line(reason: impl Into<String>) -> Rejection {
+    Rejection { step: Step::Line, reason: reason.into() }
+}
+
+fn stable(reason: String) -> Rejection {
+    Rejection { step: Step::Stable, reason }
+}
+
+impl ForAllJudge {
+    /// That each leaf of the tree is what it says, and the point beyond.
+    pub(super) fn walk(&self) -> Result<Walked, Rejection> {
+        let of = self.statement();
+        let mut letters = of.tree.chars();
+        let mut walked = Walked::new();
+        let mut stack = vec![(of.window[..of.axes].to_vec(), 0)];
+        while let Some((axes, depth)) = stack.pop() {
+            Step::Line.of(self.clock().tick())?;
+            let letter = letters.next().ok_or_else(|| line("the tree ends too early"))?;
+            match letter {
+                '+' => (0..self.loops()).try_for_each(|k| self.proof(k, &axes, depth, &mut letters))?,
+                '-' => self.refutation(&axes, depth, &mut letters)?,
+                '?' => {}
+                other => {
+                    let axis = axis(other).filter(|axis| *axis < axes.len());
+                    let axis = axis.ok_or_else(|| line(format!("'{}' is no part of a tree", other.escape_debug())))?;
+                    deeper(depth)?;
+                    let [low, high] = halves(&axes[axis]).map(|side| {
+                        let mut half = axes.clone();
+                        half[axis] = side;
+                        (half, depth + 1)
+                    });
+                    stack.extend([high, low]);
+                    continue;
+                }
+            }
+            let place = ['+', '-', '?'].iter().position(|own| *own == letter).unwrap_or(2);
+            walked.shares[place] += Q::new_raw(Z::one(), Z::one() << depth);
+            if let ([side], '+' | '-') = (axes.as_slice(), letter) {
+                walked.add(letter, side);
+            } else if axes.is_empty() {
+                walked.pieces.push((letter, [Q::one(), Q::one()]));
+            }
+        }
+        if letters.next().is_some() {
+            return Err(line("something follows the tree"));
+        }
+        if let Some(beyond) = &of.beyond {
+            self.beyond(beyond)?;
+        }
+        Ok(walked)
+    }
+
+    /// That a loop is stable for all values of the names that are no axes.
+    fn proof(&self, k: usize, axes: &[[Q; 2]], depth: usize, letters: &mut Chars<'_>) -> Result<(), Rejection> {
+        let mut stack = vec![(self.over_axes(axes, k, false), depth)];
+        while let Some((mut part, depth)) = stack.pop() {
+            Step::Line.of(self.clock().tick())?;
+            match letters.next().ok_or_else(|| line("a proof ends too early"))? {
+                '.' => {
+                    if !self.shown(k, &mut part, true).map_err(stable)? {
+                        return Err(stable(format!("a leaf '+' is not shown for loop {k}: {part}")));
+                    }
+                }
+                letter => {
+                    let axis = axis(letter).filter(|axis| *axis < self.names(k));
+                    let axis =
+                        axis.ok_or_else(|| line(format!("'{}' is no part of a proof", letter.escape_debug())))?;
+                    deeper(depth)?;
+                    has_width(&part, axis)?;
+                    let [low, high] = Step::Line.of(self.halved(k, &mut part, axis))?;
+                    stack.extend([(high, depth + 1), (low, depth + 1)]);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// That a loop is not stable for some values of the names that are no axes, the same for all points of the axes.
+    fn refutation(&self, axes: &[[Q; 2]], depth: usize, letters: &mut Chars<'_>) -> Result<(), Rejection> {
+        let k = self.number(letters)?;
+        let part = self.over_axes(axes, k, true);
+        self.not_stable(k, part, depth, letters)
+    }
+
+    /// The number of a loop.
+    fn number(&self, letters: &mut Chars<'_>) -> Result<usize, Rejection> {
+        let k = letters.next().and_then(|digit| digit.to_digit(10)).map(|k| k as usize);
+        k.filter(|k| *k < self.loops()).ok_or_else(|| line("a leaf '-' does not say of which loop it is"))
+    }
+
+    /// That a loop is stable nowhere in a part of a box.
+    fn not_stable(
+        &self,
+        k: usize,
+        mut part: JudgedBox,
+        mut depth: usize,
+        letters: &mut Chars<'_>,
+    ) -> Result<(), Rejection> {
+        loop {
+            Step::Line.of(self.clock().tick())?;
+            let letter = letters.next().ok_or_else(|| line("a leaf '-' ends too early"))?;
+            if letter == '.' {
+                break;
+            }
+            let step = Part::named(letter).ok_or_else(|| line(format!("'{}' is no step", letter.escape_debug())))?;
+            let axis = letters.next().and_then(axis);
+            let own = self.statement().axes..self.names(k);
+            let axis = axis.filter(|axis| own.contains(axis)).ok_or_else(|| line("a step has no name, or an axis"))?;
+            deeper(depth)?;
+            has_width(&part, axis)?;
+            part = self.part(&part, step, axis);
+            depth += 1;
+        }
+        if !self.shown(k, &mut part, false).map_err(stable)? {
+            return Err(stable(format!("a leaf '-' is not shown for loop {k}: {part}")));
+        }
+        Ok(())
+    }
+
+    fn beyond(&self, beyond: &Beyond) -> Result<(), Rejection> {
+        let mut letters = beyond.not.chars();
+        let k = self.number(&mut letters)?;
+        let mut part = self.over_axes(&[], k, true);
+        for (axis, x) in beyond.point.iter().enumerate() {
+            part = part.with_side(axis, [x.clone(), x.clone()]);
+        }
+        self.not_stable(k, part, 0, &mut letters)?;
+        if letters.next().is_some() { Err(line("something follows the point beyond")) } else { Ok(()) }
+    }
+}
+
+fn halves([low, high]: &[Q; 2]) -> [[Q; 2]; 2] {
+    let middle = (low + high) / Q::from(Z::from(2));
+    [[low.clone(), middle.clone()], [middle, high.clone()]]
+}
+
+fn deeper(depth: usize) -> Result<(), Rejection> {
+    if depth < MAX_DEPTH { Ok(()) } else { Err(line("the tree is too deep")) }
+}
+
+fn has_width(of: &JudgedBox, axis: usize) -> Result<(), Rejection> {
+    let [low, high] = &of.sides()[axis];
+    if low < high { Ok(()) } else { Err(line("a side without a width is cut")) }
+}
