@@ -97,7 +97,10 @@ pub use jurist_algebra::poly::{
 };
 pub use jurist_algebra::real::Real;
 // Certificates, checked by code of their own.
-pub use certified::{CertifiedBoxes, CertifiedIntervals, certify_boxes, certify_intervals};
+pub use certified::{
+    CertifiedBoxes, CertifiedIntervals, CertifiedTolerance, certify_boxes, certify_intervals,
+    certify_required_intervals, certify_requirements, certify_tolerance,
+};
 pub use jurist_check::{Limits, Proved, Rejection, Step, check};
 
 mod certified;

@@ -1,5 +1,6 @@
 //! Certificates of maps by boxes, made with what the check sees as the judge of each box.
 
+use super::for_all::Asked;
 use super::search::{Judge, Search};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
@@ -7,7 +8,9 @@ use jurist_check::{BoxJudge, JudgedBox, Limits};
 use jurist_engine::answer::{Answer, MapBoxes};
 use jurist_engine::error::{Code, Diagnostic, Error};
 use jurist_engine::problem::Problem;
-use jurist_engine::stability::plane::boxes::Window;
+use jurist_engine::prove::ForAllClaim;
+use jurist_engine::response::{AllOf, RequiredBox, RequiredBoxes};
+use jurist_engine::stability::plane::boxes::{BoxVerdict, PlaneBox, Window};
 use std::time::Duration;
 
 /// Degree of the Taylor models and bits of their coefficients. Of loops of order 6 behind a hold some degrees less need twice the boxes, some
@@ -80,14 +83,54 @@ pub struct CertifiedBoxes {
 pub fn certify_boxes(answer: &Answer<MapBoxes>, budget: &Budget) -> Result<CertifiedBoxes, Error> {
     budget.step("certificate");
     let (problem, window) = (answer.problem(), &answer.value().boxes.window);
+    let goal = &answer.value().goal * &Rational::dyadic(&1.into(), LEFT_BITS);
+    if answer.value().required.is_some() || !answer.value().for_all.is_empty() {
+        return of_all_values(answer, goal, budget);
+    }
     let judge = judge(problem, window, budget)?;
     let map = &answer.value().boxes;
-    let goal = &answer.value().goal * &Rational::dyadic(&1.into(), LEFT_BITS);
     let (order, bits) = precision(problem, budget)?;
     let judge = Boxes { judge: &judge, is_line: false };
     let search = Search::new(&map.boxes, &map.window, goal, &judge);
     let (tree, [stable, unstable]) = search.tree(problem.model().source().text.len(), MOST_WORK, budget);
     Ok(CertifiedBoxes { text: problem.boxes_certificate(window, &tree, order, bits)?, stable, unstable })
+}
+
+/// The same with requirements, or for all values of other names.
+fn of_all_values(answer: &Answer<MapBoxes>, goal: Rational, budget: &Budget) -> Result<CertifiedBoxes, Error> {
+    let (problem, MapBoxes { boxes, required, for_all, .. }) = (answer.problem(), answer.value());
+    let claim = claim(problem, &boxes.window, for_all.clone(), required.as_ref());
+    let met = |b: &RequiredBox| PlaneBox {
+        window: b.window.clone(),
+        verdict: match b.met {
+            Some(true) => BoxVerdict::Stable,
+            Some(false) => BoxVerdict::Unstable { outside: None },
+            None => BoxVerdict::Undecided,
+        },
+    };
+    let all: Vec<PlaneBox> = match required {
+        None => boxes.boxes.clone(),
+        Some(required) => {
+            let beside = boxes.boxes.iter().filter(|b| b.verdict != BoxVerdict::Stable).cloned();
+            beside.chain(required.boxes.iter().map(met)).collect()
+        }
+    };
+    let window = &boxes.window;
+    let asked = Asked { problem, claim: &claim, boxes: &all, window, goal, most_work: MOST_WORK };
+    let (text, [stable, unstable]) = asked.certified(budget)?;
+    Ok(CertifiedBoxes { text, stable, unstable })
+}
+
+/// What is said of a window of two names.
+fn claim(problem: &Problem, window: &Window, all: Vec<AllOf>, required: Option<&RequiredBoxes>) -> ForAllClaim {
+    let sides = problem.axes().into_iter().zip([&window.x, &window.y]);
+    let axes = sides.map(|(axis, [low, high])| AllOf::new(&axis.name, low.clone(), high.clone()));
+    let axes = axes.map(|axis| axis.expect("a window is not empty")).collect();
+    let claim = ForAllClaim::new(axes, all);
+    match required {
+        Some(required) => claim.with_requirements(required.requirements.clone(), required.at.clone()),
+        None => claim,
+    }
 }
 
 /// What the check sees of a window.

@@ -1,14 +1,18 @@
 //! Certificates of the answer about one parameter: exact ones, and boxes where there are none.
 
 use super::boxes::{Boxes, judge, precision};
+use super::for_all::Asked;
 use super::search::Search;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Rational, parse_number, to_scientific};
+use jurist_algebra::real::Real;
 use jurist_engine::answer::Answer;
 use jurist_engine::error::{Code, Error};
 use jurist_engine::problem::Problem;
+use jurist_engine::prove::ForAllClaim;
+use jurist_engine::response::{AllOf, RequiredEnd, RequiredSet, Requirement};
 use jurist_engine::stability::plane::boxes::{BoxVerdict, PlaneBox, Window};
-use jurist_engine::stability::{StableInterval, StableSet};
+use jurist_engine::stability::{End, StableSet, UndecidedBracket};
 use std::sync::Arc;
 
 /// Pieces at an end of a stable interval are this power of two shorter than the end is far from zero.
@@ -31,6 +35,9 @@ const BEYOND: i64 = 2;
 
 /// The share of the window that may stay unknown, as a power of two: what lies at the ends decides.
 const LEFT_BITS: u64 = 48;
+
+/// The same where requirements are asked, which take a box of factors for each piece.
+const LEFT_BITS_OF_REQUIREMENTS: u64 = 20;
 
 /// A certificate of the answer about one parameter, and how much it says.
 ///
@@ -88,7 +95,8 @@ pub fn certify_intervals(answer: &Answer<StableSet>, budget: &Budget) -> Result<
 fn by_boxes(answer: &Answer<StableSet>, budget: &Budget) -> Result<Option<CertifiedIntervals>, Error> {
     budget.step("certificate");
     let problem = answer.problem();
-    let ends = window(problem, answer.value());
+    let set = LineSet::from(answer.value());
+    let ends = window(problem, &set);
     let beside = |(name, value): (String, Rational)| {
         let window = Window { x: ends.clone(), y: [value.clone(), value] };
         let judged = beside_another(problem, &name).and_then(|plane| {
@@ -105,10 +113,7 @@ fn by_boxes(answer: &Answer<StableSet>, budget: &Budget) -> Result<Option<Certif
     else {
         return Ok(None);
     };
-    // The second side has a width here alone.
-    let over = |x: [Rational; 2]| Window { x, y: [Rational::ZERO, Rational::ONE] };
-    let mut pieces = Vec::new();
-    cut(answer.value(), ends.clone(), 0, &mut |x, verdict| pieces.push(PlaneBox { window: over(x), verdict }));
+    let pieces = set.pieces(&ends);
     let goal = Rational::dyadic(&1.into(), LEFT_BITS);
     let (order, bits) = precision(&plane, budget)?;
     let judge = Boxes { judge: &judge, is_line: true };
@@ -120,6 +125,43 @@ fn by_boxes(answer: &Answer<StableSet>, budget: &Budget) -> Result<Option<Certif
     }
     let text = plane.boxes_certificate(&window, &tree, order, bits)?;
     Ok(Some(CertifiedIntervals { text, window: Some(ends), proved }))
+}
+
+/// A certificate of the set of values of one parameter for which the loop is stable and meets requirements: pieces of a window that contains the finite ends.
+///
+/// Cost: that of [`certify_requirements`](crate::certify_requirements) for some dozen pieces at each end.
+///
+/// ```standalone_crate
+/// use jurist::{Budget, Limits, Model, Requirement, Source, certify_required_intervals, check};
+/// let (model, _) = Model::from_line(&Source::new("loop", "K/(s*(s + 1))"))?;
+/// let (requirement, budget) = ([Requirement::phase_margin(&45.into())?], Budget::unlimited());
+/// let answer = model.ask().free("K").problem()?.required_set(&requirement, None, &budget)?;
+/// let certified = certify_required_intervals(&answer, &requirement, None, &budget)?;
+/// assert!(certified.proved > "99/100".parse().unwrap());
+/// let proved = check(&model.source().text, &certified.text, &Limits::default()).unwrap();
+/// assert!(proved.statement.contains("45 degrees"));
+/// # Ok::<(), jurist::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Refused`] (`E-no-certificate`) for what the checkers do not read; [`Error::Stopped`] when the budget runs out.
+pub fn certify_required_intervals(
+    answer: &Answer<RequiredSet>,
+    requirements: &[Requirement],
+    at: Option<&str>,
+    budget: &Budget,
+) -> Result<CertifiedIntervals, Error> {
+    budget.step("certificate");
+    let (problem, set) = (answer.problem(), LineSet::from(answer.value()));
+    let ends = window(problem, &set);
+    let axis = AllOf::new(&problem.parameter().name, ends[0].clone(), ends[1].clone()).expect("a window is not empty");
+    let claim =
+        ForAllClaim::new(vec![axis], Vec::new()).with_requirements(requirements.to_vec(), at.map(str::to_owned));
+    let (boxes, whole) = (set.pieces(&ends), over(ends.clone()));
+    let goal = Rational::dyadic(&1.into(), LEFT_BITS_OF_REQUIREMENTS);
+    let asked = Asked { problem, claim: &claim, boxes: &boxes, window: &whole, goal, most_work: MOST_WORK };
+    let (text, [good, not]) = asked.certified(budget)?;
+    Ok(CertifiedIntervals { text, window: Some(ends), proved: good + not })
 }
 
 /// The other parameters and constants that have values; none where the bound of the region is in question.
@@ -143,16 +185,52 @@ fn beside_another(problem: &Problem, other: &str) -> Result<Arc<Problem>, Error>
     rest.fold(question, |question, (name, value)| question.set(name, value.clone())).problem()
 }
 
-/// A window with all finite ends of the stable set inside, as far as the domain goes.
-fn window(problem: &Problem, set: &StableSet) -> [Rational; 2] {
+/// A set of values as intervals between real numbers.
+struct LineSet<'a> {
+    intervals: Vec<[Option<Real>; 2]>,
+    undecided: &'a [UndecidedBracket],
+}
+
+impl<'a> From<&'a StableSet> for LineSet<'a> {
+    fn from(set: &'a StableSet) -> Self {
+        let value = |end: &Option<End>| end.as_ref().map(|end| end.value.clone());
+        let intervals = set.intervals().iter().map(|i| [value(&i.lower), value(&i.upper)]).collect();
+        LineSet { intervals, undecided: set.undecided() }
+    }
+}
+
+impl<'a> From<&'a RequiredSet> for LineSet<'a> {
+    fn from(set: &'a RequiredSet) -> Self {
+        let value = |end: &Option<RequiredEnd>| end.as_ref().map(RequiredEnd::value);
+        let intervals = set.intervals.iter().map(|i| [value(&i.lower), value(&i.upper)]).collect();
+        LineSet { intervals, undecided: &set.undecided }
+    }
+}
+
+impl LineSet<'_> {
+    /// The pieces of a window that are in the set, or beside it, or at an end.
+    fn pieces(&self, window: &[Rational; 2]) -> Vec<PlaneBox> {
+        let mut pieces = Vec::new();
+        cut(self, window.clone(), 0, &mut |x, verdict| pieces.push(PlaneBox { window: over(x), verdict }));
+        pieces
+    }
+}
+
+/// Pieces of a line as boxes: the second side has a width here alone.
+fn over(x: [Rational; 2]) -> Window {
+    Window { x, y: [Rational::ZERO, Rational::ONE] }
+}
+
+/// A window with all finite ends of the set inside, as far as the domain goes.
+fn window(problem: &Problem, set: &LineSet<'_>) -> [Rational; 2] {
     let (domain, nominal) = (&problem.parameter().domain, &problem.parameter().nominal);
     // Where nothing is known any more there is no end.
     let is_end = |x: &Rational| {
         let near = |y: &Option<Rational>| y.as_ref().is_some_and(|y| (x - y).abs() <= &x.abs() * &number(1, 1 << 20));
-        !set.undecided().iter().any(|b| b.lower.is_none() && near(&b.upper) || b.upper.is_none() && near(&b.lower))
+        !set.undecided.iter().any(|b| b.lower.is_none() && near(&b.upper) || b.upper.is_none() && near(&b.lower))
     };
-    let ends = set.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten();
-    let ends = ends.map(|end| end.value.refined_to_digits(4).enclosure().1).filter(is_end).map(|x| x.abs());
+    let ends = set.intervals.iter().flatten().flatten();
+    let ends = ends.map(|end| end.refined_to_digits(4).enclosure().1).filter(is_end).map(|x| x.abs());
     let far = ends.max().filter(|far| !far.is_zero()).map(|far| &far * &Rational::from(BEYOND));
     let around = nominal.iter().map(|x| &x.abs() * &Rational::from(BEYOND)).max().filter(|far| !far.is_zero());
     let far = round_up(&far.max(around).unwrap_or(Rational::ONE));
@@ -181,28 +259,24 @@ fn number(n: i64, d: i64) -> Rational {
 }
 
 /// Halves a range until each piece is in a stable interval, or beside all, or short and at an end.
-fn cut(set: &StableSet, x: [Rational; 2], halvings: usize, put: &mut impl FnMut([Rational; 2], BoxVerdict)) {
+fn cut(set: &LineSet<'_>, x: [Rational; 2], halvings: usize, put: &mut impl FnMut([Rational; 2], BoxVerdict)) {
     let [low, high] = &x;
-    let is_before = |x: &Rational, end: &Option<jurist_engine::stability::End>| {
-        end.as_ref().is_none_or(|end| end.value.compare_rational(x).is_gt())
+    let is_before = |x: &Rational, end: &Option<Real>| end.as_ref().is_none_or(|end| end.compare_rational(x).is_gt());
+    let is_behind = |x: &Rational, end: &Option<Real>| end.as_ref().is_none_or(|end| end.compare_rational(x).is_lt());
+    let is_inside = |[lower, upper]: &[Option<Real>; 2]| is_behind(low, lower) && is_before(high, upper);
+    let is_outside = |[lower, upper]: &[Option<Real>; 2]| {
+        lower.is_some() && is_before(high, lower) || upper.is_some() && is_behind(low, upper)
     };
-    let is_behind = |x: &Rational, end: &Option<jurist_engine::stability::End>| {
-        end.as_ref().is_none_or(|end| end.value.compare_rational(x).is_lt())
-    };
-    let is_inside = |i: &StableInterval| is_behind(low, &i.lower) && is_before(high, &i.upper);
-    let is_outside = |i: &StableInterval| {
-        i.lower.is_some() && is_before(high, &i.lower) || i.upper.is_some() && is_behind(low, &i.upper)
-    };
-    let is_known = set.undecided().iter().all(|b| {
+    let is_known = set.undecided.iter().all(|b| {
         b.lower.as_ref().is_some_and(|lower| high < lower) || b.upper.as_ref().is_some_and(|upper| low > upper)
     });
-    if is_known && set.intervals().iter().any(is_inside) {
+    if is_known && set.intervals.iter().any(is_inside) {
         return put(x, BoxVerdict::Stable);
     }
-    if is_known && set.intervals().iter().all(is_outside) {
+    if is_known && set.intervals.iter().all(is_outside) {
         return put(x, BoxVerdict::Unstable { outside: None });
     }
-    let is_unknown = set.undecided().iter().any(|b| {
+    let is_unknown = set.undecided.iter().any(|b| {
         b.lower.as_ref().is_none_or(|lower| lower <= low) && b.upper.as_ref().is_none_or(|upper| high <= upper)
     });
     let far = low.abs().max(high.abs());

@@ -1,10 +1,14 @@
 //! Certificates that are made with what the check sees as the judge of each box.
 
 mod boxes;
+mod for_all;
 mod intervals;
 mod search;
+mod tolerance;
 
 #[cfg(feature = "commands")]
 pub(crate) use boxes::judge;
 pub use boxes::{CertifiedBoxes, certify_boxes};
-pub use intervals::{CertifiedIntervals, certify_intervals};
+pub use for_all::certify_requirements;
+pub use intervals::{CertifiedIntervals, certify_intervals, certify_required_intervals};
+pub use tolerance::{CertifiedTolerance, certify_tolerance};

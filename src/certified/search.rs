@@ -86,10 +86,11 @@ impl<'a, J: Judge> Search<'a, J> {
         let mut leaves = 0;
         // What is decided, and waits.
         let mut waiting = self.decided_share();
-        // A node is a letter of the tree.
-        let allowed = |nodes: usize| most_work.min(BoxJudge::allowed(model_bytes + nodes));
+        // What a check of the tree does, of so long a text.
+        let (mut of_check, mut written) = (self.judge.work(), 0);
+        let allowed = |bytes: usize| BoxJudge::allowed(model_bytes + bytes);
         let mut counted = self.judge.work();
-        while waiting > self.goal && self.judge.work() < allowed(self.nodes.len()) {
+        while waiting > self.goal && self.judge.work() < most_work && of_check < allowed(written + self.nodes.len()) {
             let done = self.judge.work() - counted;
             counted += done;
             if budget.enter(|| checkpoint(1 + done / UNITS_OF_JUDGE)).is_err() {
@@ -99,7 +100,15 @@ impl<'a, J: Judge> Search<'a, J> {
             let share = Rational::dyadic(&1.into(), open.halvings as u64);
             let axis = match &open.wanted {
                 Wanted::All(good) => {
-                    if let Some(leaf) = self.judge.leaf(&mut open.judged, *good, budget) {
+                    let before = self.judge.work();
+                    let leaf = self.judge.leaf(&mut open.judged, *good, budget);
+                    let worked = of_check + (self.judge.work() - before);
+                    if let Some(leaf) = leaf {
+                        if worked > allowed(written + leaf.len() + self.nodes.len()) {
+                            continue;
+                        }
+                        of_check = worked;
+                        written += leaf.len();
                         self.nodes[open.node] = Node::Leaf(leaf);
                         shares[usize::from(!good)] += &share;
                         waiting -= &share;

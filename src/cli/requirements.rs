@@ -144,13 +144,14 @@ impl RequirementOptions {
     }
 }
 
-/// That nothing proves requirements yet.
-pub(super) fn refuse_proofs(asked: &Requirements, any_proof: bool) -> Result<(), Error> {
-    if !any_proof || (asked.list.is_empty() && asked.regional.is_empty()) {
+/// That no theorem is written of requirements.
+pub(super) fn refuse_theorems(asked: &Requirements, any_theorem: bool) -> Result<(), Error> {
+    if !any_theorem || (asked.list.is_empty() && asked.regional.is_empty()) {
         return Ok(());
     }
-    let error = Diagnostic::error(Code::Require, "an answer with requirements has no certificate and no proof");
-    Err(error.help("'--no-require' leaves out those of the model: then the certificate is of stability alone").into())
+    let error =
+        Diagnostic::error(Code::Require, "an answer with requirements is not written for Coq or for SMT solvers");
+    Err(error.help("'--no-require' leaves out those of the model; '--certificate FILE' proves margins").into())
 }
 
 /// Warns that a command does not look at the model's requirements.

@@ -1,17 +1,18 @@
 //! `jurist intervals`: the exact stable set of one parameter.
 
 use super::{Context, Runs, decided};
-use crate::certified::certify_intervals;
+use crate::certified::{CertifiedIntervals, certify_intervals, certify_required_intervals};
 use crate::cli::arguments::{DecisionOptions, RunOptions};
 use crate::cli::destinations::Files;
 use crate::cli::input::{decision, known_names, only_parameter};
 use crate::cli::output::{note, write_answer};
 use crate::cli::picture::WRITES;
-use crate::cli::requirements::{RequirementOptions, refuse_proofs};
+use crate::cli::requirements::{RequirementOptions, refuse_theorems};
 use crate::cli::status::{Error, Outcome, Status};
 use crate::cli::written::{certified, check_certificate, share};
 use clap::Args;
 use jurist_engine::coverage::Asked;
+use jurist_engine::model::Model;
 use jurist_engine::problem::{DECAY, RADIUS};
 use jurist_engine::show::documents::Intervals;
 use jurist_engine::show::intervals_text;
@@ -73,8 +74,7 @@ fn run(options: &Options, context: &Context) -> Outcome {
     }
     let digits = output.digits() as usize;
     let (asked, question) = options.require.asked(&model, question.free(&name), &options.decision.region, context)?;
-    let any_proof = options.certificate.is_some() || options.smt2.is_some() || options.coq.is_some();
-    refuse_proofs(&asked, any_proof)?;
+    refuse_theorems(&asked, options.smt2.is_some() || options.coq.is_some())?;
     let problem = question.problem()?;
     let requirements = asked.list;
     let question = requirements.iter().fold(Asked::Intervals, |asked, r| asked.with_requirement(r, problem.time()));
@@ -85,6 +85,8 @@ fn run(options: &Options, context: &Context) -> Outcome {
             Ok(answer) => {
                 context.warn(None, problem.warnings());
                 context.answer(output, || answer.text(&requirements, digits), || answer.json(&requirements, digits))?;
+                let make = || certify_required_intervals(&answer, &requirements, at, &context.budget);
+                written(options, &model, (&name, &certified(context, &options.certificate, make)?), context)?;
                 Ok(Status::Holds)
             }
             Err(stopped) => {
@@ -115,13 +117,8 @@ fn run(options: &Options, context: &Context) -> Outcome {
     let document = || table.iter().fold(answer.json(digits), |document, t| document.with_sensitivities(t, digits));
     context.answer(output, text, document)?;
     // The answer is out, however long the certificate takes.
-    if let Some((certified, file)) =
-        &certified(context, &options.certificate, || certify_intervals(&answer, &context.budget))?
-    {
-        write_answer(&certified.text, Some(file))?;
-        if let Some(window) = certified.window.as_ref().filter(|_| !context.quiet) {
-            note(&format!("note: the certificate {}", share(&name, window, &certified.proved)));
-        }
+    let certified = certified(context, &options.certificate, || certify_intervals(&answer, &context.budget))?;
+    if certified.is_some() {
         let mut ends = answer.problem().parameter().closed_ends();
         if let Some(end) = ends.next().filter(|_| !context.quiet) {
             note(&format!(
@@ -129,7 +126,23 @@ fn run(options: &Options, context: &Context) -> Outcome {
                  jurist verdict --set {name}={end} --certificate FILE"
             ));
         }
-        check_certificate(context, &output.run, &model.source().text, &certified.text, file);
     }
+    written(options, &model, (&name, &certified), context)?;
     Ok(Status::Holds)
+}
+
+/// Writes a certificate, says how much it speaks of, and checks it.
+fn written(
+    options: &Options,
+    model: &Model,
+    (name, certified): (&str, &Option<(CertifiedIntervals, &OsString)>),
+    context: &Context,
+) -> Result<(), Error> {
+    let Some((certified, file)) = certified else { return Ok(()) };
+    write_answer(&certified.text, Some(file))?;
+    if let Some(window) = certified.window.as_ref().filter(|_| !context.quiet) {
+        note(&format!("note: the certificate {}", share(name, window, &certified.proved)));
+    }
+    check_certificate(context, &options.decision.output.run, &model.source().text, &certified.text, file);
+    Ok(())
 }

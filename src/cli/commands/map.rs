@@ -10,7 +10,7 @@ use crate::cli::destinations::Files;
 use crate::cli::input::{known_name, load, question};
 use crate::cli::output::{ending, note, unknown_ending, write_answer};
 use crate::cli::picture::{WRITES, pdf, png, write};
-use crate::cli::requirements::{RequirementOptions, refuse_proofs};
+use crate::cli::requirements::RequirementOptions;
 use crate::cli::status::{Error, Outcome, Status};
 use crate::cli::written::{certified, certify, check_certificate};
 use clap::Args;
@@ -18,7 +18,7 @@ use jurist_draw::figures::map::{MapContents, WindowRequest, choose_windows, trac
 use jurist_draw::page::map_page;
 #[cfg(feature = "cli")]
 use jurist_drive::published_limits;
-use jurist_engine::answer::{Answer, BoxRequest, Map, MapMethod, MapOrBoxes};
+use jurist_engine::answer::{Answer, BoxRequest, Map, MapBoxes, MapMethod, MapOrBoxes};
 use jurist_engine::coverage::Asked;
 use jurist_engine::error::{Code, Diagnostic, Error as EngineError};
 use jurist_engine::model::Model;
@@ -54,7 +54,7 @@ pub(in crate::cli) struct Options {
     #[arg(short = 'z', value_name = "NAME=LO..HI:N", allow_hyphen_values = true)]
     pub z: Option<String>,
     /// The points that are good for all values of another name in a range, both ends included; by boxes (can be given again)
-    #[arg(long = "for-all", value_name = "NAME=LO..HI", conflicts_with_all = ["z", "certificate"])]
+    #[arg(long = "for-all", value_name = "NAME=LO..HI", conflicts_with = "z")]
     pub for_all: Vec<String>,
     /// Draws x on a logarithmic axis [default: for positive ranges of two decades and more]
     #[arg(long, conflicts_with = "linear_x")]
@@ -154,17 +154,20 @@ fn run(options: &Options, context: &Context) -> Outcome {
         return map_body::run(z, options, &requests, picture, (&model, question), context);
     }
     let (asked, question) = options.require.asked_each(&model, question, &options.region, context)?;
-    refuse_proofs(&asked, options.certificate.is_some())?;
     let boxes = options.method.request(&requests, context)?;
     if !options.for_all.is_empty() {
         let all = ranges(&options.for_all, &model, context)?;
         let asked = MapForAll::new(all).with_requirements(asked.list, asked.at);
-        return map_boxes::for_all(&asked, question, (&boxes, options.method.method()), &options.output, context);
+        let found = match map_boxes::for_all(&asked, question, (&boxes, options.method.method()), context)? {
+            Ok(found) => found,
+            Err(stopped) => return Ok(context.say_undecided(&stopped)),
+        };
+        return of_boxes(&found, options, &model, context);
     }
     let mut method = options.method.method();
     let problem = question.plane_problem()?;
     if options.certificate.is_some() {
-        method = options.method.method_certified(&problem, &context.budget)?;
+        method = options.method.method_certified(&problem, &asked, &context.budget)?;
     }
     let question = match method {
         MapMethod::Boxes if asked.list.is_empty() => Asked::BoxMap,
@@ -182,18 +185,7 @@ fn run(options: &Options, context: &Context) -> Outcome {
             if let Some(line) = map_boxes::window_note(&found, &boxes) {
                 note(&line);
             }
-            let certificate = certified(context, &options.certificate, || {
-                certify_boxes(&found, &context.budget.share(CERTIFICATE.0, CERTIFICATE.1))
-            });
-            if let Ok(Some((certified, file))) = &certificate {
-                write_answer(&certified.text, Some(file))?;
-                note(&map_boxes::shares(certified));
-            }
-            let status = map_boxes::answer(&found, &options.output, context)?;
-            if let Some((certified, file)) = &certificate? {
-                check_certificate(context, &options.output.run, &model.source().text, &certified.text, file);
-            }
-            return Ok(status);
+            return of_boxes(&found, options, &model, context);
         }
         Err(stopped) => {
             let by_boxes = problem.ends_in_boxes(method, &boxes);
@@ -233,6 +225,21 @@ fn run(options: &Options, context: &Context) -> Outcome {
     let (run, text) = (&options.output.run, &model.source().text);
     certify(context, run, text, &options.certificate, || answer.certificate(&context.budget))?;
     Ok(Status::Holds)
+}
+
+/// The answer by boxes, with a certificate where a file for it is asked for.
+fn of_boxes(found: &Answer<MapBoxes>, options: &Options, model: &Model, context: &Context) -> Outcome {
+    let make = || certify_boxes(found, &context.budget.share(CERTIFICATE.0, CERTIFICATE.1));
+    let certificate = certified(context, &options.certificate, make);
+    if let Ok(Some((certified, file))) = &certificate {
+        write_answer(&certified.text, Some(file))?;
+        note(&map_boxes::shares(certified));
+    }
+    let status = map_boxes::answer(found, &options.output, context)?;
+    if let Some((certified, file)) = &certificate? {
+        check_certificate(context, &options.output.run, &model.source().text, &certified.text, file);
+    }
+    Ok(status)
 }
 
 /// The map, with the regions in which requirements are met.

@@ -16,7 +16,7 @@ use jurist_draw::page::map_boxes_page;
 use jurist_engine::answer::{Answer, BoxRequest, MapBoxes, MapMethod};
 use jurist_engine::error::{Code, Diagnostic, Error as EngineError};
 use jurist_engine::problem::{Problem, Question};
-use jurist_engine::response::MapForAll;
+use jurist_engine::response::{MapForAll, Requirements};
 use jurist_engine::stability::Range;
 use jurist_engine::stability::plane::boxes::Window;
 use std::path::Path;
@@ -55,7 +55,22 @@ impl MethodOptions {
     }
 
     /// The method of a map with a certificate: boxes where the exact map has none, unless that is asked for.
-    pub fn method_certified(&self, problem: &Problem, budget: &Budget) -> Result<MapMethod, Error> {
+    pub fn method_certified(
+        &self,
+        problem: &Problem,
+        asked: &Requirements,
+        budget: &Budget,
+    ) -> Result<MapMethod, Error> {
+        if !asked.list.is_empty() {
+            return match self.method {
+                MethodName::Exact => {
+                    Err(Diagnostic::error(Code::NoCertificate, "regions that meet requirements are certified by boxes")
+                        .help("leave out '--method exact'")
+                        .into())
+                }
+                MethodName::Boxes | MethodName::Auto => Ok(MapMethod::Boxes),
+            };
+        }
         let exact = problem.refuse_map_certificate(budget);
         match (self.method, exact) {
             (MethodName::Exact, Err(refusal)) => Err(refusal),
@@ -118,19 +133,17 @@ pub(super) fn for_all(
     asked: &MapForAll,
     question: Question,
     (request, method): (&BoxRequest, MapMethod),
-    output: &OutputOptions,
     context: &Context,
-) -> Outcome {
+) -> Result<Result<Answer<MapBoxes>, Exhausted>, Error> {
     if method == MapMethod::Exact {
         let error = Diagnostic::error(Code::Usage, "a map for all values of other names is made of boxes");
         return Err(error.help("leave out '--method exact'").into());
     }
-    let found = match decided(asked.boxes(question, request, &context.budget))? {
-        Ok(found) => found,
-        Err(stopped) => return Ok(context.say_undecided(&stopped)),
-    };
-    context.warn(None, found.problem().warnings());
-    answer(&found, output, context)
+    let found = decided(asked.boxes(question, request, &context.budget))?;
+    if let Ok(found) = &found {
+        context.warn(None, found.problem().warnings());
+    }
+    Ok(found)
 }
 
 /// Width and height of the picture.

@@ -1,6 +1,7 @@
 //! `jurist tolerance`: stable for every value within tolerances.
 
 use super::{Context, Runs, decided};
+use crate::certified::certify_tolerance;
 use crate::cli::arguments::{DecisionOptions, RunOptions};
 use crate::cli::assignments::in_line;
 use crate::cli::command_line::Place;
@@ -8,7 +9,7 @@ use crate::cli::destinations::Files;
 use crate::cli::input::{known_name, known_names, load, question};
 use crate::cli::output::{ending, note, write_beginning};
 use crate::cli::picture::{Kind, Picture, WRITES, deliver};
-use crate::cli::requirements::{RequirementOptions, refuse_proofs};
+use crate::cli::requirements::RequirementOptions;
 use crate::cli::status::{Error, Outcome, Status};
 use crate::cli::written::certify;
 use clap::Args;
@@ -91,7 +92,6 @@ fn run(options: &Options, context: &Context) -> Outcome {
     let model = load(options.decision.model.model.as_ref(), &options.decision.model.line, context)?;
     let question = question(context, &model, &options.decision.model, &options.decision.region)?;
     let (asked, question) = options.require.asked(&model, question, &options.decision.region, context)?;
-    refuse_proofs(&asked, options.certificate.is_some())?;
     let request = request(options, &model, context)?.require(asked.list, asked.at);
     let digits = output.digits() as usize;
     let begun = Begun::new(options, picture, context);
@@ -124,7 +124,14 @@ fn run(options: &Options, context: &Context) -> Outcome {
     context.explain(&options.decision.explain, output, answer.problem(), question)?;
     let status = shown(&answer, picture, &begun, options, context)?;
     let model = &answer.problem().model().source().text;
-    certify(context, &output.run, model, &options.certificate, || answer.certificate(&context.budget))?;
+    let at = request.at.as_deref();
+    certify(context, &output.run, model, &options.certificate, || {
+        let certified = certify_tolerance(&answer, at, &context.budget)?;
+        if let Some(factor) = certified.factor.as_ref().filter(|_| !context.quiet) {
+            note(&format!("note: the certificate is of the box with the factor {}", to_decimal(factor, 9)));
+        }
+        Ok(certified.text)
+    })?;
     Ok(status)
 }
 

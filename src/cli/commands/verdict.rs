@@ -1,12 +1,13 @@
 //! `jurist verdict`: one point.
 
 use super::{Context, Runs, decided};
+use crate::certified::certify_requirements;
 use crate::cli::arguments::{DecisionOptions, RunOptions};
 use crate::cli::destinations::Files;
 use crate::cli::input::decision;
 use crate::cli::output::write_answer;
 use crate::cli::picture::WRITES;
-use crate::cli::requirements::{RequirementOptions, refuse_proofs};
+use crate::cli::requirements::{RequirementOptions, refuse_theorems};
 use crate::cli::status::{Error, Outcome, Status};
 use crate::cli::written::certify;
 use clap::Args;
@@ -52,7 +53,7 @@ fn run(options: &Options, context: &Context) -> Outcome {
     let output = &options.decision.output;
     let (model, question) = decision(&options.decision, context)?;
     let (asked, question) = options.require.asked(&model, question, &options.decision.region, context)?;
-    refuse_proofs(&asked, options.certificate.is_some() || options.coq.is_some())?;
+    refuse_theorems(&asked, options.coq.is_some())?;
     let problem = question.problem()?;
     let question = asked.list.iter().fold(Asked::Verdict, |asked, r| asked.with_requirement(r, problem.time()));
     context.explain(&options.decision.explain, output, &problem, question)?;
@@ -90,7 +91,10 @@ fn run(options: &Options, context: &Context) -> Outcome {
     };
     context.answer(output, text, document)?;
     let model = &problem.model().source().text;
-    certify(context, &output.run, model, &options.certificate, || answer.certificate(&context.budget))?;
-    let met = found.iter().all(|r| r.met);
-    Ok(if met && answer.value().verdict == Verdict::Stable { Status::Holds } else { Status::DoesNotHold })
+    let good = found.iter().all(|r| r.met) && answer.value().verdict == Verdict::Stable;
+    certify(context, &output.run, model, &options.certificate, || match asked.list.as_slice() {
+        [] => answer.certificate(&context.budget),
+        list => certify_requirements(&problem, list, asked.at.as_deref(), good, &context.budget),
+    })?;
+    Ok(if good { Status::Holds } else { Status::DoesNotHold })
 }
