@@ -46,7 +46,7 @@ pub(super) struct Scope<'c> {
     pub dead_time: Option<DeadTime>,
     /// The variable that is the imaginary unit, where the name has no other meaning.
     pub unit: Option<usize>,
-    /// Whether the imaginary unit was read.
+    /// Whether the imaginary unit was read, or an imaginary part.
     pub has_unit: bool,
     /// A factor at a cut of the loop.
     pub factor: Option<(Cut, Fraction)>,
