@@ -30,8 +30,8 @@ use crate::{Limits, Rejection, Step};
 /// let [lower, upper] = [Part::Lower, Part::Upper].map(|half| judge.part(&whole, half, 0));
 /// assert_eq!(judge.sides(&upper)[0], ["1", "3"]);
 /// assert!(judge.shows(0, &mut judge.over(&upper, 0, false), true));
-/// let lower = judge.part(&lower, Part::Lower, 0);
-/// assert!(judge.shows(0, &mut judge.part(&judge.over(&lower, 0, true), Part::Middle, 1), false), "a from -1 to 0, b = 3/2");
+/// let lower = judge.part(&judge.part(&lower, Part::Lower, 0), Part::Low, 0);
+/// assert!(judge.shows(0, &mut judge.part(&judge.over(&lower, 0, true), Part::Middle, 1), false), "a = -1, b = 3/2");
 /// ```
 pub struct ForAllJudge {
     statement: Statement,
