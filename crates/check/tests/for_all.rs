@@ -151,18 +151,18 @@ fn what_holds_for_all_values_of_names_is_told() {
     let asked = Asked::of("continuous").for_all(three);
     let (found, statement) = accepted(&model, &asked);
     assert_eq!(found, '+');
-    assert_eq!(statement, "For all K from 1/2 to 1, a from 1 to 2 and b from 9 to 10, the loop is stable.");
+    assert_eq!(statement, "For all K from 1/2 to 1 and a from 1 to 2 and b from 9 to 10, the loop is stable.");
     let with = asked.clone().require(format!("{}, {}", phase(INPUT, 45.0), other("gain_margin", INPUT, "4")));
     let (found, statement) = accepted(&model, &with);
-    let words = "stable with a phase margin of more than 45 degrees at the input of 'plant' and a gain margin of more than a factor of 4 at the \
+    let words = "stable, with a phase margin of at least 45 degrees at the input of 'plant' and a gain margin of at least 4 both ways at the \
                  input of 'plant'";
     assert_eq!(
         (found, statement),
-        ('+', format!("For all K from 1/2 to 1, a from 1 to 2 and b from 9 to 10, the loop is {words}."))
+        ('+', format!("For all K from 1/2 to 1 and a from 1 to 2 and b from 9 to 10, the loop is {words}."))
     );
     let beyond = with.beyond(r#"{"point": ["20", "1", "10"], "not": "0<d."}"#);
     let (_, statement) = accepted(&model, &beyond);
-    assert!(statement.ends_with(&format!(" For K = 20, a = 1 and b = 10 the loop is not {words}.")), "{statement}");
+    assert!(statement.ends_with(&" At K = 20, a = 1, b = 10, it is not."), "{statement}");
     let not_beyond = beyond.beyond(r#"{"point": ["1/2", "1", "10"], "not": "0."}"#);
     let (certificate, _) = written(&model, &not_beyond, 0, 300);
     assert_eq!(check(&model, &certificate, &LIMITS).unwrap_err().step, Step::Stable);
@@ -171,7 +171,7 @@ fn what_holds_for_all_values_of_names_is_told() {
     let (found, statement) = accepted(&model, &Asked::of("continuous").for_all(more));
     assert_eq!(
         (found, statement.as_str()),
-        ('-', "For some K from 1/2 to 30, a from 1 to 2 and b from 9 to 10, the loop is not stable.")
+        ('-', "Not for all K from 1/2 to 30 and a from 1 to 2 and b from 9 to 10, the loop is stable.")
     );
 }
 
@@ -186,9 +186,9 @@ fn axes_have_parts_of_both_kinds() {
     let statement = check(&model, &certificate, &LIMITS).unwrap().statement;
     assert!(tree.contains('+') && tree.contains('-'), "{tree}");
     // For a = 1 the bound is K = sqrt(2).
-    let words = "For K from 1/4 to 4, for all a from 1 to 2, the loop is stable with a phase margin of more than 45 degrees at the input of \
-                 'plant' for 1/4 <= K <= 361/256. For no value in 391/256 <= K <= 4 is that so. Nothing is said of the rest.";
-    assert!(statement.starts_with(&words[..120]), "{statement}");
+    let words = "For K from 1/4 to 4, for all a from 1 to 2, the loop is stable, with a phase margin of at least 45 degrees at the input of 'plant', \
+                 for 1/4 <= K <= 349/256, and not so for any value in 91/64 <= K <= 4. Nothing is said of the rest.";
+    assert_eq!(statement, words);
     let two = Asked {
         axes: r#"{"name": "K", "between": ["1/4", "4"]}, {"name": "a", "between": ["1", "2"]}"#,
         for_all: "",
@@ -197,10 +197,7 @@ fn axes_have_parts_of_both_kinds() {
     let (certificate, tree) = written(&model, &two, 6, 60);
     let statement = check(&model, &certificate, &LIMITS).unwrap().statement;
     assert!(tree.contains('+') && tree.contains('-'), "{tree}");
-    assert!(
-        statement.contains("in all boxes '+' of the tree. At no point of its boxes '-' is that so. They are at least"),
-        "{statement}"
-    );
+    assert!(statement.contains("in all boxes '+' of the tree, and nowhere in its boxes '-': at least"), "{statement}");
 }
 
 /// A loop with two rates: gains are real, and other factors are not read.
@@ -243,6 +240,7 @@ fn texts_that_break_a_rule_are_rejected_where_they_do() {
         (Step::Format, one("\"bits\": 128", "\"bits\": 32")),
         (Step::Format, one("\"order\": 3", "\"order\": 3, \"more\": 1")),
         (Step::Statement, one("\"beyond\": null", "\"beyond\": {\"point\": [], \"not\": \"0.\"}")),
+        (Step::Statement, one("[\"1/2\", \"3/4\"]", &format!("[\"1/2\", \"{}\"]", "9".repeat(1400)))),
         (Step::Statement, one("\"kind\": \"for_all\"", "\"kind\": \"boxes\"")),
         (Step::Statement, one("[\"1/2\", \"3/4\"]", "[\"3/4\", \"1/2\"]")),
         (Step::Statement, one("\"axes\": []", &format!("\"axes\": [{0}, {0}, {0}]", range.replace('K', "c")))),
@@ -256,7 +254,7 @@ fn texts_that_break_a_rule_are_rejected_where_they_do() {
         (Step::Statement, one("{\"signal\": \"y\"}", "{\"signal\": \"y\", \"input\": \"plant\"}")),
         (Step::Statement, one("{\"signal\": \"y\"}", "{\"signal\": \"y y\"}")),
         (Step::Statement, one("{\"signal\": \"y\"}", "{\"output\": \"y\"}")),
-        (Step::Statement, one("{\"input\": \"plant\"}", "{\"input\": \"plant' and more\"}")),
+        (Step::Model, one("{\"input\": \"plant\"}", "{\"input\": \"plant' and more\"}")),
         // Below the tangent, above it, and no range of angles at all.
         (Step::Statement, one("\"414213/1000000\", \"414214/1000000\"", "\"414213/1000000\", \"414213/1000000\"")),
         (Step::Statement, one("\"414213/1000000\", \"414214/1000000\"", "\"414214/1000000\", \"414214/1000000\"")),
@@ -266,7 +264,6 @@ fn texts_that_break_a_rule_are_rejected_where_they_do() {
         (Step::Model, one("{\"signal\": \"y\"}", "{\"signal\": \"r\"}")),
         (Step::Model, one("{\"signal\": \"y\"}", "{\"signal\": \"K\"}")),
         (Step::Model, one("{\"signal\": \"y\"}", "{\"parameter\": \"y\"}")),
-        (Step::Model, one("{\"signal\": \"y\"}", "{\"parameter\": \"c\"}")),
         (Step::Model, one("{\"input\": \"plant\"}", "{\"input\": \"y\"}")),
         (Step::Model, one("\"set\": {\"a\": \"1\"}", "\"set\": {}")),
         (Step::Model, one("\"set\": {\"a\": \"1\"}", "\"set\": {\"a\": \"1\", \"K\": \"1\"}")),
@@ -282,7 +279,6 @@ fn texts_that_break_a_rule_are_rejected_where_they_do() {
         (Step::Line, one("+..", "-2.")),
         (Step::Line, one("+..", "-0ma")),
         (Step::Line, one("+..", "-0mc.")),
-        (Step::Line, one("+..", "-0mama.")),
         (Step::Line, one("+..", "-0xa.")),
         (Step::Line, one("+..", "*")),
         (Step::Stable, one("+..", "-0.")),
