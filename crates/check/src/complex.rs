@@ -116,7 +116,9 @@ impl Scope<'_> {
     }
 
     /// `conj(f)`, `re(f)` or `im(f)`.
-    pub(super) fn of_complex(&self, name: &str, f: &Fraction) -> Result<Fraction, String> {
+    pub(super) fn of_complex(&mut self, name: &str, f: &Fraction) -> Result<Fraction, String> {
+        // It is half the difference from what is conjugated, over the unit.
+        self.has_unit |= name == "im";
         if f.numerator.degree(0) > 0 || f.denominator.degree(0) > 0 {
             return Err("a function of the loop's variable".into());
         }

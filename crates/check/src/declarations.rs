@@ -98,8 +98,10 @@ impl<'t> Declarations<'t> {
         if self.discrete { "z" } else { "s" }
     }
 
-    pub fn is_parameter(&self, name: &str) -> bool {
-        self.parameters.contains(&name)
+    /// Whether a name is a parameter, or a constant given as a number.
+    pub fn is_parameter(&self, name: &str, clock: &Clock) -> bool {
+        let constant = self.constants.iter().find(|(constant, _)| *constant == name);
+        self.parameters.contains(&name) || constant.is_some_and(|(_, value)| number(value, clock).is_ok())
     }
 
     pub fn is_taken(&self, name: &str) -> bool {

@@ -46,7 +46,7 @@ pub(super) struct Scope<'c> {
     pub dead_time: Option<DeadTime>,
     /// The variable that is the imaginary unit, where the name has no other meaning.
     pub unit: Option<usize>,
-    /// Whether the imaginary unit was read.
+    /// Whether the imaginary unit was read, or an imaginary part.
     pub has_unit: bool,
     /// A factor at a cut of the loop.
     pub factor: Option<(Cut, Fraction)>,
@@ -170,6 +170,14 @@ impl<'c> Scope<'c> {
             Some(c) => Err(format!("'{}' is not expected here", c.escape_debug())),
         });
         value.map_err(|e| format!("{e}, in '{}'", shorten(text)))
+    }
+
+    /// The value of a name, with the factor if the loop is cut there.
+    fn with_factor(&self, name: &str, value: Fraction) -> Result<Fraction, String> {
+        match &self.factor {
+            Some((Cut::Parameter(cut), factor)) if cut == name => value.times(factor, self.clock),
+            _ => Ok(value),
+        }
     }
 
     /// `1/value`, noting the divisor.
@@ -420,11 +428,7 @@ impl<'t> Parser<'_, '_, 't> {
             return Ok(Linear { constant: Fraction::number(&Q::zero()), signals });
         }
         if let Some(&i) = self.scope.parameters.get(name) {
-            let own = Fraction::variable(i);
-            return Ok(plain(match &self.scope.factor {
-                Some((Cut::Parameter(cut), factor)) if cut == name => own.times(factor, self.scope.clock)?,
-                _ => own,
-            }));
+            return Ok(plain(self.scope.with_factor(name, Fraction::variable(i))?));
         }
         if let ("pi", false, Some(moving)) = (name, is_known, self.scope.moving.as_mut()) {
             return Ok(plain(moving.pi()));
@@ -433,8 +437,9 @@ impl<'t> Parser<'_, '_, 't> {
             self.scope.has_unit = true;
             return Ok(plain(Fraction::variable(unit)));
         }
-        let constant = self.scope.constants.get(name);
-        constant.cloned().map(plain).ok_or_else(|| format!("unknown name '{}'", shorten(name)))
+        let constant = self.scope.constants.get(name).cloned();
+        let constant = constant.ok_or_else(|| format!("unknown name '{}'", shorten(name)))?;
+        Ok(plain(self.scope.with_factor(name, constant)?))
     }
 
     fn number(&mut self) -> Result<Linear, String> {

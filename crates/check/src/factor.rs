@@ -4,6 +4,7 @@ use super::clock::Clock;
 use super::complex::square;
 use super::multivariate::{Fraction, Multi};
 use super::number::{Q, Z};
+use super::over_symbols::primitive;
 
 /// Where a factor is put in.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -98,7 +99,10 @@ impl Family {
         let [top, below] = self.quotient(first, unit, clock)?;
         let may_vanish = matches!(self, Family::Complementary(_));
         let all = if may_vanish { vec![below] } else { vec![below, top] };
-        let mut squares: Vec<Multi> = all.iter().map(|m| square(m, unit, clock)).collect::<Result<_, _>>()?;
+        let mut squares = Vec::with_capacity(all.len());
+        for m in all {
+            squares.extend(primitive(vec![square(&m, unit, clock)?], clock)?);
+        }
         squares.retain(|p| !p.is_constant());
         squares.dedup();
         Ok(squares)

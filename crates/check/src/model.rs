@@ -120,7 +120,7 @@ fn read_for(
             let plain = evaluated(&root, &declared, (&meaning, is_moving), Some(of), clock)?;
             let (Cut::Parameter(name) | Cut::Signal(name) | Cut::Input(name)) = &factor.cut;
             let is_parameter = matches!(factor.cut, Cut::Parameter(_));
-            if is_parameter && !declared.is_parameter(name) {
+            if is_parameter && !declared.is_parameter(name, clock) {
                 return Err(format!("the loop has no parameter '{}' to be cut at", shorten(name)));
             }
             if !is_parameter && !matches!(plain.form, Form::System(..)) {

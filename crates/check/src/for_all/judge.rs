@@ -4,7 +4,7 @@ use super::{SHARE, Statement, read};
 use crate::clock::Clock;
 use crate::format::Json;
 use crate::map_boxes::{JudgedBox, OneLoop, Parts, on_a_large_stack};
-use crate::number::{Q, Z};
+use crate::number::{Q, Z, rational};
 use crate::{Limits, Rejection, Step};
 
 /// Decides boxes as the check of a certificate for all values does. Who writes a certificate asks it what a checker can see.
@@ -30,8 +30,8 @@ use crate::{Limits, Rejection, Step};
 /// let [lower, upper] = [Part::Lower, Part::Upper].map(|half| judge.part(&whole, half, 0));
 /// assert_eq!(judge.sides(&upper)[0], ["1", "3"]);
 /// assert!(judge.shows(0, &mut judge.over(&upper, 0, false), true));
-/// let lower = judge.part(&lower, Part::Lower, 0);
-/// assert!(judge.shows(0, &mut judge.part(&judge.over(&lower, 0, true), Part::Middle, 1), false), "a from -1 to 0, b = 3/2");
+/// let lower = judge.part(&judge.part(&lower, Part::Lower, 0), Part::Low, 0);
+/// assert!(judge.shows(0, &mut judge.part(&judge.over(&lower, 0, true), Part::Middle, 1), false), "a = -1, b = 3/2");
 /// ```
 pub struct ForAllJudge {
     statement: Statement,
@@ -107,9 +107,21 @@ impl ForAllJudge {
         debug_assert_eq!(parts.share, SHARE);
         let requirements = statement.require.iter().map(Some);
         let all: Vec<_> = if statement.require.is_empty() { vec![None] } else { requirements.collect() };
-        let one = |requirement| OneLoop::new(model, &statement.question(requirement), parts, &clock);
+        let one = |requirement| {
+            OneLoop::new(model, &statement.question(requirement, statement.window.clone()), parts, &clock)
+        };
         let loops = all.into_iter().map(one).collect::<Result<Vec<_>, _>>()?;
         Ok(ForAllJudge { statement, clock, loops })
+    }
+
+    /// A loop that is known at the point beyond.
+    pub(super) fn beyond(&self, number: usize, model: &str, parts: &Parts) -> Result<Option<OneLoop>, Rejection> {
+        let Some(beyond) = self.statement.beyond.as_ref().filter(|_| self.loops[number].is_enclosed) else {
+            return Ok(None);
+        };
+        let point = beyond.point.iter().map(|x| [x.clone(), x.clone()]).collect();
+        let question = self.statement.question(self.statement.require.get(number), point);
+        OneLoop::new(model, &question, parts, &self.clock).map(Some)
     }
 
     pub(super) fn statement(&self) -> &Statement {
@@ -118,6 +130,10 @@ impl ForAllJudge {
 
     pub(super) fn clock(&self) -> &Clock {
         &self.clock
+    }
+
+    pub(super) fn of_number(&self, number: usize) -> &OneLoop {
+        &self.loops[number]
     }
 
     /// The number of loops: that of requirements, or 1 where there are none.
@@ -138,6 +154,24 @@ impl ForAllJudge {
     /// The same where the axes have the sides that they have in another box, of any of the loops.
     pub fn over(&self, axes: &JudgedBox, number: usize, refute: bool) -> JudgedBox {
         self.over_axes(&axes.sides()[..self.statement.axes], number, refute)
+    }
+
+    /// A point of the names for all, where there are no axes, in their ranges or not: with `refute`, as a point beyond. With several rates its own
+    /// judge has to be asked, of a certificate with these values for ranges.
+    ///
+    /// # Errors
+    /// Where there is not one number, a quotient of two integers, for each of these names.
+    pub fn at(&self, point: &[&str], number: usize) -> Result<JudgedBox, String> {
+        if self.statement.axes > 0 || point.len() != self.statement.names.len() {
+            return Err("there is not one number for each name".into());
+        }
+        let point = point.iter().map(|x| rational(x)).collect::<Result<Vec<_>, _>>()?;
+        Ok(self.at_point(&point, number))
+    }
+
+    pub(super) fn at_point(&self, point: &[Q], number: usize) -> JudgedBox {
+        let whole = self.over_axes(&[], number, true);
+        point.iter().enumerate().fold(whole, |part, (axis, x)| part.with_side(axis, [x.clone(), x.clone()]))
     }
 
     pub(super) fn over_axes(&self, axes: &[[Q; 2]], number: usize, refute: bool) -> JudgedBox {

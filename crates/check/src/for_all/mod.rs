@@ -7,7 +7,7 @@ mod walk;
 
 use crate::clock::Clock;
 use crate::format::Json;
-use crate::map_boxes::{Parts, Question, ends};
+use crate::map_boxes::{Parts, Question, ends, is_long};
 use crate::number::Q;
 use crate::statement::{Extent, fixed_extent, identifier, list, number, object, text, values};
 use crate::{Proved, Rejection, Step, is_discrete};
@@ -69,8 +69,8 @@ impl Statement {
             Json::Null => None,
             json => Some(Beyond::read(json, for_all.len())?),
         };
-        if beyond.is_some() && (!axes.is_empty() || for_all.is_empty()) {
-            return Err("a point beyond goes with names for all, and with no axes".into());
+        if beyond.is_some() && !axes.is_empty() {
+            return Err("a point beyond goes with no axes".into());
         }
         let axes_count = axes.len();
         let (names, window) = axes.into_iter().chain(for_all).unzip();
@@ -78,13 +78,8 @@ impl Statement {
         Ok(Statement { discrete, names, axes: axes_count, window, set, extent, require, tree, beyond })
     }
 
-    /// What is asked of the loop with this number. Each is asked about its whole window, with a point beyond.
-    fn question(&self, requirement: Option<&Requirement>) -> Question {
-        let mut window = self.window.clone();
-        for ([low, high], x) in window.iter_mut().zip(self.beyond.iter().flat_map(|beyond| &beyond.point)) {
-            *low = x.min(low).clone();
-            *high = x.max(high).clone();
-        }
+    /// What is asked of the loop with a requirement, where the names have these ranges.
+    fn question(&self, requirement: Option<&Requirement>, mut window: Vec<[Q; 2]>) -> Question {
         window.extend(requirement.into_iter().flat_map(|own| own.ranges(true, false)));
         Question {
             discrete: self.discrete,
@@ -100,7 +95,8 @@ impl Statement {
 impl Beyond {
     fn read(json: &Json, names: usize) -> Result<Self, String> {
         let [point, not] = object(json, "'beyond'", ["point", "not"], &[])?;
-        let point = list(point, "'point'")?.iter().map(|x| number(x, "'point'")).collect::<Result<Vec<_>, _>>()?;
+        let point =
+            list(point, "'point'")?.iter().map(|x| short(number(x, "'point'")?)).collect::<Result<Vec<_>, _>>()?;
         if point.len() != names {
             return Err("'point' has not one value for each name for all".into());
         }
@@ -113,9 +109,15 @@ fn ranges(json: &Json, what: &str, may_be_one: bool) -> Result<Vec<(String, [Q; 
     let mut out: Vec<(String, [Q; 2])> = Vec::new();
     for range in list(json, what)? {
         let [name, between] = object(range, "a range", ["name", "between"], &[])?;
-        out.push((identifier(text(name, "'name'")?)?.to_owned(), ends(between, may_be_one)?));
+        let [low, high] = ends(between, may_be_one)?;
+        out.push((identifier(text(name, "'name'")?)?.to_owned(), [short(low)?, short(high)?]));
     }
     Ok(out)
+}
+
+/// A number of a statement.
+fn short(q: Q) -> Result<Q, String> {
+    if is_long(&q) { Err("a number has too many digits".into()) } else { Ok(q) }
 }
 
 /// What is said, and how it is to be shown.
@@ -130,5 +132,6 @@ pub(super) fn check(model: &str, json: &Json, clock: Clock) -> Result<Proved, Re
     let (statement, parts) = read(json)?;
     let judge = ForAllJudge::of(model, statement, &parts, clock)?;
     let walked = judge.walk()?;
+    judge.walk_beyond(model, &parts)?;
     Ok(Proved { statement: judge.statement().in_words(&walked), kind: "for_all" })
 }

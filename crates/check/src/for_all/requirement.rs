@@ -1,5 +1,6 @@
 //! Requirements on margins.
 
+use super::short;
 use crate::clock::Clock;
 use crate::factor::{Cut, Factor, Family};
 use crate::format::Json;
@@ -33,7 +34,7 @@ impl Requirement {
             let [_, at, bound] = object(json, "a requirement", ["kind", "at", "bound"], &[])?;
             (at, bound, None)
         };
-        let bound = number(bound, "'bound'")?;
+        let bound = short(number(bound, "'bound'")?)?;
         let between = |low: u32, high: Option<u32>| {
             let of = |n: u32| Q::from(Z::from(n));
             bound > of(low) && high.is_none_or(|high| bound < of(high))
@@ -71,15 +72,16 @@ impl Requirement {
     pub fn in_words(&self) -> String {
         let bound = exact(&self.bound);
         let what = match self.factor.family {
-            Family::Turn => format!("a phase margin of more than {bound} degrees"),
-            Family::Gain => format!("a gain margin of more than a factor of {bound}"),
-            Family::Modulus(_) => format!("a modulus margin of more than {bound}"),
-            Family::Disk(_) => format!("a disk margin of more than {bound}"),
-            Family::Complementary(_) => format!("a peak of the complementary sensitivity of less than {bound}"),
+            Family::Turn => format!("a phase margin of at least {bound} degrees"),
+            Family::Gain => format!("a gain margin of at least {bound} both ways"),
+            Family::Modulus(_) => format!("a modulus margin of at least {bound}"),
+            Family::Disk(_) => format!("a disk margin of at least {bound}"),
+            Family::Complementary(_) => format!("a peak of the complementary sensitivity of at most {bound}"),
         };
         match &self.factor.cut {
-            Cut::Signal(name) | Cut::Parameter(name) => format!("{what} at {name}"),
-            Cut::Input(name) => format!("{what} at the input of '{name}'"),
+            Cut::Signal(name) => format!("{what} at {name}"),
+            Cut::Parameter(name) => format!("{what} at the parameter {name}"),
+            Cut::Input(name) => format!("{what} at the input of '{}'", name.replace(char::is_control, " ")),
         }
     }
 }
@@ -91,10 +93,7 @@ fn cut(json: &Json) -> Result<Cut, String> {
     match key.as_str() {
         "signal" => Ok(Cut::Signal(identifier(name)?.to_owned())),
         "parameter" => Ok(Cut::Parameter(identifier(name)?.to_owned())),
-        // A block may be called anything; in a sentence the name stands between quotes.
-        "input" if name.chars().any(|c| c == '\'' || c.is_control()) => {
-            Err("the name of a block has a quote or a control character".into())
-        }
+        // A block may be called anything.
         "input" => Ok(Cut::Input(name.to_owned())),
         other => Err(format!("'at' has an unknown key '{}'", crate::number::shorten(other))),
     }
@@ -103,7 +102,7 @@ fn cut(json: &Json) -> Result<Cut, String> {
 /// Two numbers around the tangent of half an angle in degrees.
 fn turns(json: &Json, angle: &Q) -> Result<[Q; 2], String> {
     let [below, above] = list(json, "'turns'")? else { return Err("'turns' has not two numbers".into()) };
-    let (below, above) = (number(below, "'turns'")?, number(above, "'turns'")?);
+    let (below, above) = (short(number(below, "'turns'")?)?, short(number(above, "'turns'")?)?);
     if !below.is_positive() {
         return Err("'turns' are not positive".into());
     }

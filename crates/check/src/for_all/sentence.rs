@@ -1,83 +1,88 @@
 //! What a certificate for all values says.
 
-use super::Statement;
+use super::{Requirement, Statement};
 use crate::map_boxes::{Walked, percent};
+use crate::number::Q;
 use crate::verdict;
 use crate::words::{exact, inward};
-use std::fmt::Write;
 
-/// `a`, `a and b`, `a, b and c`.
-fn joined(all: &[String]) -> String {
-    match all {
-        [] => String::new(),
-        [one] => one.clone(),
-        [most @ .., last] => format!("{} and {last}", most.join(", ")),
-    }
+/// `a = 1, b = 2`.
+fn at_values<'v>(values: impl Iterator<Item = (&'v String, &'v Q)>) -> String {
+    values.map(|(name, q)| format!("{name} = {}", exact(q))).collect::<Vec<_>>().join(", ")
 }
 
 impl Statement {
+    /// The ranges of names for all are exact: what is not so for all values of a range need not be in a smaller one.
     pub(super) fn in_words(&self, walked: &Walked) -> String {
-        let sides = self.names.iter().zip(&self.window);
-        let ranges: Vec<String> = sides
-            .map(|(name, [low, high])| {
-                let [low, high] = inward(low, high);
-                format!("{name} from {low} to {high}")
-            })
-            .collect();
-        let (axes, for_all) = ranges.split_at(self.axes);
+        let require: Vec<String> = self.require.iter().map(Requirement::in_words).collect();
         let within = verdict::within(&self.extent, self.discrete);
-        let require: Vec<String> = self.require.iter().map(super::Requirement::in_words).collect();
-        let with = if require.is_empty() { String::new() } else { format!(" with {}", joined(&require)) };
-        let good = format!("stable{within}{with}");
-        let letter = walked.pieces.first().map_or('?', |(letter, _)| *letter);
-        let mut out = String::new();
-        let begin = |out: &mut String, words: &str, what: &[String]| {
-            if !what.is_empty() {
-                let _ = write!(out, "{}{words} {}", if out.is_empty() { "" } else { ", " }, joined(what));
+        let joint = if require.is_empty() { " " } else { ", " };
+        let good = |with: &str| match require.is_empty() {
+            true => format!("stable{within}"),
+            false => format!("stable{within}{with}{}", require.join(" and ")),
+        };
+        let (axes, for_all) = self.window.split_at(self.axes);
+        let inner = || self.names[self.axes..].iter().zip(for_all);
+        let ranges = inner().filter(|(_, [low, high])| low < high);
+        let every: Vec<String> =
+            ranges.map(|(name, [low, high])| format!("{name} from {} to {}", exact(low), exact(high))).collect();
+        let every = if every.is_empty() { String::new() } else { format!("or all {}", every.join(" and ")) };
+        let fixed = inner().filter(|(_, [low, high])| low == high).map(|(name, [low, _])| (name, low));
+        let values = at_values(fixed.chain(self.set.iter().map(|(name, q)| (name, q))));
+        let with_values = if values.is_empty() { String::new() } else { format!(", with {values}") };
+        let yes = good(", with ");
+        if axes.is_empty() {
+            return self.of_one_point(walked, [&every, &values, &with_values], [&yes, &good(" with ")]);
+        }
+        let axes: Vec<String> = self.names.iter().zip(axes).map(of_axis).collect();
+        let axes = axes.join(" and ");
+        let every = if every.is_empty() { String::new() } else { format!(", f{every}") };
+        let begin = format!("For {axes}{every}{with_values}");
+        let said = if self.axes == 2 {
+            let [more, less, _] = walked.shares.each_ref().map(percent);
+            format!(
+                "the loop is {yes}{joint}in all boxes '+' of the tree, and nowhere in its boxes '-': at least {more} % and {less} % of the window."
+            )
+        } else {
+            let (more, less) = (walked.ranges('+', &self.names[0]), walked.ranges('-', &self.names[0]));
+            match (more.is_empty(), less.is_empty()) {
+                (false, false) => {
+                    format!("the loop is {yes}{joint}for {more}, and not so for any value in {less}.")
+                }
+                (false, true) => format!("the loop is {yes}{joint}for {more}."),
+                (true, false) => format!("the loop is not {yes}{joint}for any value in {less}."),
+                (true, true) => "nothing is said of the loop.".into(),
             }
         };
-        begin(&mut out, "for", axes);
-        begin(&mut out, if self.axes == 0 && letter == '-' { "for some" } else { "for all" }, for_all);
-        let set: Vec<String> = self.set.iter().map(|(name, q)| format!("{name} = {}", exact(q))).collect();
-        begin(&mut out, "with", &set);
-        if !out.is_empty() {
-            out.push_str(", ");
-        }
-        match self.axes {
-            0 => drop(match letter {
-                '+' => write!(out, "the loop is {good}"),
-                '-' => write!(out, "the loop is not {good}"),
-                _ => write!(out, "nothing is said of whether the loop is {good}"),
-            }),
-            1 => {
-                let name = &self.names[0];
-                let (yes, no) = (walked.ranges('+', name), walked.ranges('-', name));
-                let _ = match yes.is_empty() {
-                    true => write!(out, "for no value is the loop shown to be {good}"),
-                    false => write!(out, "the loop is {good} for {yes}"),
-                };
-                if !no.is_empty() {
-                    let _ = write!(out, ". For no value in {no} is that so");
-                }
-                out.push_str(". Nothing is said of the rest");
+        format!("{begin}, {said} Nothing is said of the rest.")
+    }
+
+    /// Where there are no axes: of names for all, of the values of others, and of what is good, or not.
+    fn of_one_point(&self, walked: &Walked, [every, values, with_values]: [&str; 3], [yes, no]: [&str; 2]) -> String {
+        let letter = walked.pieces.first().map_or('?', |(letter, _)| *letter);
+        let mut out = if letter == '-' && !every.is_empty() {
+            format!("Not f{every}{with_values}, the loop is {yes}.")
+        } else {
+            let begin = match (every.is_empty(), values.is_empty()) {
+                (false, _) => format!("F{every}{with_values}, the"),
+                (true, false) => format!("At {values}, the"),
+                (true, true) => "The".into(),
+            };
+            match letter {
+                '+' => format!("{begin} loop is {yes}."),
+                '-' => format!("{begin} loop is not {no}."),
+                _ => format!("{begin} loop may be stable or not: nothing is said of it."),
             }
-            _ => {
-                let [yes, no, _] = walked.shares.each_ref().map(percent);
-                let _ = write!(
-                    out,
-                    "the loop is {good} in all boxes '+' of the tree. At no point of its boxes '-' is that so. They are at least {yes} % and {no} % of the \
-                     window. Nothing is said of the rest"
-                );
-            }
-        }
-        out.push('.');
+        };
         if let Some(beyond) = &self.beyond {
-            let point: Vec<String> =
-                self.names.iter().zip(&beyond.point).map(|(name, x)| format!("{name} = {}", exact(x))).collect();
-            let _ = write!(out, " For {} the loop is not {good}.", joined(&point));
+            let at = at_values(self.names.iter().zip(&beyond.point));
+            out += &if at.is_empty() { " It is not.".to_owned() } else { format!(" At {at}, it is not.") };
         }
-        let first = out.remove(0).to_ascii_uppercase();
-        out.insert(0, first);
         out
     }
+}
+
+fn of_axis((name, [low, high]): (&String, &[Q; 2])) -> String {
+    let [low, high] = inward(low, high);
+    format!("{name} from {low} to {high}")
 }

@@ -1,7 +1,8 @@
 //! The walk over the tree of a certificate for all values.
 
-use super::{Beyond, ForAllJudge, Part};
-use crate::map_boxes::{JudgedBox, MAX_DEPTH, Walked};
+use super::{ForAllJudge, Part};
+use crate::clock::Clock;
+use crate::map_boxes::{JudgedBox, MAX_DEPTH, OneLoop, Parts, Walked};
 use crate::number::{Q, Z};
 use crate::{Rejection, Step};
 use num_traits::One;
@@ -31,8 +32,8 @@ impl ForAllJudge {
             Step::Line.of(self.clock().tick())?;
             let letter = letters.next().ok_or_else(|| line("the tree ends too early"))?;
             match letter {
-                '+' => (0..self.loops()).try_for_each(|k| self.proof(k, &axes, depth, &mut letters))?,
-                '-' => self.refutation(&axes, depth, &mut letters)?,
+                '+' => (0..self.loops()).try_for_each(|k| self.proof(k, &axes, &mut letters))?,
+                '-' => self.refutation(&axes, &mut letters)?,
                 '?' => {}
                 other => {
                     let axis = axis(other).filter(|axis| *axis < axes.len());
@@ -58,15 +59,12 @@ impl ForAllJudge {
         if letters.next().is_some() {
             return Err(line("something follows the tree"));
         }
-        if let Some(beyond) = &of.beyond {
-            self.beyond(beyond)?;
-        }
         Ok(walked)
     }
 
     /// That a loop is stable for all values of the names that are no axes.
-    fn proof(&self, k: usize, axes: &[[Q; 2]], depth: usize, letters: &mut Chars<'_>) -> Result<(), Rejection> {
-        let mut stack = vec![(self.over_axes(axes, k, false), depth)];
+    fn proof(&self, k: usize, axes: &[[Q; 2]], letters: &mut Chars<'_>) -> Result<(), Rejection> {
+        let mut stack = vec![(self.over_axes(axes, k, false), 0)];
         while let Some((mut part, depth)) = stack.pop() {
             Step::Line.of(self.clock().tick())?;
             match letters.next().ok_or_else(|| line("a proof ends too early"))? {
@@ -90,10 +88,10 @@ impl ForAllJudge {
     }
 
     /// That a loop is not stable for some values of the names that are no axes, the same for all points of the axes.
-    fn refutation(&self, axes: &[[Q; 2]], depth: usize, letters: &mut Chars<'_>) -> Result<(), Rejection> {
+    fn refutation(&self, axes: &[[Q; 2]], letters: &mut Chars<'_>) -> Result<(), Rejection> {
         let k = self.number(letters)?;
-        let part = self.over_axes(axes, k, true);
-        self.not_stable(k, part, depth, letters)
+        let part = self.stepped(k, self.over_axes(axes, k, true), letters)?;
+        not_stable(self.of_number(k), k, part, self.clock())
     }
 
     /// The number of a loop.
@@ -102,15 +100,9 @@ impl ForAllJudge {
         k.filter(|k| *k < self.loops()).ok_or_else(|| line("a leaf '-' does not say of which loop it is"))
     }
 
-    /// That a loop is stable nowhere in a part of a box.
-    fn not_stable(
-        &self,
-        k: usize,
-        mut part: JudgedBox,
-        mut depth: usize,
-        letters: &mut Chars<'_>,
-    ) -> Result<(), Rejection> {
-        loop {
+    /// The part of a box to which steps lead.
+    fn stepped(&self, k: usize, mut part: JudgedBox, letters: &mut Chars<'_>) -> Result<JudgedBox, Rejection> {
+        for depth in 0.. {
             Step::Line.of(self.clock().tick())?;
             let letter = letters.next().ok_or_else(|| line("a leaf '-' ends too early"))?;
             if letter == '.' {
@@ -121,26 +113,31 @@ impl ForAllJudge {
             let own = self.statement().axes..self.names(k);
             let axis = axis.filter(|axis| own.contains(axis)).ok_or_else(|| line("a step has no name, or an axis"))?;
             deeper(depth)?;
-            has_width(&part, axis)?;
             part = self.part(&part, step, axis);
-            depth += 1;
         }
-        if !self.shown(k, &mut part, false).map_err(stable)? {
-            return Err(stable(format!("a leaf '-' is not shown for loop {k}: {part}")));
-        }
-        Ok(())
+        Ok(part)
     }
 
-    fn beyond(&self, beyond: &Beyond) -> Result<(), Rejection> {
+    /// That the point beyond is not good.
+    pub(super) fn walk_beyond(&self, model: &str, parts: &Parts) -> Result<(), Rejection> {
+        let Some(beyond) = &self.statement().beyond else { return Ok(()) };
         let mut letters = beyond.not.chars();
         let k = self.number(&mut letters)?;
-        let mut part = self.over_axes(&[], k, true);
-        for (axis, x) in beyond.point.iter().enumerate() {
-            part = part.with_side(axis, [x.clone(), x.clone()]);
+        let part = self.stepped(k, self.at_point(&beyond.point, k), &mut letters)?;
+        match self.beyond(k, model, parts)? {
+            Some(of) => not_stable(&of, k, part, self.clock())?,
+            None => not_stable(self.of_number(k), k, part, self.clock())?,
         }
-        self.not_stable(k, part, 0, &mut letters)?;
         if letters.next().is_some() { Err(line("something follows the point beyond")) } else { Ok(()) }
     }
+}
+
+/// That a loop is stable nowhere in a part of a box.
+fn not_stable(of: &OneLoop, k: usize, mut part: JudgedBox, clock: &Clock) -> Result<(), Rejection> {
+    if !of.shown(&mut part, false, clock).map_err(stable)? {
+        return Err(stable(format!("a leaf '-' is not shown for loop {k}: {part}")));
+    }
+    Ok(())
 }
 
 fn halves([low, high]: &[Q; 2]) -> [[Q; 2]; 2] {

@@ -20,7 +20,8 @@ use headings::{Headings, Piece, push_clear, roots_to_the_right};
 use local::{FREQUENCY_BITS, Local, Part};
 use num_traits::{Signed, Zero};
 use std::ops::{Range, RangeInclusive};
-use terms::{Terms, Time, is_long};
+pub(crate) use terms::is_long;
+use terms::{Terms, Time};
 use turn::Turns;
 
 /// Powers of two, relative to the size of the roots in the middle of the window, between which the highest power of `s` is to outweigh the rest.

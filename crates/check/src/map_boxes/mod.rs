@@ -14,6 +14,7 @@ use crate::number::Q;
 use crate::statement::{Extent, axes, count, fixed_extent, list, number, object, text, values};
 use crate::words::{exact, inward};
 use crate::{Proved, Rejection, Step, is_discrete, verdict};
+pub(crate) use delayed::is_long;
 pub use judge::BoxJudge;
 pub(super) use judge::on_a_large_stack;
 use num_traits::{One, Zero};

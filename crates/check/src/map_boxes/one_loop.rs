@@ -16,6 +16,8 @@ pub(crate) struct OneLoop {
     window: Vec<[Q; 2]>,
     /// Whether it is complex without its factor.
     pub is_complex: bool,
+    /// Whether it is known over its window alone.
+    pub is_enclosed: bool,
     of: Kind,
 }
 
@@ -93,7 +95,8 @@ impl OneLoop {
         } else {
             Polynomial::new(own, sources, of, parts, clock).map(Kind::Polynomial)
         };
-        Ok(OneLoop { window: of.window.clone(), is_complex, of: Step::Model.of(kind)? })
+        let is_enclosed = matches!(by, By::Enclosures { .. });
+        Ok(OneLoop { window: of.window.clone(), is_complex, is_enclosed, of: Step::Model.of(kind)? })
     }
 
     /// A box of which nothing is known yet.

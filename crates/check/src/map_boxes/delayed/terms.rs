@@ -82,7 +82,7 @@ impl Time {
     }
 }
 
-pub(super) fn is_long(q: &Q) -> bool {
+pub(crate) fn is_long(q: &Q) -> bool {
     q.numer().bits().max(q.denom().bits()) > MAX_BITS
 }
 

@@ -1,0 +1,169 @@
+//! Changed certificates: what is accepted is true.
+
+use crate::truth::{Plant, is_true};
+use crate::writer::{Asked, LIMITS, written};
+use crate::{INPUT, SIGNAL, loop_of, other, phase};
+use jurist_check::check;
+
+/// Numbers that look random.
+struct Draw(u64);
+
+impl Draw {
+    fn below(&mut self, bound: usize) -> usize {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 33) as usize % bound.max(1)
+    }
+}
+
+fn third() -> Plant {
+    Plant {
+        model: loop_of("continuous", "K/(s*(s + a)*(s/5 + 1))", "parameters = { K = {}, a = {} }"),
+        time: "continuous",
+        open: |of| {
+            let (k, a) = (of["K"], of["a"]);
+            [vec![[0.0, 0.0], [a, 0.0], [1.0 + a / 5.0, 0.0], [0.2, 0.0]], vec![[k, 0.0]]]
+        },
+    }
+}
+
+fn sampled() -> Plant {
+    Plant {
+        model: loop_of("discrete", "K/(z*(z - a))", "parameters = { K = {}, a = {} }"),
+        time: "discrete",
+        open: |of| [vec![[0.0, 0.0], [-of["a"], 0.0], [1.0, 0.0]], vec![[of["K"], 0.0]]],
+    }
+}
+
+fn complex() -> Plant {
+    Plant {
+        model: loop_of("continuous", "(2 + j)*K/(s + a)", "parameters = { K = {}, a = {} }"),
+        time: "continuous",
+        open: |of| [vec![[of["a"], 0.0], [1.0, 0.0]], vec![[2.0 * of["K"], of["K"]]]],
+    }
+}
+
+const K: &str = r#"{"name": "K", "between": ["1/2", "3/4"]}"#;
+const K_AND_A: &str = r#"{"name": "K", "between": ["1/2", "3/4"]}, {"name": "a", "between": ["1/2", "2/3"]}"#;
+const A: &str = r#"{"name": "a", "between": ["1/2", "2/3"]}"#;
+const SET: &str = r#""a": "2/3""#;
+
+fn asked() -> Vec<(Plant, Asked)> {
+    let both = format!("{}, {}", phase(INPUT, 30.0), other("gain_margin", SIGNAL, "5/4"));
+    let of = |plant: Plant| {
+        let time = plant.time;
+        (plant, Asked { order: 2, ..Asked::of(time) })
+    };
+    let mut out = Vec::new();
+    for (plant, asked) in [of(third()), of(sampled()), of(complex())] {
+        let _ = &plant;
+        let model = plant.model.clone();
+        let again = || Plant { model: model.clone(), time: plant.time, open: plant.open };
+        out.push((again(), asked.clone().for_all(K_AND_A).require(&*both)));
+        out.push((again(), asked.clone().axes(K).for_all(A)));
+        out.push((again(), asked.clone().axes(K).set(SET).require(phase(INPUT, 40.0))));
+        for (kind, bound) in
+            [("modulus_margin", "2/5"), ("disk_margin", "1/3"), ("complementary_peak", "2"), ("gain_margin", "2")]
+        {
+            out.push((again(), asked.clone().set(r#""K": "1/2", "a": "1""#).require(other(kind, INPUT, bound))));
+        }
+        out.push((again(), asked.clone().for_all(K_AND_A).beyond(r#"{"point": ["-9", "1/2"], "not": "0."}"#)));
+    }
+    out
+}
+
+/// Places of the texts between quotes that begin like numbers, and of the tree.
+fn texts(certificate: &str) -> Vec<(usize, usize)> {
+    let quotes: Vec<usize> = certificate.match_indices('"').map(|(i, _)| i).collect();
+    quotes.chunks(2).map(|pair| (pair[0] + 1, pair[1])).collect()
+}
+
+fn changed(certificate: &str, draw: &mut Draw) -> String {
+    const NUMBERS: [&str; 14] =
+        ["0", "1", "2", "1/2", "-1", "3/4", "-1/2", "5", "1/100", "179", "90", "9/10", "1/1000000", "100"];
+    const WORDS: [&str; 12] = [
+        "phase_margin",
+        "gain_margin",
+        "modulus_margin",
+        "disk_margin",
+        "complementary_peak",
+        "signal",
+        "input",
+        "parameter",
+        "K",
+        "a",
+        "y",
+        "plant",
+    ];
+    let mut out = certificate.to_owned();
+    let all = texts(certificate);
+    let is_number = |text: &str| text.starts_with(|c: char| c.is_ascii_digit() || c == '-') && !text.contains('.');
+    let numbers: Vec<_> = all.iter().filter(|(i, k)| is_number(&certificate[*i..*k])).collect();
+    match draw.below(8) {
+        0..=3 => {
+            let (i, k) = numbers[draw.below(numbers.len())];
+            let old = &certificate[*i..*k];
+            let new = match draw.below(4) {
+                0 => NUMBERS[draw.below(NUMBERS.len())].to_owned(),
+                // A little more, or less.
+                n => {
+                    let (top, below) = old.split_once('/').unwrap_or((old, "1"));
+                    let (top, below): (i64, i64) = (top.parse().unwrap_or(1), below.parse().unwrap_or(1));
+                    let step = [100, 97, 130, 60][draw.below(4)] + n as i64;
+                    format!("{}/{}", top * step, below * 100)
+                }
+            };
+            out.replace_range(*i..*k, &new);
+        }
+        4 => {
+            let words: Vec<_> = all.iter().filter(|(i, k)| WORDS.contains(&&certificate[*i..*k])).collect();
+            let Some((i, k)) = words.get(draw.below(words.len())) else { return out };
+            out.replace_range(*i..*k, WORDS[draw.below(WORDS.len())]);
+        }
+        _ => {
+            let at = certificate.find("\"tree\": \"").expect("a tree") + 9;
+            let end = at + certificate[at..].find('"').expect("its end");
+            let i = at + draw.below(end - at);
+            let letter =
+                [".", "+", "-", "a", "b", "c", "d", "0", "1", "m", "l", "u", "<", ">", "?", "-0.", "+.", "+.."]
+                    [draw.below(18)];
+            match draw.below(3) {
+                0 => out.replace_range(i..=i, letter),
+                1 => out.insert_str(i, letter),
+                _ => out.replace_range(i..=i, ""),
+            }
+        }
+    }
+    out
+}
+
+/// `JURIST_CHANGES=1000` looks at so many changes.
+#[test]
+fn what_is_accepted_of_changed_certificates_is_true() {
+    let count = std::env::var("JURIST_CHANGES").ok().and_then(|n| n.parse().ok()).unwrap_or(60);
+    let (mut draw, mut told) = (Draw(7), 0);
+    let all: Vec<(Plant, String)> = asked()
+        .into_iter()
+        .map(|(plant, asked)| {
+            let (certificate, tree) = written(&plant.model, &asked, 4, 200);
+            let proved = check(&plant.model, &certificate, &LIMITS).unwrap_or_else(|e| panic!("{e}\n{certificate}"));
+            assert!(is_true(&plant, &certificate), "{proved:?}\n{certificate}");
+            told += usize::from(tree.contains(['+', '-']));
+            (plant, certificate)
+        })
+        .collect();
+    assert!(told >= 18, "{told} of {}", all.len());
+    let mut accepted = 0;
+    for _ in 0..count {
+        let (plant, certificate) = &all[draw.below(all.len())];
+        let mut own = changed(certificate, &mut draw);
+        if draw.below(3) == 0 {
+            own = changed(&own, &mut draw);
+        }
+        if let Ok(proved) = check(&plant.model, &own, &LIMITS) {
+            assert!(is_true(plant, &own), "{proved:?}\n{}\n{own}", plant.model);
+            accepted += 1;
+        }
+    }
+    println!("{accepted} of {count} are accepted");
+    assert!(accepted * 20 > count, "{accepted} of {count}");
+}
