@@ -1573,18 +1573,21 @@ class Enclosed:
         return [c for list_ in out for c in list_], most
 
     def coefficients(self, rows, degree, known, asked, bits):
-        """Of z^k x^i y^j in the determinant, with so many of the variables from 2 on left and the values of the others; all times one number."""
+        """Of the powers of z and the names of a box in the determinant. Of each name it is said whether it is left; the others have values, which
+        are known. All times one number."""
         entries = []
         for row in rows:
             out = {}
             for column, p in enumerate(row):
                 for e, c in p.items():
-                    powers = [e >> FIELD * v & MASK if v < 2 + asked else 0 for v in (0, 2, 3)]
-                    term, e = (c << self.bits, 0), e >> FIELD * (2 + asked)
-                    for f in known[asked:]:
-                        for _ in range(e & MASK):
-                            spend(2, self.bits, size([term[0]]))
-                            term = self.times(term, f)
+                    powers, term, e = [e & MASK, *[0] * len(asked)], (c << self.bits, 0), e >> 2 * FIELD
+                    for v, f in enumerate(known):
+                        if v < len(asked) and asked[v]:
+                            powers[1 + v] = e & MASK
+                        else:
+                            for _ in range(e & MASK):
+                                spend(2, self.bits, size([term[0]]))
+                                term = self.times(term, f)
                         e >>= FIELD
                     old = out.setdefault(column, {}).get(tuple(powers), (0, 0))
                     out[column][tuple(powers)] = old[0] + term[0], old[1] + term[1]
@@ -1593,13 +1596,13 @@ class Enclosed:
                 out[column][powers] = f
             entries.append(out)
         counts = [degree + 1]
-        for v in (1, 2):
+        for v in range(1, len(asked) + 1):
             sizes = [{column: max(powers[v] for powers in e) for column, e in row.items()} for row in entries]
             columns = [max((row.get(column, 0) for row in sizes), default=0) for column in range(len(rows))]
             counts.append(1 + min(sum(max(row.values(), default=0) for row in sizes), sum(columns)))
         allow(prod(counts) <= 800, "a determinant by enclosures has too many values")
 
-        def at(x, y):
+        def at(point):
             nodes, values = [], []
             for z in (sign * k for k in range(2, degree + 12) for sign in (1, -1)):  # usual roots are at none of them
                 if len(nodes) > degree:
@@ -1607,7 +1610,7 @@ class Enclosed:
                 numbers = []
                 for row in entries:
                     spend(sum(map(len, row.values())), self.bits, 64)
-                    powers = {c: [(f, z ** k * x ** i * y ** j) for (k, i, j), f in e.items()] for c, e in row.items()}
+                    powers = {c: [(f, prod(x ** k for x, k in zip((z, *point), powers))) for powers, f in e.items()] for c, e in row.items()}
                     sums = {c: (sum(f[0] * q for f, q in terms), sum(f[1] * abs(q) for f, q in terms)) for c, terms in powers.items()}
                     numbers.append({c: f for c, f in sums.items() if f != (0, 0)})
                 found = self.determinant(numbers)
@@ -1617,10 +1620,17 @@ class Enclosed:
             need(len(nodes) > degree, "a determinant by enclosures is not told from zero")
             return self.interpolated(nodes, values)
 
-        x_nodes, y_nodes = ([k // 2 + 1 if k % 2 else -k // 2 for k in range(count)] for count in counts[1:])
-        planes = [self.interpolated(x_nodes, [at(x, y) for x in x_nodes]) for y in y_nodes]
-        found, _ = self.balanced(self.interpolated(y_nodes, planes)[0], bits)
-        powers = [(k, i, j) for j in range(counts[2]) for i in range(counts[1]) for k in range(counts[0])]
+        def over(point):
+            """With values for the last names, in the powers of the first, of which that of z runs fastest."""
+            if len(point) == len(asked):
+                return at(point)
+            nodes = [k // 2 + 1 if k % 2 else -k // 2 for k in range(counts[len(asked) - len(point)])]
+            return self.interpolated(nodes, [over((x, *point)) for x in nodes])
+
+        found, _ = self.balanced(over(())[0], bits)
+        powers = [()]
+        for count in counts:
+            powers = [(*others, k) for k in range(count) for others in powers]
         return dict(zip(powers, found))
 
 def loop_of(text, kept, values, boxed=(), symbols=None):
@@ -2129,14 +2139,14 @@ def over_box(text, names, values, symbols=None, enclosed=None):
     elif enclosed:
         sides, bits = enclosed
         rows = [cleared([e.tops.get(name, ZERO).at(values) for name in loop.unknowns]) for e in loop.equations]
-        models, first = Models(1, 2 * bits + 128), moving.next - len(values)
+        models, first = Models(1, 2 * bits + 128, len(sides)), moving.next - len(values)
         known = moving.values([models.coordinate(*side, i) for i, side in enumerate(sides)], models)
         known = [(f[0][0], beside_constant(f)) for f in known]
-        asked = sum(low != high for low, high in sides)
+        asked = [low != high for low, high in sides]
         found = Enclosed(models.bits).coefficients(rows, loop.degree, known, asked, bits)
         moving.sources.append(("numbers", list(found.values())))
-        d = sum((P({k | (i << 2 * FIELD | j << 3 * FIELD if sides else 0) | 1 << FIELD * (first + v): 1})
-                 for v, (k, i, j) in enumerate(found)), ZERO)
+        d = sum((P({sum((k << FIELD * (2 + i) for i, k in enumerate(powers)), z) | 1 << FIELD * (first + v): 1})
+                 for v, (z, *powers) in enumerate(found)), ZERO)
     else:
         d = system(loop.equations, loop.unknowns)
         need(d.degree(0) <= loop.degree, "a determinant has too high a degree")
@@ -2527,21 +2537,34 @@ def check_map(model, document, statement, values, discrete, extent):
 class TooWide(Exception):
     """A series does not reach over a box: nothing is shown of it."""
 
-class Models:
-    """Functions of two coordinates from -1 to 1 as pairs: coefficients of a polynomial up to a total degree, by degree, then by the power
-    of the second coordinate, in units of 2^-bits; and a bound of what is left out."""
+def of_degree(degree, names):
+    """The exponents of the monomials in so many names, falling powers of the first name first."""
+    if names < 2:
+        return [(degree,) * names] if names or not degree else []
+    return [(k, *rest) for k in range(degree, -1, -1) for rest in of_degree(degree - k, names - 1)]
 
-    def __init__(self, order, bits):
-        self.order, self.bits, self.one = order, bits, 1 << bits
-        self.exponents = [(d - j, j) for d in range(order + 1) for j in range(d + 1)]
+class Models:
+    """Functions of coordinates from -1 to 1, one for each name, as pairs: coefficients of a polynomial up to a total degree, by degree, then by
+    falling powers of the first coordinate, in units of 2^-bits; and a bound of what is left out."""
+
+    def __init__(self, order, bits, names=2):
+        self.order, self.bits, self.one, self.names = order, bits, 1 << bits, names
+        spend(2 * comb(2 * names + order, order))
+        levels = [of_degree(d, names) for d in range(order + 1)]
+        self.exponents = sum(levels, [])
         at = {e: k for k, e in enumerate(self.exponents)}
         # Where the products of a coefficient with the first others are that are not of too high a degree.
-        self.places = [[at[i + k, j + l] for k, l in self.exponents if i + j + k + l <= order] for i, j in self.exponents]
-        self.degrees = [slice(d * (d + 1) // 2, (d + 1) * (d + 2) // 2) for d in range(order + 1)]
-        # ((u + shift)/2)^n in units of 2^-order, for both axes and shifts.
-        self.ways = {(axis, shift): [[(at[(k, j) if axis == 0 else (i, k)], comb((i, j)[axis], k) * shift ** ((i, j)[axis] - k)
-                                      << order - (i, j)[axis]) for k in range((i, j)[axis] + 1)] for i, j in self.exponents]
-                     for axis in (0, 1) for shift in (-1, 1)}
+        below = list(accumulate(map(len, levels)))
+        self.places = [[at[tuple(map(int.__add__, e, other))] for other in self.exponents[:below[order - sum(e)]]] for e in self.exponents]
+        self.degrees = [slice(end - len(level), end) for end, level in zip(below, levels)]
+        self.at, self.ways = at, {}
+
+    def way(self, axis, shift):
+        """((u + shift)/2)^n in units of 2^-order."""
+        if (axis, shift) not in self.ways:
+            self.ways[axis, shift] = [[(self.at[(*e[:axis], k, *e[axis + 1:])], comb(e[axis], k) * shift ** (e[axis] - k)
+                                        << self.order - e[axis]) for k in range(e[axis] + 1)] for e in self.exponents]
+        return self.ways[axis, shift]
 
     def units(self, c, rest=0):
         return [c, *[0] * (len(self.exponents) - 1)], rest
@@ -2609,7 +2632,7 @@ class Models:
         out = []
         for shift in (-1, 1):
             c = [0] * len(f[0])
-            for x, ways in zip(f[0], self.ways[axis, shift]):
+            for x, ways in zip(f[0], self.way(axis, shift)):
                 if x:
                     for place, way in ways:
                         c[place] += x * way
@@ -2870,7 +2893,7 @@ class Moving:
         return [f for m in out for row in m for f in row]
 
 class OverBoxes:
-    """Polynomials in two parameters and what depends on them, over boxes."""
+    """Polynomials in the names of a box and what depends on them, over boxes."""
 
     def __init__(self, polynomials, sources, models):
         self.sources, self.models, self.monomials, self.powers = sources, models, {}, {}
@@ -2878,7 +2901,7 @@ class OverBoxes:
         for p in polynomials:
             row = {}
             for e, c in p.items():
-                power, monomial = e >> 2 * FIELD & (MASK << FIELD | MASK), e >> 4 * FIELD
+                power, monomial = e >> 2 * FIELD & (1 << models.names * FIELD) - 1, e >> (2 + models.names) * FIELD
                 row.setdefault(self.monomials.setdefault(monomial, len(self.monomials)), []).append(
                     (self.powers.setdefault(power, len(self.powers)), c))
             self.rows.append(row)
@@ -2904,7 +2927,7 @@ class OverBoxes:
             return out
 
         powers = [product(e, 0) or tables[0][0] for e in self.powers]
-        monomials = [product(e, 2) for e in self.monomials]
+        monomials = [product(e, models.names) for e in self.monomials]
         found = []
         for row in self.rows:
             total = models.units(0)
@@ -2945,13 +2968,13 @@ def holds(d, e, o):
         return all(sign_of(f) == (1 if sum(d) > 0 else -1) for f in (o if d[0] == 0 else e))
     return all(sign_of(summed(multiplied(f, d[0]), g, d[1])) > 0 for f, g in zip(e, o))
 
-def half_plane(last, e, o):
+def half_plane(last, e, o, names):
     """One that all values are in: around an axis, or across the ways on which they change most; None if that is not found."""
     k = len(e) // 2
     for d in (*last, *AXES):
         if holds(d, e, o):
             return d
-    ways = [(e[k][0][i], o[k][0][i]) for i in (1, 2)] + [[c[-1][0][0] - c[0][0][0] for c in (e, o)]]
+    ways = [(e[k][0][i], o[k][0][i]) for i in range(1, names + 1)] + [[c[-1][0][0] - c[0][0][0] for c in (e, o)]]
     return next((d for x, y in ways for d in across(x, y, (e[k][0][0], o[k][0][0])) if holds(d, e, o)), None)
 
 def roots_to_the_right(p, models):
@@ -2978,12 +3001,12 @@ def roots_to_the_right(p, models):
         e, o, halvings = todo.pop()
         seen += 1
         spend(8 * (n + 1), models.bits)
-        found = half_plane([direction], e, o)
+        found = half_plane([direction], e, o, models.names)
         if found and turn(direction, found) is not None:
             turns, direction = turns + turn(direction, found), found
             continue
         # Where not even one point of the axis is told from a root there is nothing to halve for.
-        if not all(half_plane([], [e[i]], [o[i]]) for i in (0, -1)) or halvings >= 64 or seen >= 2000:
+        if not all(half_plane([], [e[i]], [o[i]], models.names) for i in (0, -1)) or halvings >= 64 or seen >= 2000:
             return None
         spend((k + 1) ** 2 * len(e[0][0]) // 4, models.bits)
         lower, upper = [], []
@@ -3185,9 +3208,10 @@ class Turns:
 class Delayed:
     """A polynomial in s times exp(-tau s), over a box: the coefficients as models, the dead time's middle and changes, none for no delay."""
 
-    def __init__(self, coefficients, delay, bits):
-        self.about = [[c[0][way] for c in coefficients] for way in range(3)]
-        moduli = [abs(u) + abs(v) for u, v in zip(*self.about[1:])]
+    def __init__(self, coefficients, delay, models):
+        bits = models.bits
+        self.about = [[c[0][way] for c in coefficients] for way in range(models.names + 1)]
+        moduli = [sum(map(abs, ways)) for ways in zip(*self.about[1:])]
         self.rest = [beside_constant(c) - x + 8 for c, x in zip(coefficients, moduli)]  # and roundings
         self.change = [x + r for x, r in zip(moduli, self.rest)]
         self.derivative = derivative(self.about[0])
@@ -3200,13 +3224,13 @@ class Delayed:
             self.spread = sum(abs(x) + 1 for x in self.changes)
 
 def local(parts, middle, half, turns, bits):
-    """The function about the middle of a stretch of the axis and of a box: its value, the changes by half of either side and of the stretch,
+    """The function about the middle of a stretch of the axis and of a box: its value, the changes by half of each side and of the stretch,
     what is off that at most, and the derivative by the frequency with how far it is off."""
     far, one = middle + half, 1 << bits
     above = (far >> FREQUENCY_BITS) + 2
-    value, by_u, by_v, slope, rest, slope_rest = [0, 0], [0, 0], [0, 0], [0, 0], 0, 0
+    rest, slope_rest, *totals = 0, 0, *([0, 0] for _ in range(len(parts[0].about) + 1))
     for part in parts:
-        p, u, v = (on_axis(c, middle) for c in part.about)
+        p, *ways = (on_axis(c, middle) for c in part.about)
         d = on_axis(part.derivative, middle)
         d = -d[1], d[0]
         change_slope, second = at_most(part.change_slope, far), at_most(part.second, far)
@@ -3229,7 +3253,7 @@ def local(parts, middle, half, turns, bits):
                 return z[1] * by >> bits, -(z[0] * by >> bits)
 
             changed = []
-            for z, time in zip((u, v), part.changes):
+            for z, time in zip(ways, part.changes):
                 more = back(p, middle * time >> FREQUENCY_BITS)
                 changed.append((z[0] + more[0], z[1] + more[1]))
             more = back(p, part.floor)
@@ -3237,16 +3261,17 @@ def local(parts, middle, half, turns, bits):
             d_size = modulus(d)
             rounded = 2 * p_size * above + sum(map(modulus, changed))
             c, s = turn
-            p, u, v, d = ((x * c + y * s >> bits, y * c - x * s >> bits) for x, y in (p, *changed, d))
+            p, d, *ways = ((x * c + y * s >> bits, y * c - x * s >> bits) for x, y in (p, d, *changed))
             # exp(-i x) is off 1 - i x by at most x^2/2, and off 1 by at most x.
             square = up(part.spread * half, FREQUENCY_BITS) + up(angle * angle, bits + 1)
             slope_rounded = (p_size + d_size >> bits - 3) + 64
             rest += bent + up(p_size * square + off * angle, bits) + (rounded >> bits - 3) + 64 + up(slope_rounded * half, FREQUENCY_BITS)
             slope_rest += slope_off + up(longest * off + part.spread * (p_size + off) + d_size * angle, bits) + slope_rounded
-        for total, z in zip((value, by_u, by_v, slope), (p, u, v, d)):
+        for total, z in zip(totals, (p, d, *ways)):
             total[0] += z[0]
             total[1] += z[1]
-    vectors = value, by_u, by_v, [x * half >> FREQUENCY_BITS for x in slope]
+    value, slope, *ways = totals
+    vectors = value, *ways, [x * half >> FREQUENCY_BITS for x in slope]
     far = max(size([*(x for z in vectors for x in z), rest]) - 56, 0)
     own = max(size([*slope, slope_rest]) - 56, 0)
     return [(x >> far, y >> far) for x, y in vectors], (rest >> far) + 8, (slope[0] >> own, slope[1] >> own), (slope_rest >> own) + 4
@@ -3383,27 +3408,27 @@ class Walk:
         return True
 
 def times_range(time, sides):
-    """The least and the greatest value of a + b x + c y."""
+    """The least and the greatest value of a + b x + c y + ..."""
     ends = [sorted(slope * end for end in side) for slope, side in zip(time[1:], sides)]
-    return time[0] + ends[0][0] + ends[1][0], time[0] + ends[0][1] + ends[1][1]
+    return time[0] + sum(least for least, _ in ends), time[0] + sum(most for _, most in ends)
 
 class JudgeOfDelays:
     """Whether boxes are stable everywhere, or nowhere. What is known of one is the way along the axis."""
 
     def __init__(self, own, divisors, sources, sides, models):
         need(all(name == "delay" for name, *_ in sources.sources), "beside dead time the loop has other functions")
-        self.times = [self.time(*f) for _, f in sources.sources]
-        n, self.models = len(own) - 1, models
+        n, self.models, names, behind_names = len(own) - 1, models, models.names, (2 + models.names) * FIELD
+        self.times = [self.time(*f, names) for _, f in sources.sources]
         self.n, self.turns = n, Turns(models.bits)
         divisors = divisors[:-1] if sources.has_lead_last else divisors  # it is looked at where the highest power is to outweigh the rest
-        need(not any(e >> 4 * FIELD for ways in divisors for p in ways for e in p), "a divisor depends on the dead time")
+        need(not any(e >> behind_names for ways in divisors for p in ways for e in p), "a divisor depends on the dead time")
         parts = {}
         for j, p in enumerate(cleared(own)):
             for e, c in p.items():
-                total, behind = (Fraction(0),) * 3, e >> 4 * FIELD
+                total, behind = (Fraction(0),) * (names + 1), e >> behind_names
                 for time in self.times:
                     total, behind = tuple(x + (behind & MASK) * y for x, y in zip(total, time)), behind >> FIELD
-                part, e = parts.setdefault(total, [P() for _ in own]), e & (1 << 4 * FIELD) - 1
+                part, e = parts.setdefault(total, [P() for _ in own]), e & (1 << behind_names) - 1
                 part[j] = part[j] + P({e: c})
         parts = sorted((time, part) for time, part in parts.items() if any(part))
         leads = [k for k, (_, part) in enumerate(parts) if part[n]]
@@ -3414,7 +3439,7 @@ class JudgeOfDelays:
         parts = [part for _, part in parts]
         need(not any(self.is_long(end) for side in sides for end in side), "an end of the window has too many digits")
         lengths = [x.numerator.bit_length() - x.denominator.bit_length() for x in (max(map(abs, side)) for side in sides)]
-        sizes = [max((c.bit_length() + sum((e >> FIELD * (2 + i) & MASK) * lengths[i] for i in (0, 1)) for p in column for e, c in p.items()),
+        sizes = [max((c.bit_length() + sum((e >> FIELD * (2 + i) & MASK) * lengths[i] for i in range(names)) for p in column for e, c in p.items()),
                      default=None) for column in zip(*parts)]
         self.scale = w = max(((x - sizes[n]) // (n - j) + 1 for j, x in enumerate(sizes[:n]) if x is not None), default=0)
         need(abs(w) <= 1000, "the frequencies are too low or too high")
@@ -3427,9 +3452,10 @@ class JudgeOfDelays:
         self.functions = OverBoxes(functions, Moving(), models)
 
     @staticmethod
-    def time(top, bottom):
-        need(not any(bottom) and all(e >> 2 * FIELD in (0, 1, 1 << FIELD) for e in top), "a dead time is not linear in the two parameters")
-        time = tuple(Fraction(top.get(e << 2 * FIELD, 0), bottom[0]) for e in (0, 1, 1 << FIELD))
+    def time(top, bottom, names):
+        places = 0, *(1 << FIELD * (2 + i) for i in range(names))
+        need(not any(bottom) and set(top) <= set(places), "a dead time is not linear in the names of the box")
+        time = tuple(Fraction(top.get(e, 0), bottom[0]) for e in places)
         need(not any(map(JudgeOfDelays.is_long, time)), "a dead time has too many digits")
         return time
 
@@ -3481,7 +3507,7 @@ class JudgeOfDelays:
         for part, time, (least, most) in zip(parts, self.delays, delays):
             changes = (slope * (high - low) / 2 * factor for slope, (low, high) in zip(time[1:], sides))
             delay = ((least + most) / 2 * factor, *changes) if any(time) else None
-            scaled.append(Delayed([halved(c, down) for c in part], delay, bits))
+            scaled.append(Delayed([halved(c, down) for c in part], delay, self.models))
         walk = Walk(scaled, self.turns, bits, way[1])
         way = way[0], walk.pieces
         right = roots_beside(walk.pieces, n, way[0]) if walk.is_whole else None
@@ -4306,7 +4332,7 @@ def walk(d, n, discrete, certain, identity, factors, line, low, high, ring):
 
 def places_by_enclosures(model, values, extent, bits):
     """The degree, and how many roots are inside and outside; none is on the boundary, and none at infinity."""
-    sources, models = Moving(), Models(1, bits)
+    sources, models = Moving(), Models(1, bits, 0)
     is_discrete, d, divisors, doubled = over_box(model, [], values, sources, ([], bits))
     need(is_discrete and not any(name == "delay" for name, *_ in sources.sources), "the model's time is another")
     known = sources.values([], models)
