@@ -257,12 +257,17 @@ def number(x):
     return P({0: x}) if x else ZERO
 
 UNIT = 1 << 950 * FIELD  # the imaginary unit, behind all other variables
+FACTOR = 1 << 951 * FIELD  # the complex factor of a loop that is cut, of which nothing has a real part until it has a value
 
 def is_real(*polynomials):
     return all(e < UNIT for p in polynomials for e in p)
 
+def has_unit(p):
+    return any(e >> 950 * FIELD & MASK for e in p)
+
 def re_im(p):
     """The real and the imaginary part."""
+    need(max(p, default=0) < FACTOR, "the factor of the cut is inside of what must be a number")
     found = {}, {}
     for e, c in p.items():
         k, e = divmod(e, UNIT)
@@ -274,7 +279,15 @@ def with_unit(x, y):
 
 def short(p):
     """With j^2 = -1."""
-    return p if max(p, default=0) < 2 * UNIT else with_unit(*re_im(p))
+    if max(p, default=0) < 2 * UNIT:
+        return p
+    spend(2 * len(p))
+    out = {}
+    for e, c in p.items():
+        k = e >> 950 * FIELD & MASK
+        e -= (k - k % 2) * UNIT
+        out[e] = out.get(e, 0) + (c if k % 4 < 2 else -c)
+    return P.of(out)
 
 def conjugated(p):
     x, y = re_im(p)
@@ -493,13 +506,14 @@ class Scope:
 
     exponential = None  # exp(-tau s), where it is read
 
-    def __init__(self, constants, variables, moving=None, unit=None):
+    def __init__(self, constants, variables, moving=None, unit=None, cut=None):
+        self.cut = cut if cut and cut.kind == "parameter" else None
         self.moving = moving  # functions, where they are read
         self.unit = unit  # whether j is the imaginary unit; None where there are nothing but numbers
         need(len(variables) < 900, "there are too many parameters")  # HIGHEST
         self.matrices = {name: c for name, c in constants.items() if isinstance(c, list)}
         self.divisors, self.constants = [], {name: c for name, c in constants.items() if name not in self.matrices}
-        self.known = {name: scalar(P({1 << FIELD * v: 1})) for name, v in variables.items()}
+        self.known = {name: self.with_factor(name, scalar(P({1 << FIELD * v: 1}))) for name, v in variables.items()}
         for name in self.constants:
             self.define(name)
         for rows in self.matrices.values():  # defined, used or not
@@ -516,8 +530,11 @@ class Scope:
             if new:
                 waiting[new] = None
             else:
-                self.known.setdefault(name, self.value(self.constants[name]))
+                self.known.setdefault(name, self.with_factor(name, self.value(self.constants[name])))
                 waiting.popitem()
+
+    def with_factor(self, name, value):
+        return value * self.cut.factor if self.cut and self.cut.name == name else value
 
     def value(self, toml, more={}, division_by_z=True):
         """Of an expression or a number; `more` are names of signals, or of the loop's variable."""
@@ -719,15 +736,15 @@ BELOW_PI = Fraction(31415926535897932384626433832795028, 10 ** 34)
 class Loop:
     """Equations of signals and states, and everything that is divided by."""
 
-    def __init__(self, model, variables, values=None, symbols=None, boxed=0):
-        self.z, self.taken, root = model.z, model.taken, model.root
+    def __init__(self, model, variables, values=None, symbols=None, boxed=0, cut=None):
+        self.z, self.taken, self.cut, root = model.z, model.taken, cut, model.root
         self.values, self.symbols, self.sample_time = values, symbols, root.get("sample_time")
         self.first = 2 + len(values or []) + boxed  # symbols are the variables from here on
         self.moving = symbols if isinstance(symbols, Moving) else None
         if self.moving:
             self.moving.is_continuous = self.z == "s"
         self.scope = Scope({name: c for name, c in model.constants.items() if name not in variables}, variables, self.moving,
-                           "j" not in model.taken)
+                           "j" not in model.taken, cut)
         if isinstance(symbols, DeadTime) and self.z == "s":
             self.scope.exponential = lambda f: self.delayed(-f, 1)
         self.unknowns, self.equations, self.degree, self.own, self.frame = [], [], 0, [], None
@@ -737,6 +754,7 @@ class Loop:
         loop = table(root.get("loop"), "characteristic matrix A B C K states inputs E outputs")
         forms = ("characteristic" in loop, "matrix" in loop, any(k in loop for k in "ABCK"), "block" in root)
         need(sum(forms) == 1, "the model has not exactly one form of loop")
+        need(not cut or cut.kind == "parameter" or forms[3], "a loop without blocks is cut at a parameter")
         self.inputs, self.signals, self.states, self.outputs = [], [], [], []
         if forms[0]:
             written = self.scope.value(loop["characteristic"], {self.z: scalar(Z)}, division_by_z=False)
@@ -763,6 +781,10 @@ class Loop:
                 self.scope.matrix(loop["E"], len(x), len(self.inputs))
             self.responses(loop, self.states)
         self.simulation(table(root.get("simulation", {}), "inputs initial duration units"))
+        if cut and cut.is_complex:
+            polynomials = [p for list_ in [self.equations, *(own for own, _ in self.own)] for e in list_ for p in (e.bottom, *e.tops.values())]
+            self.doubled = any(map(has_unit, polynomials + self.scope.divisors))
+            return
         self.doubled = not all(e.is_real() for list_ in [self.equations, *(own for own, _ in self.own)] for e in list_)
         self.scope.divisors = [p if is_real(p) else squared_modulus(p) for p in self.scope.divisors]
         if self.doubled and forms[0]:
@@ -819,6 +841,11 @@ class Loop:
         self.inputs = several(loop.get("inputs", []))
         self.signals = distinct([*driven, *self.inputs], self.taken)
         self.unknowns = driven[:]
+        used = {name: Value({name: ONE}) for name in self.signals}
+        if self.cut and self.cut.kind == "signal":
+            need(self.cut.name in driven, "the loop is cut at a signal that is no output of a block")
+            used[self.cut.name] = used[self.cut.name] * self.cut.factor
+        need(not self.cut or self.cut.kind != "input" or self.cut.name in names, "the loop is cut at a block that is not there")
         rates, of_rows, of_states = [], [], {}
         for block in blocks:
             self.every, phase = (constant(block.get(key, usual)) for key, usual in (("every", 1), ("phase", 0)))
@@ -826,7 +853,7 @@ class Loop:
             need(self.z == "z" or not {"every", "phase"} & set(block), "a continuous loop has no rates")
             self.every = int(self.every)
             rates.append((self.every, int(phase), several(block["output"])))
-            self.block(block, {name: Value({name: ONE}) for name in self.signals})
+            self.block(block, used)
             of_rows += [rates[-1]] * (len(self.equations) - len(of_rows))
             of_states |= {name: rates[-1] for name in self.unknowns[len(driven):] if name not in of_states}
         if any(every > 1 for every, _, _ in rates):
@@ -871,7 +898,10 @@ class Loop:
         u = [scope.linear(e, signals) for e in several(block["input"])]
         # External signals are zero, and what divides them is not in the equations.
         u = [Value({name: p for name, p in e.tops.items() if name not in self.inputs}, e.bottom) for e in u]
-        y = [signals[name] for name in several(block["output"])]
+        if self.cut and self.cut.kind == "input" and self.cut.name == block.get("name"):
+            need(len(u) == 1, "the loop is cut at the input of a block that has not one")
+            u = [u[0] * self.cut.factor]
+        y = [Value({name: ONE}) for name in several(block["output"])]
         up, down, inner = Z, ONE, self.z
         hold, pulses = None, []
         if "discretize" in block:  # s = up / down
@@ -1481,7 +1511,7 @@ def expanded(rows):
                     term = minor * e
                     term = -term if (columns >> j).bit_count() % 2 else term
                     after[columns | 1 << j] = after.get(columns | 1 << j, ZERO) + term
-        minors = {columns: minor for columns, minor in after.items() if minor}
+        minors = {columns: short(minor) for columns, minor in after.items() if minor}
         terms = sum(map(len, minors.values()))
         allow(len(minors) <= 20_000 and terms <= 400_000, "a loop with symbols is too large for the check")
     return next(iter(minors.values()), ZERO)
@@ -1633,8 +1663,8 @@ class Enclosed:
             powers = [(*others, k) for k in range(count) for others in powers]
         return dict(zip(powers, found))
 
-def loop_of(text, kept, values, boxed=(), symbols=None):
-    """The model, its loop with the parameters of a box behind those that have values, and these values."""
+def loop_of(text, kept, values, boxed=(), symbols=None, cut=None):
+    """The model, its loop with the parameters of a box behind those that have values, and these values. A cut may have further names of its own."""
     model = Model(text)
     names = [*([kept] if kept is not None else []), *values, *boxed]
     need(len(set(names)) == len(names), "a parameter has two values")
@@ -1650,9 +1680,16 @@ def loop_of(text, kept, values, boxed=(), symbols=None):
     values = {name: x for name, x in values.items() if name not in numbers}
     variables = {name: v for v, name in enumerate([*values, *boxed], 2)} | ({} if kept is None else {kept: 1})
     values = list(values.values())
+    count = len(boxed)
+    if cut:
+        need(cut.kind != "parameter" or cut.name in model.parameters or cut.name in model.constants, "the loop is cut at no parameter")
+        if cut.kind == "parameter" and cut.name in model.constants:
+            constant(model.constants[cut.name])
+        cut.begin(2 + len(values) + count)
+        count += cut.names
     if isinstance(symbols, Moving):
-        symbols.next = 2 + len(values) + len(boxed)  # behind all others
-    return model, Loop(model, variables, values, Table() if symbols is None else symbols, len(boxed)), values
+        symbols.next = 2 + len(values) + count  # behind all others
+    return model, Loop(model, variables, values, Table() if symbols is None else symbols, count, cut), values
 
 def characteristic_polynomial(text, kept, values, symbols=None):
     """Whether time is discrete, the degree, the coefficients of z^0, z^1, ... (none if undefined), the poles."""
@@ -2119,22 +2156,39 @@ def follow(tree, whole):
             need(all(c > off for c in product), "a leaf is not on one side")
     need(at == len(tree), "something follows a tree")
 
-def over_box(text, names, values, symbols=None, enclosed=None):
+def with_values(entries, values):
+    """Entries with numbers in the place of the parameters that have one, times a positive number. The factor of a cut is variable 1 then."""
+    if is_real(*entries):
+        return cleared([p.at(values) for p in entries])
+    places, found = [], []
+    for k, p in enumerate(entries):
+        of_place = {}
+        for e, c in p.items():
+            of_place.setdefault(e // UNIT, P())[e % UNIT] = c
+        places += [(k, e % (MASK + 1) * UNIT + (e >> FIELD << FIELD)) for e in of_place]
+        found += [part.at(values) for part in of_place.values()]
+    out = [P() for _ in entries]
+    for (k, place), part in zip(places, cleared(found)):
+        out[k] = out[k] + P({e + place: c for e, c in part.items()})
+    return out
+
+def over_box(text, names, values, symbols=None, enclosed=None, cut=None):
     """The coefficients in the parameters of a box, which are the variables from 2 on, and lists of polynomials at whose common zeros
-    the loop is undefined.  By enclosures, over sides of a window and with a number of bits, each number in a coefficient is a variable of its own."""
-    model, loop, values = loop_of(text, None, values, names, symbols)
-    moving = loop.moving
+    the loop is undefined.  By enclosures, over sides of a window and with a number of bits, each number in a coefficient is a variable of its own.
+    With a complex factor it is variable 1, and nothing is doubled."""
+    model, loop, values = loop_of(text, None, values, names, symbols, cut)
+    moving, is_cut = loop.moving, cut and cut.is_complex
     if moving:
         moving.given(values)
-    divisors = [cleared(divisor.at(values).coefficients(0)) for divisor in loop.scope.divisors]
+    divisors = [with_values([divisor], values)[0].coefficients(0) for divisor in loop.scope.divisors]
 
     def system(equations, unknowns):
-        return expanded([cleared([e.tops.get(name, ZERO).at(values) for name in unknowns]) for e in equations])
+        return expanded([with_values([e.tops.get(name, ZERO) for name in unknowns], values) for e in equations])
 
     need(len(loop.equations) == len(loop.unknowns), "there are not as many equations as unknowns")
     if "characteristic" in model.root["loop"]:
         [equation], [name] = loop.equations, loop.unknowns
-        d, below = cleared([equation.tops.get(name, ZERO).at(values), equation.bottom.at(values)])
+        d, below = with_values([equation.tops.get(name, ZERO), equation.bottom], values)
         divisors.append([below])
     elif enclosed:
         sides, bits = enclosed
@@ -2153,7 +2207,7 @@ def over_box(text, names, values, symbols=None, enclosed=None):
     for equations, states in loop.own:
         own = system(equations, states)
         divisors.append([own.lead(0) if own.degree(0) == len(states) else ZERO])
-    if "characteristic" not in model.root["loop"]:
+    if "characteristic" not in model.root["loop"] and not is_cut:  # else looked at beside what has the factor
         divisors.append([d.lead(0) if d.degree(0) == loop.degree else ZERO])
         if moving:
             moving.has_lead_last = True
@@ -2943,6 +2997,27 @@ class OverBoxes:
             found.append(total)
         return found
 
+class InParts:
+    """Functions over boxes, first the real and the imaginary parts of n + 1 coefficients, which come out as those of the polynomial times its
+    conjugate: it is real, and has each root and its conjugate."""
+
+    def __init__(self, functions, n):
+        self.functions, self.n = functions, n
+
+    def at(self, sides):
+        found, n, models = self.functions.at(sides), self.n, self.functions.models
+        if not found:
+            return None
+        more = models.bits - max(size([abs(f[0][0]) + beside_constant(f)]) for f in found[:2 * n + 2])
+        parts = [multiplied(f, 1 << max(more, 0)) for f in found[:2 * n + 2]]  # squares of small numbers have few digits
+        product = [models.units(0)] * (2 * n + 1)
+        for part in (parts[:n + 1], parts[n + 1:]):
+            part = [(k, f) for k, f in enumerate(part) if any(f[0]) or f[1]]
+            for i, (j, f) in enumerate(part):
+                for k, g in part[i:]:
+                    product[j + k] = summed(product[j + k], models.times(f, g), 1 if j == k else 2)
+        return product + found[2 * n + 2:]
+
 AXES = (1, 0), (0, 1), (-1, 0), (0, -1)  # directions, by quarters of a turn
 
 def quarter_of(x, y):
@@ -3113,8 +3188,12 @@ class Judge:
     """Whether boxes are stable everywhere, or nowhere. What is known of one are the functions over it, and whether they are its own or
     those of a larger one, halved."""
 
-    def __init__(self, functions, n, divisors, models):
-        self.functions, self.n, self.divisors, self.models = functions, n, divisors, models
+    def __init__(self, functions, n, divisors, models, nowhere):
+        self.functions, self.n, self.divisors, self.models, self.nowhere = functions, n, divisors, models, nowhere
+
+    def allow_to_keep(self, boxes):
+        functions = 1 + max([self.n, *(place for ways in self.divisors for place in ways)])
+        hold(boxes * functions * len(self.models.exponents), 2 * self.models.bits)
 
     def is_precise(self, known, share):
         return all(f[1] << share <= beside_constant(f) or f[1] < 1 << 7 for f in known[:self.n + 1])
@@ -3463,6 +3542,9 @@ class JudgeOfDelays:
     def is_long(q):
         return size(q.as_integer_ratio()) > 4096
 
+    def allow_to_keep(self, boxes):
+        hold(boxes * 2000, 128)  # of each the way along the axis
+
     def halves(self, sides, known, own, axis):
         if not own:
             known = self.look(sides, known)[1]
@@ -3533,6 +3615,42 @@ class JudgeOfDelays:
         [*delayed] = [k for k in range(1, len(parts)) if moduli[k]]
         return len(delayed) == 1 and delays[delayed[0]][0] > 0 and 2 * abs(tops[delayed[0]][0][0]) - moduli[delayed[0]] > moduli[0]
 
+def judge_of(text, names, values, sides, region, precision, cut=None):
+    """Of the boxes in a window, of names of the model and those of a cut behind them."""
+    discrete, extent = region
+    sources, sides = Moving(), sides + (cut.sides(True) if cut else [])
+    enclosed = (sides, precision[1]) if has_several_rates(text) else None
+    is_discrete, own, divisors, is_complex = over_box(text, names, values, sources, enclosed, cut)
+    need(is_discrete == discrete, "the model's time is another")
+    if cut:
+        cut.is_real, sides = not is_complex, sides[:len(names)] + cut.sides(not is_complex)
+    models = Models(*precision, len(sides))
+    parts = [own]  # the real and the imaginary part, of what has complex coefficients
+    if cut and cut.is_complex:
+        parts, divisors = cut.in_parts(own, divisors, 2 + len(names))
+    has_delay = any(name == "delay" for name, *_ in sources.sources)
+    common = ONE if enclosed else in_common(sum(parts, []), 2 + len(sides) if has_delay else 1 << FIELD)
+    if any(common):  # where it vanishes, all coefficients do; the last divisor has a meaning of its own
+        parts, divisors = [[c / common if c else c for c in part] for part in parts], [[common], *divisors]
+    if has_delay:
+        need(not discrete and extent == 0, "a loop with dead time is not continuous, or its boundary is not the imaginary axis")
+        own = parts[0] if len(parts) == 1 else [sum(both, ZERO) for both in zip(*map(squared, parts))]
+        return JudgeOfDelays(own, divisors, sources, sides, models)
+    if len(parts) == 1:
+        parts = [in_region(own, discrete, extent)]
+    n = len(own) - 1
+    functions = cleared(sum((in_half_plane(part) if discrete else part for part in parts), []))
+    nowhere = not all(map(any, divisors))
+    nowhere = nowhere or (not all(functions) if len(parts) == 1 else not any(functions[::n + 1]) or not any(functions[n::n + 1]))
+    places, begin = [], n + 1 if len(parts) == 1 else 2 * n + 1
+    for ways in separated(divisors):
+        places.append(range(begin, begin + len(ways)))
+        functions, begin = functions + ways, begin + len(ways)
+    functions = OverBoxes(functions, sources, models)
+    if len(parts) == 1:
+        return Judge(functions, n, places, models, nowhere)
+    return Judge(InParts(functions, n), 2 * n, places, models, nowhere)
+
 def check_boxes(model, document, statement, values, discrete, extent):
     _, _, order, bits = parts(document, ["schema", "statement", "order", "bits"], ["model"])
     *_, x, y, window, tree = parts(statement, ["kind", "time", "set", "region", "x", "y", "window", "tree"])
@@ -3542,27 +3660,7 @@ def check_boxes(model, document, statement, values, discrete, extent):
     need(all(len(ends) == 2 for ends in sides) and isinstance(tree, str), "a side has not two ends, or there is no tree")
     is_line = sides[1][0] == sides[1][1]  # one parameter alone is asked about
     need(sides[0][0] < sides[0][1] and sides[1][0] <= sides[1][1], "the window is empty")
-    sources, models = Moving(), Models(order, bits)
-    enclosed = (sides, bits) if has_several_rates(model) else None
-    is_discrete, own, divisors, _ = over_box(model, names, values, sources, enclosed)
-    need(is_discrete == discrete, "the model's time is another")
-    has_delay = any(name == "delay" for name, *_ in sources.sources)
-    common = ONE if enclosed else in_common(own, 4 if has_delay else 1 << FIELD)
-    if any(common):  # where it vanishes, all coefficients do; the last divisor has a meaning of its own
-        own, divisors = [c / common if c else c for c in own], [[common], *divisors]
-    if has_delay:
-        need(not discrete and extent == 0, "a loop with dead time is not continuous, or its boundary is not the imaginary axis")
-        judge = JudgeOfDelays(own, divisors, sources, sides, models)
-        nowhere = judge.nowhere
-    else:
-        own = in_region(own, discrete, extent)
-        own = cleared(in_half_plane(own)) if discrete else own
-        nowhere, n = not all(map(any, divisors)) or not all(own), len(own) - 1
-        functions, places = list(own), []
-        for ways in separated(divisors):
-            places.append(range(len(functions), len(functions) + len(ways)))
-            functions += ways
-        judge = Judge(OverBoxes(functions, sources, models), n, places, models)
+    judge = judge_of(model, names, values, sides, (discrete, extent), (order, bits))
     where = " and ".join("{} from {} to {}".format(name, *inward(*side)) for name, side in zip(names, sides[:1] if is_line else sides))
     where = f"For {where}{and_with(({names[1]: sides[1][0]} if is_line else {}) | values)}, "
     inside = within(discrete, extent)
@@ -3577,8 +3675,8 @@ def check_boxes(model, document, statement, values, discrete, extent):
             continue
         need(letter in shares, "tree: another letter")
         shares[letter] += Fraction(1, 1 << depth)
-        if letter != "?" and not (nowhere and letter == "-"):
-            shown = not nowhere and judge.shows(sides, known, is_own, letter == "+")
+        if letter != "?" and not (judge.nowhere and letter == "-"):
+            shown = not judge.nowhere and judge.shows(sides, known, is_own, letter == "+")
             need(shown, f"stable: a leaf {letter} is not shown, {' x '.join(f'[{a}, {b}]' for a, b in sides)}")
         if pieces and pieces[-1][0] == letter:  # those of one parameter follow each other
             pieces[-1][2] = sides[0][1]
@@ -3598,6 +3696,259 @@ def check_boxes(model, document, statement, values, discrete, extent):
     tenths = [int(1000 * shares[letter]) for letter in "+-"]
     stable, unstable = (f"{k // 10}.{k % 10} %" for k in tenths)
     return (f"{where}the loop is stable{inside} in all boxes '+' of the tree, and nowhere in its boxes '-': at least {stable} and {unstable} of "
+            "the window. Nothing is said of the rest.")
+
+# ---------------------------------------------------------------- for all values
+
+class Cut:
+    """A requirement: where the loop is cut, and the factor that it has there, in names of its own. The loop meets the requirement where it is stable
+    with the factor for all values of these. Those of a disc are r and t, delta = r (1 + j t)/(1 - j t)."""
+
+    def __init__(self, item):
+        further = ["turns"] if isinstance(item, dict) and item.get("kind") == "phase_margin" else []
+        self.requirement, at, bound, *turns = parts(item, ["kind", "at", "bound"] + further)
+        need(isinstance(at, dict) and len(at) == 1 and set(at) <= {"signal", "input", "parameter"}, "require: a cut is a signal, an input or a parameter")
+        [(self.kind, name)] = at.items()
+        self.name, self.bound = text_of(name) if self.kind == "input" else name_of(name), of_few_digits(bound)
+        self.is_complex, self.is_real, x = self.requirement != "gain_margin", True, self.bound
+        self.names = 2
+        need(x > 0, "require: a bound is not positive")
+        if self.requirement == "phase_margin":
+            need(x < 180, "require: a phase margin is not below 180 degrees")
+            self.names, self.turns = 1, self.around_tangent(items(turns[0], of_few_digits))
+        elif self.requirement == "gain_margin":
+            need(x > 1, "require: a gain margin is not above 1")
+            self.names = 1
+        elif self.requirement == "disk_margin":
+            need(x < 2, "require: a disk margin is not below 2")
+        else:
+            need(self.requirement in ("modulus_margin", "complementary_peak"), "require: unknown kind")
+            need(self.requirement == "complementary_peak" or x < 1, "require: a modulus margin is not below 1")
+
+    def around_tangent(self, turns):
+        """Two numbers, the tangent of half the angle between them."""
+        need(len(turns) == 2 and 0 < turns[0] <= turns[1], "require: 'turns' are not two positive numbers in order")
+        if self.bound == 90:
+            need(turns[0] <= 1 <= turns[1], "require: the tangent is not between the 'turns'")
+            return turns
+        bits = 128 + 4 * size(x for q in (*turns, self.bound) for x in q.as_integer_ratio())
+        pi = scaled_by(inverse_tangent(1 << bits, bits), 4)
+        low, high = (scaled_by(arc(enclosed(t, bits), bits), 360 * self.bound.denominator) for t in turns)
+        angle = scaled_by(pi, self.bound.numerator)
+        need(low[1] <= angle[0] and angle[1] <= high[0], "require: the tangent is not between the 'turns'")
+        return turns
+
+    def begin(self, first):
+        """From here on the variables are its own."""
+        self.factor = scalar(P({FACTOR if self.is_complex else 1 << FIELD * first: 1}))
+
+    def sides(self, is_real, refuting=False):
+        """The ranges of its names. What has real coefficients without the factor is stable for a factor where it is for its conjugate."""
+        if self.requirement == "gain_margin":
+            return [[1 / self.bound, self.bound]]
+        t = self.turns[0 if refuting else 1] if self.requirement == "phase_margin" else Fraction(1)
+        return [[-t, t]] * (self.names - 1) + [[Fraction(0) if is_real else -t, t]]
+
+    def quotient(self, first):
+        """The factor over a denominator that has no zero."""
+        t = P({UNIT | 1 << FIELD * (first + self.names - 1): 1})
+        plus, minus, x = ONE + t, ONE + -t, self.bound / 2 if self.requirement == "disk_margin" else self.bound
+        if self.requirement == "phase_margin":
+            return minus, plus
+        x = 1 / x if self.requirement == "complementary_peak" else x
+        disc, whole = P({1 << FIELD * first: x.numerator}) * plus, minus * number(x.denominator)
+        return {"modulus_margin": (whole, whole + -disc), "disk_margin": (whole + disc, whole + -disc), "complementary_peak": (whole + disc, whole)}[self.requirement]
+
+    def in_parts(self, own, divisors, first):
+        """The real and the imaginary parts of coefficients with the factor in the place of variable 1, times a number that is never zero; and the
+        squares of the moduli of complex divisors."""
+        top, bottom = self.quotient(first)
+
+        def put_in(p, degree):
+            powers = p.coefficients(1)
+            return short(sum((c * top ** k * bottom ** (degree - k) for k, c in enumerate(powers)), ZERO))
+
+        need(all(p.degree(1) < 2 for p in own), "require: the loop is not linear in what is cut")
+        found = [re_im(put_in(p, 1)) for p in own]
+        divisors = [cleared([p if is_real(p) and not p.degree(1) else squared_modulus(put_in(short(p), p.degree(1))) for p in ways])
+                    for ways in divisors]
+        return [list(part) for part in zip(*found)], divisors
+
+    def where(self):
+        return {"signal": "at {}", "parameter": "at the parameter {}", "input": "at the input of '{}'"}[self.kind].format(CONTROL.sub(" ", self.name))
+
+def of_few_digits(text):
+    q = rational(text)
+    need(size(q.as_integer_ratio()) <= 4096, "a number has too many digits")
+    return q
+
+class Proofs:
+    """Reads the parts of a tree, and has them shown, for the loop of each requirement, or for the one without."""
+
+    def __init__(self, text, loops, axes, names):
+        self.text, self.at, self.loops, self.axes, self.names = text, 0, loops, axes, names
+
+    def letter(self):
+        need(self.at < len(self.text), "tree: it ends too early")
+        self.at += 1
+        return self.text[self.at - 1]
+
+    def axis(self, letter, sides):
+        """A name by its letter."""
+        k = "abcdefgh".find(letter)
+        need(0 <= k < len(sides), "tree: another letter")
+        return k
+
+    def good(self, sides):
+        """One proof for each loop: that it is stable at all points."""
+        for cut, judge in self.loops:
+            stack = [(sides + (cut.sides(cut.is_real) if cut else []), None, False, 0)]
+            while stack:
+                box, known, is_own, depth = stack.pop()
+                letter = self.letter()
+                if letter != ".":
+                    axis = self.axis(letter, box)
+                    need(depth < MOST_HALVINGS, "tree: too deep")
+                    need(box[axis][0] < box[axis][1], "tree: a side without a width is halved")
+                    judge.allow_to_keep(len(stack) + 2)
+                    stack += [(*half, depth + 1) for half in judge.halves(box, known, is_own, axis)][::-1]
+                    continue
+                shown = not judge.nowhere and judge.shows(box, known, is_own, True)
+                need(shown, f"stable: a part is not shown to be stable, {' x '.join(f'[{a}, {b}]' for a, b in box)}")
+
+    def part(self, sides):
+        """The number of a loop, and the part that the steps lead to from the ranges of its names."""
+        letter = self.letter()
+        need(letter in "0123456789" and int(letter) < len(self.loops), "tree: there is no such loop")
+        cut = self.loops[int(letter)][0]
+        box, steps = sides + (cut.sides(cut.is_real, True) if cut else []), 0
+        while (step := self.letter()) != ".":
+            need(step in "lum<>", "tree: another step")
+            k = self.axis(self.letter(), box)
+            need(k >= self.axes, "tree: a step along an axis")
+            need(steps < MOST_HALVINGS, "tree: too deep")
+            low, high = box[k]
+            middle = (low + high) / 2
+            box[k] = {"l": [low, middle], "u": [middle, high], "m": [middle, middle], "<": [low, low], ">": [high, high]}[step]
+            steps += 1
+        return int(letter), box
+
+    @staticmethod
+    def nowhere_stable(judge, box):
+        shown = judge.nowhere or judge.shows(box, None, False, False)
+        need(shown, f"stable: a part is not shown to be nowhere stable, {' x '.join(f'[{a}, {b}]' for a, b in box)}")
+
+    def leaves(self, sides):
+        """The boxes of the axes, in order, each with its letter and its share of the window."""
+        stack, found = [(sides[:self.axes], 0)], []
+        while stack:
+            box, depth = stack.pop()
+            letter = self.letter()
+            if letter in "+-?":
+                found.append((letter, box, Fraction(1, 1 << depth)))
+                if letter == "+":
+                    self.good(box + sides[self.axes:])
+                elif letter == "-":
+                    k, part = self.part(box + sides[self.axes:])
+                    self.nowhere_stable(self.loops[k][1], part)
+                continue
+            axis = self.axis(letter, box)
+            need(depth < MOST_HALVINGS, "tree: too deep")
+            low, high = box[axis]
+            for side in [(low + high) / 2, high], [low, (low + high) / 2]:
+                stack.append(([side if i == axis else other for i, other in enumerate(box)], depth + 1))
+        need(self.at == len(self.text), "tree: something follows it")
+        return found
+
+MOST_HALVINGS = 160
+
+def ranges_of(json_list):
+    found = {}
+    for name, between in items(json_list, lambda item: parts(item, ["name", "between"])):
+        low, high = items(between, of_few_digits)
+        need(name_of(name) not in found and low <= high, "a range is empty, or a name has two")
+        found[name] = [low, high]
+    return found
+
+def check_for_all(model, document, statement, values, discrete, extent):
+    _, _, order, bits = parts(document, ["schema", "statement", "order", "bits"], ["model"])
+    keys = ["kind", "time", "set", "region", "axes", "for_all", "require", "tree", "beyond"]
+    *_, axes, for_all, require, tree, beyond = parts(statement, keys)
+    need(extent != "parameter", "the region has no parameter here")
+    need(1 <= count(order) <= 8 and 64 <= count(bits) <= 1024, "order or bits: out of range")
+    axes, for_all, require = ranges_of(axes), ranges_of(for_all), items(require, Cut)
+    need(len(axes) <= 2 and all(low < high for low, high in axes.values()), "the window is empty, or has more than two axes")
+    need(not set(axes) & set(for_all), "a name has two ranges")
+    need(len(require) <= 9 and (axes or for_all or require), "there is nothing that has a range, or more than nine requirements")
+    need(len(axes) + len(for_all) + max((cut.names for cut in require), default=0) <= 8, "there are too many names")
+    need(not require or extent == (1 if discrete else 0), "a region of its own has no requirements beside")
+    several = has_several_rates(model)
+    need(not several or not any(cut.is_complex for cut in require), "a requirement of a loop with several rates has no certificate")
+    need(isinstance(tree, str), "there is no tree")
+    names, sides = [*axes, *for_all], [*axes.values(), *for_all.values()]
+
+    def judge(cut, sides):
+        return judge_of(model, names, values, sides, (discrete, extent), (order, bits), cut)
+
+    loops = [(cut, judge(cut, sides)) for cut in require or [None]]
+    leaves = Proofs(tree, loops, len(axes), names).leaves(sides)
+    if beyond is not None:
+        need(not axes, "beyond: there are axes")
+        point, steps = parts(beyond, ["point", "not"])
+        point = items(point, of_few_digits)
+        need(len(point) == len(names) and isinstance(steps, str), "beyond: there is no point")
+        proofs, sides = Proofs(steps, loops, 0, names), [[x, x] for x in point]
+        k, part = proofs.part(sides)
+        need(proofs.at == len(steps), "beyond: something follows the steps")
+        # By enclosures a judge knows nothing beyond its window.
+        proofs.nowhere_stable(judge(require[k] if require else None, sides) if several else loops[k][1], part)
+        beyond = dict(zip(names, point))
+    return of_for_all(axes, for_all, values, within(discrete, extent), require, leaves, beyond)
+
+def of_for_all(axes, for_all, values, inside, require, leaves, beyond):
+    """The statement in words. Ends of ranges are exact: what is not so for all values of a range need not be in a smaller one."""
+    ways = {"phase_margin": "a phase margin of at least {} degrees", "gain_margin": "a gain margin of at least {} both ways",
+            "modulus_margin": "a modulus margin of at least {}", "disk_margin": "a disk margin of at least {}",
+            "complementary_peak": "a peak of the complementary sensitivity of at most {}"}
+    wishes = [f"{ways[cut.requirement].format(exact(cut.bound))} {cut.where()}" for cut in require]
+    good = f"stable{inside}" + (f", with {' and '.join(wishes)}" if wishes else "")
+    values = {name: low for name, (low, high) in for_all.items() if low == high} | values
+    every = " and ".join(f"{name} from {exact(low)} to {exact(high)}" for name, (low, high) in for_all.items() if low < high)
+    if not axes:
+        [(letter, _, _)] = leaves
+        begin = f"or all {every}" if every else ""
+        if letter == "-" and every:
+            sentence = f"Not f{begin}{and_with(values)}, the loop is {good}."
+        else:
+            begin = f"F{begin}{and_with(values)}, the" if every else f"At {at_values(values)}, the" if values else "The"
+            sentence = {"+": f"{begin} loop is {good}.", "-": f"{begin} loop is not {good.replace(', with', ' with', 1)}.", "?": f"{begin} loop may be stable or not: nothing is said of it."}[letter]
+        if beyond is not None:
+            at = f"At {at_values(beyond)}, it" if beyond else "It"
+            sentence += f" {at} is not."
+        return sentence
+    where = " and ".join("{} from {} to {}".format(name, *inward(*side)) for name, side in axes.items())
+    where = f"For {where}{f', for all {every}' if every else ''}{and_with(values)}, "
+    if len(axes) == 1:
+        [name], pieces = axes, []
+        for letter, [(low, high)], _ in leaves:
+            if pieces and pieces[-1][0] == letter:
+                pieces[-1][2] = high
+            else:
+                pieces.append([letter, low, high])
+
+        def ranges(letter):
+            own = (inward(low, high) for kind, low, high in pieces if kind == letter)
+            return " and ".join(f"{low} <= {name} <= {high}" for low, high in own)
+
+        stable, not_stable = ranges("+"), ranges("-")
+        so = ", " if wishes else " "
+        said = (f"the loop is {good}{so}for {stable}, and not so for any value in {not_stable}." if stable and not_stable else
+                f"the loop is {good}{so}for {stable}." if stable else
+                f"the loop is not {good}{so}for any value in {not_stable}." if not_stable else "nothing is said of the loop.")
+        return f"{where}{said} Nothing is said of the rest."
+    tenths = [int(1000 * sum(share for kind, _, share in leaves if kind == letter)) for letter in "+-"]
+    stable, not_stable = (f"{k // 10}.{k % 10} %" for k in tenths)
+    return (f"{where}the loop is {good}{', ' if wishes else ' '}in all boxes '+' of the tree, and nowhere in its boxes '-': at least {stable} and {not_stable} of "
             "the window. Nothing is said of the rest.")
 
 # ---------------------------------------------------------------- dead time
@@ -4142,8 +4493,8 @@ def read(certificate):
     need(isinstance(document, dict) and document.get("schema") in SCHEMAS, "unknown schema")
     return document
 
-SCHEMAS = [f"jurist/certificate/{version}" for version in range(1, 10)]
-RATIONAL, WITH_SYMBOLS, WITH_DEAD_TIME, OF_BOXES, OF_MAPS, OF_CELLS, OF_MAPS_BY_BOXES, OF_BOXES_WITH_SYMBOLS, BY_ENCLOSURES = SCHEMAS
+SCHEMAS = [f"jurist/certificate/{version}" for version in range(1, 11)]
+RATIONAL, WITH_SYMBOLS, WITH_DEAD_TIME, OF_BOXES, OF_MAPS, OF_CELLS, OF_MAPS_BY_BOXES, OF_BOXES_WITH_SYMBOLS, BY_ENCLOSURES, FOR_ALL = SCHEMAS
 FURTHER = ["bits", "symbols", "modes"]
 
 def table_of(document):
@@ -4164,7 +4515,7 @@ def check(model, certificate):
     statement = document["statement"]
     kind, time, values, region = (statement[key] for key in ("kind", "time", "set", "region"))
     kinds = {OF_BOXES: ["tolerance"], OF_MAPS: ["map"], OF_CELLS: ["cells", "verdict"], OF_MAPS_BY_BOXES: ["boxes"],
-             OF_BOXES_WITH_SYMBOLS: ["tolerance"], BY_ENCLOSURES: ["verdict"]}
+             OF_BOXES_WITH_SYMBOLS: ["tolerance"], BY_ENCLOSURES: ["verdict"], FOR_ALL: ["for_all"]}
     need(kind in kinds.get(document["schema"], ["intervals", "verdict"]), "unknown kind of statement")
     need(time in ("discrete", "continuous"), "unknown time")
     discrete = time == "discrete"
@@ -4173,12 +4524,14 @@ def check(model, certificate):
     extent = "parameter" if extent == "parameter" else rational(extent)
     need(not discrete or extent == "parameter" or extent > 0, "the radius is not positive")
     if has_several_rates(model):
-        need(extent == 1 and document["schema"] in (RATIONAL, WITH_SYMBOLS, OF_MAPS_BY_BOXES, BY_ENCLOSURES),
+        need(extent == 1 and document["schema"] in (RATIONAL, WITH_SYMBOLS, OF_MAPS_BY_BOXES, BY_ENCLOSURES, FOR_ALL),
              "a loop of several rates has certificates of stability without further wishes alone")
     if kind == "tolerance":
         return check_tolerance(model, document, statement, values, discrete, extent)
     if kind == "boxes":
         return check_boxes(model, document, statement, values, discrete, extent)
+    if kind == "for_all":
+        return check_for_all(model, document, statement, values, discrete, extent)
     if kind == "map":
         return check_map(model, document, statement, values, discrete, extent)
     if document["schema"] == OF_CELLS:
