@@ -32,6 +32,7 @@ MAX_NESTING = 200  # of expressions
 MAX_ORDER = 2000
 MAX_DEGREE = 4000
 MAX_WORK, WORK_OF_BYTE = 10**9, 10**6  # about as many nanoseconds: for every text, and for each byte of it
+WORK_OF_PART = 10**7  # for each letter of a tree of parts in several names
 MAX_BYTES = 48 << 20  # of the numbers of one step
 SECONDS = 60  # the last resort
 sys.set_int_max_str_digits(2 * MAX_DIGITS)
@@ -2612,6 +2613,7 @@ class Models:
         self.places = [[at[tuple(map(int.__add__, e, other))] for other in self.exponents[:below[order - sum(e)]]] for e in self.exponents]
         self.degrees = [slice(end - len(level), end) for end, level in zip(below, levels)]
         self.at, self.ways = at, {}
+        self.most = sum(map(len, self.places)) if names > 2 else len(at) ** 2  # products of two coefficients
 
     def way(self, axis, shift):
         """((u + shift)/2)^n in units of 2^-order."""
@@ -2634,7 +2636,7 @@ class Models:
 
     def times(self, f, g):
         (a, r), (b, s) = f, g
-        pairs = (len(a) - a.count(0)) * (len(b) - b.count(0))
+        pairs = min((len(a) - a.count(0)) * (len(b) - b.count(0)), self.most)
         spend(3 + len(a) // 4 + pairs // 2 + pairs * (self.bits ** 2 // 1000) // 500)
         longest = [max(size(c), bound.bit_length()) for c, bound in (f, g)]  # exponentials grow far beyond one
         if max(longest) > 4 * self.bits:
@@ -2713,6 +2715,7 @@ class Models:
     def exponentials(self, m):
         """The sums of M^k/k!, M^k/(k + 1)!, M^k/(k + 2)!: of M/2^s, with rows of at most 2^-8, doubled s times."""
         n = range(len(m))
+        hold(8 * len(m) ** 2 * len(self.exponents), 0)
         norm, s = max((sum(abs(f[0][0]) + beside_constant(f) for f in row) for row in m), default=0), 0
         while norm >> s >= self.one >> 8:
             s += 1
@@ -2960,6 +2963,9 @@ class OverBoxes:
                     (self.powers.setdefault(power, len(self.powers)), c))
             self.rows.append(row)
 
+    def allow_to_compute(self):
+        hold((len(self.powers) + len(self.monomials) + len(self.rows)) * len(self.models.exponents), self.models.bits)
+
     def at(self, sides):
         """The functions, None where a series does not reach over the box."""
         models = self.models
@@ -3003,6 +3009,7 @@ class InParts:
 
     def __init__(self, functions, n):
         self.functions, self.n = functions, n
+        self.allow_to_compute = functions.allow_to_compute
 
     def at(self, sides):
         found, n, models = self.functions.at(sides), self.n, self.functions.models
@@ -3543,7 +3550,7 @@ class JudgeOfDelays:
         return size(q.as_integer_ratio()) > 4096
 
     def allow_to_keep(self, boxes):
-        hold(boxes * 2000, 128)  # of each the way along the axis
+        """Of each the way along the axis, which is short."""
 
     def halves(self, sides, known, own, axis):
         if not own:
@@ -3637,7 +3644,7 @@ def judge_of(text, names, values, sides, region, precision, cut=None):
         own = parts[0] if len(parts) == 1 else [sum(both, ZERO) for both in zip(*map(squared, parts))]
         return JudgeOfDelays(own, divisors, sources, sides, models)
     if len(parts) == 1:
-        parts = [in_region(own, discrete, extent)]
+        parts = [in_region(parts[0], discrete, extent)]
     n = len(own) - 1
     functions = cleared(sum((in_half_plane(part) if discrete else part for part in parts), []))
     nowhere = not all(map(any, divisors))
@@ -3885,10 +3892,14 @@ def check_for_all(model, document, statement, values, discrete, extent):
     several = has_several_rates(model)
     need(not several or not any(cut.is_complex for cut in require), "a requirement of a loop with several rates has no certificate")
     need(isinstance(tree, str), "there is no tree")
+    global most
+    most += WORK_OF_PART * len(tree)
     names, sides = [*axes, *for_all], [*axes.values(), *for_all.values()]
 
     def judge(cut, sides):
-        return judge_of(model, names, values, sides, (discrete, extent), (order, bits), cut)
+        found = judge_of(model, names, values, sides, (discrete, extent), (order, bits), cut)
+        found.functions.allow_to_compute()
+        return found
 
     loops = [(cut, judge(cut, sides)) for cut in require or [None]]
     leaves = Proofs(tree, loops, len(axes), names).leaves(sides)
