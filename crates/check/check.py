@@ -32,6 +32,7 @@ MAX_NESTING = 200  # of expressions
 MAX_ORDER = 2000
 MAX_DEGREE = 4000
 MAX_WORK, WORK_OF_BYTE = 10**9, 10**6  # about as many nanoseconds: for every text, and for each byte of it
+WORK_OF_PART = 10**7  # for each letter of a tree of parts in several names
 MAX_BYTES = 48 << 20  # of the numbers of one step
 SECONDS = 60  # the last resort
 sys.set_int_max_str_digits(2 * MAX_DIGITS)
@@ -257,12 +258,17 @@ def number(x):
     return P({0: x}) if x else ZERO
 
 UNIT = 1 << 950 * FIELD  # the imaginary unit, behind all other variables
+FACTOR = 1 << 951 * FIELD  # the complex factor of a loop that is cut, of which nothing has a real part until it has a value
 
 def is_real(*polynomials):
     return all(e < UNIT for p in polynomials for e in p)
 
+def has_unit(p):
+    return any(e >> 950 * FIELD & MASK for e in p)
+
 def re_im(p):
     """The real and the imaginary part."""
+    need(max(p, default=0) < FACTOR, "the factor of the cut is inside of what must be a number")
     found = {}, {}
     for e, c in p.items():
         k, e = divmod(e, UNIT)
@@ -274,7 +280,15 @@ def with_unit(x, y):
 
 def short(p):
     """With j^2 = -1."""
-    return p if max(p, default=0) < 2 * UNIT else with_unit(*re_im(p))
+    if max(p, default=0) < 2 * UNIT:
+        return p
+    spend(2 * len(p))
+    out = {}
+    for e, c in p.items():
+        k = e >> 950 * FIELD & MASK
+        e -= (k - k % 2) * UNIT
+        out[e] = out.get(e, 0) + (c if k % 4 < 2 else -c)
+    return P.of(out)
 
 def conjugated(p):
     x, y = re_im(p)
@@ -493,13 +507,14 @@ class Scope:
 
     exponential = None  # exp(-tau s), where it is read
 
-    def __init__(self, constants, variables, moving=None, unit=None):
+    def __init__(self, constants, variables, moving=None, unit=None, cut=None):
+        self.cut = cut if cut and cut.kind == "parameter" else None
         self.moving = moving  # functions, where they are read
         self.unit = unit  # whether j is the imaginary unit; None where there are nothing but numbers
         need(len(variables) < 900, "there are too many parameters")  # HIGHEST
         self.matrices = {name: c for name, c in constants.items() if isinstance(c, list)}
         self.divisors, self.constants = [], {name: c for name, c in constants.items() if name not in self.matrices}
-        self.known = {name: scalar(P({1 << FIELD * v: 1})) for name, v in variables.items()}
+        self.known = {name: self.with_factor(name, scalar(P({1 << FIELD * v: 1}))) for name, v in variables.items()}
         for name in self.constants:
             self.define(name)
         for rows in self.matrices.values():  # defined, used or not
@@ -516,8 +531,11 @@ class Scope:
             if new:
                 waiting[new] = None
             else:
-                self.known.setdefault(name, self.value(self.constants[name]))
+                self.known.setdefault(name, self.with_factor(name, self.value(self.constants[name])))
                 waiting.popitem()
+
+    def with_factor(self, name, value):
+        return value * self.cut.factor if self.cut and self.cut.name == name else value
 
     def value(self, toml, more={}, division_by_z=True):
         """Of an expression or a number; `more` are names of signals, or of the loop's variable."""
@@ -719,15 +737,15 @@ BELOW_PI = Fraction(31415926535897932384626433832795028, 10 ** 34)
 class Loop:
     """Equations of signals and states, and everything that is divided by."""
 
-    def __init__(self, model, variables, values=None, symbols=None, boxed=0):
-        self.z, self.taken, root = model.z, model.taken, model.root
+    def __init__(self, model, variables, values=None, symbols=None, boxed=0, cut=None):
+        self.z, self.taken, self.cut, root = model.z, model.taken, cut, model.root
         self.values, self.symbols, self.sample_time = values, symbols, root.get("sample_time")
         self.first = 2 + len(values or []) + boxed  # symbols are the variables from here on
         self.moving = symbols if isinstance(symbols, Moving) else None
         if self.moving:
             self.moving.is_continuous = self.z == "s"
         self.scope = Scope({name: c for name, c in model.constants.items() if name not in variables}, variables, self.moving,
-                           "j" not in model.taken)
+                           "j" not in model.taken, cut)
         if isinstance(symbols, DeadTime) and self.z == "s":
             self.scope.exponential = lambda f: self.delayed(-f, 1)
         self.unknowns, self.equations, self.degree, self.own, self.frame = [], [], 0, [], None
@@ -737,6 +755,7 @@ class Loop:
         loop = table(root.get("loop"), "characteristic matrix A B C K states inputs E outputs")
         forms = ("characteristic" in loop, "matrix" in loop, any(k in loop for k in "ABCK"), "block" in root)
         need(sum(forms) == 1, "the model has not exactly one form of loop")
+        need(not cut or cut.kind == "parameter" or forms[3], "a loop without blocks is cut at a parameter")
         self.inputs, self.signals, self.states, self.outputs = [], [], [], []
         if forms[0]:
             written = self.scope.value(loop["characteristic"], {self.z: scalar(Z)}, division_by_z=False)
@@ -763,6 +782,10 @@ class Loop:
                 self.scope.matrix(loop["E"], len(x), len(self.inputs))
             self.responses(loop, self.states)
         self.simulation(table(root.get("simulation", {}), "inputs initial duration units"))
+        if cut and cut.is_complex:
+            polynomials = [p for list_ in [self.equations, *(own for own, _ in self.own)] for e in list_ for p in (e.bottom, *e.tops.values())]
+            self.doubled = any(map(has_unit, polynomials + self.scope.divisors))
+            return
         self.doubled = not all(e.is_real() for list_ in [self.equations, *(own for own, _ in self.own)] for e in list_)
         self.scope.divisors = [p if is_real(p) else squared_modulus(p) for p in self.scope.divisors]
         if self.doubled and forms[0]:
@@ -819,6 +842,11 @@ class Loop:
         self.inputs = several(loop.get("inputs", []))
         self.signals = distinct([*driven, *self.inputs], self.taken)
         self.unknowns = driven[:]
+        used = {name: Value({name: ONE}) for name in self.signals}
+        if self.cut and self.cut.kind == "signal":
+            need(self.cut.name in driven, "the loop is cut at a signal that is no output of a block")
+            used[self.cut.name] = used[self.cut.name] * self.cut.factor
+        need(not self.cut or self.cut.kind != "input" or self.cut.name in names, "the loop is cut at a block that is not there")
         rates, of_rows, of_states = [], [], {}
         for block in blocks:
             self.every, phase = (constant(block.get(key, usual)) for key, usual in (("every", 1), ("phase", 0)))
@@ -826,7 +854,7 @@ class Loop:
             need(self.z == "z" or not {"every", "phase"} & set(block), "a continuous loop has no rates")
             self.every = int(self.every)
             rates.append((self.every, int(phase), several(block["output"])))
-            self.block(block, {name: Value({name: ONE}) for name in self.signals})
+            self.block(block, used)
             of_rows += [rates[-1]] * (len(self.equations) - len(of_rows))
             of_states |= {name: rates[-1] for name in self.unknowns[len(driven):] if name not in of_states}
         if any(every > 1 for every, _, _ in rates):
@@ -871,7 +899,10 @@ class Loop:
         u = [scope.linear(e, signals) for e in several(block["input"])]
         # External signals are zero, and what divides them is not in the equations.
         u = [Value({name: p for name, p in e.tops.items() if name not in self.inputs}, e.bottom) for e in u]
-        y = [signals[name] for name in several(block["output"])]
+        if self.cut and self.cut.kind == "input" and self.cut.name == block.get("name"):
+            need(len(u) == 1, "the loop is cut at the input of a block that has not one")
+            u = [u[0] * self.cut.factor]
+        y = [Value({name: ONE}) for name in several(block["output"])]
         up, down, inner = Z, ONE, self.z
         hold, pulses = None, []
         if "discretize" in block:  # s = up / down
@@ -1481,7 +1512,7 @@ def expanded(rows):
                     term = minor * e
                     term = -term if (columns >> j).bit_count() % 2 else term
                     after[columns | 1 << j] = after.get(columns | 1 << j, ZERO) + term
-        minors = {columns: minor for columns, minor in after.items() if minor}
+        minors = {columns: short(minor) for columns, minor in after.items() if minor}
         terms = sum(map(len, minors.values()))
         allow(len(minors) <= 20_000 and terms <= 400_000, "a loop with symbols is too large for the check")
     return next(iter(minors.values()), ZERO)
@@ -1573,18 +1604,21 @@ class Enclosed:
         return [c for list_ in out for c in list_], most
 
     def coefficients(self, rows, degree, known, asked, bits):
-        """Of z^k x^i y^j in the determinant, with so many of the variables from 2 on left and the values of the others; all times one number."""
+        """Of the powers of z and the names of a box in the determinant. Of each name it is said whether it is left; the others have values, which
+        are known. All times one number."""
         entries = []
         for row in rows:
             out = {}
             for column, p in enumerate(row):
                 for e, c in p.items():
-                    powers = [e >> FIELD * v & MASK if v < 2 + asked else 0 for v in (0, 2, 3)]
-                    term, e = (c << self.bits, 0), e >> FIELD * (2 + asked)
-                    for f in known[asked:]:
-                        for _ in range(e & MASK):
-                            spend(2, self.bits, size([term[0]]))
-                            term = self.times(term, f)
+                    powers, term, e = [e & MASK, *[0] * len(asked)], (c << self.bits, 0), e >> 2 * FIELD
+                    for v, f in enumerate(known):
+                        if v < len(asked) and asked[v]:
+                            powers[1 + v] = e & MASK
+                        else:
+                            for _ in range(e & MASK):
+                                spend(2, self.bits, size([term[0]]))
+                                term = self.times(term, f)
                         e >>= FIELD
                     old = out.setdefault(column, {}).get(tuple(powers), (0, 0))
                     out[column][tuple(powers)] = old[0] + term[0], old[1] + term[1]
@@ -1593,13 +1627,13 @@ class Enclosed:
                 out[column][powers] = f
             entries.append(out)
         counts = [degree + 1]
-        for v in (1, 2):
+        for v in range(1, len(asked) + 1):
             sizes = [{column: max(powers[v] for powers in e) for column, e in row.items()} for row in entries]
             columns = [max((row.get(column, 0) for row in sizes), default=0) for column in range(len(rows))]
             counts.append(1 + min(sum(max(row.values(), default=0) for row in sizes), sum(columns)))
         allow(prod(counts) <= 800, "a determinant by enclosures has too many values")
 
-        def at(x, y):
+        def at(point):
             nodes, values = [], []
             for z in (sign * k for k in range(2, degree + 12) for sign in (1, -1)):  # usual roots are at none of them
                 if len(nodes) > degree:
@@ -1607,7 +1641,7 @@ class Enclosed:
                 numbers = []
                 for row in entries:
                     spend(sum(map(len, row.values())), self.bits, 64)
-                    powers = {c: [(f, z ** k * x ** i * y ** j) for (k, i, j), f in e.items()] for c, e in row.items()}
+                    powers = {c: [(f, prod(x ** k for x, k in zip((z, *point), powers))) for powers, f in e.items()] for c, e in row.items()}
                     sums = {c: (sum(f[0] * q for f, q in terms), sum(f[1] * abs(q) for f, q in terms)) for c, terms in powers.items()}
                     numbers.append({c: f for c, f in sums.items() if f != (0, 0)})
                 found = self.determinant(numbers)
@@ -1617,14 +1651,21 @@ class Enclosed:
             need(len(nodes) > degree, "a determinant by enclosures is not told from zero")
             return self.interpolated(nodes, values)
 
-        x_nodes, y_nodes = ([k // 2 + 1 if k % 2 else -k // 2 for k in range(count)] for count in counts[1:])
-        planes = [self.interpolated(x_nodes, [at(x, y) for x in x_nodes]) for y in y_nodes]
-        found, _ = self.balanced(self.interpolated(y_nodes, planes)[0], bits)
-        powers = [(k, i, j) for j in range(counts[2]) for i in range(counts[1]) for k in range(counts[0])]
+        def over(point):
+            """With values for the last names, in the powers of the first, of which that of z runs fastest."""
+            if len(point) == len(asked):
+                return at(point)
+            nodes = [k // 2 + 1 if k % 2 else -k // 2 for k in range(counts[len(asked) - len(point)])]
+            return self.interpolated(nodes, [over((x, *point)) for x in nodes])
+
+        found, _ = self.balanced(over(())[0], bits)
+        powers = [()]
+        for count in counts:
+            powers = [(*others, k) for k in range(count) for others in powers]
         return dict(zip(powers, found))
 
-def loop_of(text, kept, values, boxed=(), symbols=None):
-    """The model, its loop with the parameters of a box behind those that have values, and these values."""
+def loop_of(text, kept, values, boxed=(), symbols=None, cut=None):
+    """The model, its loop with the parameters of a box behind those that have values, and these values. A cut may have further names of its own."""
     model = Model(text)
     names = [*([kept] if kept is not None else []), *values, *boxed]
     need(len(set(names)) == len(names), "a parameter has two values")
@@ -1640,9 +1681,16 @@ def loop_of(text, kept, values, boxed=(), symbols=None):
     values = {name: x for name, x in values.items() if name not in numbers}
     variables = {name: v for v, name in enumerate([*values, *boxed], 2)} | ({} if kept is None else {kept: 1})
     values = list(values.values())
+    count = len(boxed)
+    if cut:
+        need(cut.kind != "parameter" or cut.name in model.parameters or cut.name in model.constants, "the loop is cut at no parameter")
+        if cut.kind == "parameter" and cut.name in model.constants:
+            constant(model.constants[cut.name])
+        cut.begin(2 + len(values) + count)
+        count += cut.names
     if isinstance(symbols, Moving):
-        symbols.next = 2 + len(values) + len(boxed)  # behind all others
-    return model, Loop(model, variables, values, Table() if symbols is None else symbols, len(boxed)), values
+        symbols.next = 2 + len(values) + count  # behind all others
+    return model, Loop(model, variables, values, Table() if symbols is None else symbols, count, cut), values
 
 def characteristic_polynomial(text, kept, values, symbols=None):
     """Whether time is discrete, the degree, the coefficients of z^0, z^1, ... (none if undefined), the poles."""
@@ -2109,41 +2157,58 @@ def follow(tree, whole):
             need(all(c > off for c in product), "a leaf is not on one side")
     need(at == len(tree), "something follows a tree")
 
-def over_box(text, names, values, symbols=None, enclosed=None):
+def with_values(entries, values):
+    """Entries with numbers in the place of the parameters that have one, times a positive number. The factor of a cut is variable 1 then."""
+    if is_real(*entries):
+        return cleared([p.at(values) for p in entries])
+    places, found = [], []
+    for k, p in enumerate(entries):
+        of_place = {}
+        for e, c in p.items():
+            of_place.setdefault(e // UNIT, P())[e % UNIT] = c
+        places += [(k, e % (MASK + 1) * UNIT + (e >> FIELD << FIELD)) for e in of_place]
+        found += [part.at(values) for part in of_place.values()]
+    out = [P() for _ in entries]
+    for (k, place), part in zip(places, cleared(found)):
+        out[k] = out[k] + P({e + place: c for e, c in part.items()})
+    return out
+
+def over_box(text, names, values, symbols=None, enclosed=None, cut=None):
     """The coefficients in the parameters of a box, which are the variables from 2 on, and lists of polynomials at whose common zeros
-    the loop is undefined.  By enclosures, over sides of a window and with a number of bits, each number in a coefficient is a variable of its own."""
-    model, loop, values = loop_of(text, None, values, names, symbols)
-    moving = loop.moving
+    the loop is undefined.  By enclosures, over sides of a window and with a number of bits, each number in a coefficient is a variable of its own.
+    With a complex factor it is variable 1, and nothing is doubled."""
+    model, loop, values = loop_of(text, None, values, names, symbols, cut)
+    moving, is_cut = loop.moving, cut and cut.is_complex
     if moving:
         moving.given(values)
-    divisors = [cleared(divisor.at(values).coefficients(0)) for divisor in loop.scope.divisors]
+    divisors = [with_values([divisor], values)[0].coefficients(0) for divisor in loop.scope.divisors]
 
     def system(equations, unknowns):
-        return expanded([cleared([e.tops.get(name, ZERO).at(values) for name in unknowns]) for e in equations])
+        return expanded([with_values([e.tops.get(name, ZERO) for name in unknowns], values) for e in equations])
 
     need(len(loop.equations) == len(loop.unknowns), "there are not as many equations as unknowns")
     if "characteristic" in model.root["loop"]:
         [equation], [name] = loop.equations, loop.unknowns
-        d, below = cleared([equation.tops.get(name, ZERO).at(values), equation.bottom.at(values)])
+        d, below = with_values([equation.tops.get(name, ZERO), equation.bottom], values)
         divisors.append([below])
     elif enclosed:
         sides, bits = enclosed
         rows = [cleared([e.tops.get(name, ZERO).at(values) for name in loop.unknowns]) for e in loop.equations]
-        models, first = Models(1, 2 * bits + 128), moving.next - len(values)
+        models, first = Models(1, 2 * bits + 128, len(sides)), moving.next - len(values)
         known = moving.values([models.coordinate(*side, i) for i, side in enumerate(sides)], models)
         known = [(f[0][0], beside_constant(f)) for f in known]
-        asked = sum(low != high for low, high in sides)
+        asked = [low != high for low, high in sides]
         found = Enclosed(models.bits).coefficients(rows, loop.degree, known, asked, bits)
         moving.sources.append(("numbers", list(found.values())))
-        d = sum((P({k | (i << 2 * FIELD | j << 3 * FIELD if sides else 0) | 1 << FIELD * (first + v): 1})
-                 for v, (k, i, j) in enumerate(found)), ZERO)
+        d = sum((P({sum((k << FIELD * (2 + i) for i, k in enumerate(powers)), z) | 1 << FIELD * (first + v): 1})
+                 for v, (z, *powers) in enumerate(found)), ZERO)
     else:
         d = system(loop.equations, loop.unknowns)
         need(d.degree(0) <= loop.degree, "a determinant has too high a degree")
     for equations, states in loop.own:
         own = system(equations, states)
         divisors.append([own.lead(0) if own.degree(0) == len(states) else ZERO])
-    if "characteristic" not in model.root["loop"]:
+    if "characteristic" not in model.root["loop"] and not is_cut:  # else looked at beside what has the factor
         divisors.append([d.lead(0) if d.degree(0) == loop.degree else ZERO])
         if moving:
             moving.has_lead_last = True
@@ -2527,21 +2592,35 @@ def check_map(model, document, statement, values, discrete, extent):
 class TooWide(Exception):
     """A series does not reach over a box: nothing is shown of it."""
 
-class Models:
-    """Functions of two coordinates from -1 to 1 as pairs: coefficients of a polynomial up to a total degree, by degree, then by the power
-    of the second coordinate, in units of 2^-bits; and a bound of what is left out."""
+def of_degree(degree, names):
+    """The exponents of the monomials in so many names, falling powers of the first name first."""
+    if names < 2:
+        return [(degree,) * names] if names or not degree else []
+    return [(k, *rest) for k in range(degree, -1, -1) for rest in of_degree(degree - k, names - 1)]
 
-    def __init__(self, order, bits):
-        self.order, self.bits, self.one = order, bits, 1 << bits
-        self.exponents = [(d - j, j) for d in range(order + 1) for j in range(d + 1)]
+class Models:
+    """Functions of coordinates from -1 to 1, one for each name, as pairs: coefficients of a polynomial up to a total degree, by degree, then by
+    falling powers of the first coordinate, in units of 2^-bits; and a bound of what is left out."""
+
+    def __init__(self, order, bits, names=2):
+        self.order, self.bits, self.one, self.names = order, bits, 1 << bits, names
+        spend(2 * comb(2 * names + order, order))
+        levels = [of_degree(d, names) for d in range(order + 1)]
+        self.exponents = sum(levels, [])
         at = {e: k for k, e in enumerate(self.exponents)}
         # Where the products of a coefficient with the first others are that are not of too high a degree.
-        self.places = [[at[i + k, j + l] for k, l in self.exponents if i + j + k + l <= order] for i, j in self.exponents]
-        self.degrees = [slice(d * (d + 1) // 2, (d + 1) * (d + 2) // 2) for d in range(order + 1)]
-        # ((u + shift)/2)^n in units of 2^-order, for both axes and shifts.
-        self.ways = {(axis, shift): [[(at[(k, j) if axis == 0 else (i, k)], comb((i, j)[axis], k) * shift ** ((i, j)[axis] - k)
-                                      << order - (i, j)[axis]) for k in range((i, j)[axis] + 1)] for i, j in self.exponents]
-                     for axis in (0, 1) for shift in (-1, 1)}
+        below = list(accumulate(map(len, levels)))
+        self.places = [[at[tuple(map(int.__add__, e, other))] for other in self.exponents[:below[order - sum(e)]]] for e in self.exponents]
+        self.degrees = [slice(end - len(level), end) for end, level in zip(below, levels)]
+        self.at, self.ways = at, {}
+        self.most = sum(map(len, self.places)) if names > 2 else len(at) ** 2  # products of two coefficients
+
+    def way(self, axis, shift):
+        """((u + shift)/2)^n in units of 2^-order."""
+        if (axis, shift) not in self.ways:
+            self.ways[axis, shift] = [[(self.at[(*e[:axis], k, *e[axis + 1:])], comb(e[axis], k) * shift ** (e[axis] - k)
+                                        << self.order - e[axis]) for k in range(e[axis] + 1)] for e in self.exponents]
+        return self.ways[axis, shift]
 
     def units(self, c, rest=0):
         return [c, *[0] * (len(self.exponents) - 1)], rest
@@ -2557,7 +2636,7 @@ class Models:
 
     def times(self, f, g):
         (a, r), (b, s) = f, g
-        pairs = (len(a) - a.count(0)) * (len(b) - b.count(0))
+        pairs = min((len(a) - a.count(0)) * (len(b) - b.count(0)), self.most)
         spend(3 + len(a) // 4 + pairs // 2 + pairs * (self.bits ** 2 // 1000) // 500)
         longest = [max(size(c), bound.bit_length()) for c, bound in (f, g)]  # exponentials grow far beyond one
         if max(longest) > 4 * self.bits:
@@ -2609,7 +2688,7 @@ class Models:
         out = []
         for shift in (-1, 1):
             c = [0] * len(f[0])
-            for x, ways in zip(f[0], self.ways[axis, shift]):
+            for x, ways in zip(f[0], self.way(axis, shift)):
                 if x:
                     for place, way in ways:
                         c[place] += x * way
@@ -2636,6 +2715,7 @@ class Models:
     def exponentials(self, m):
         """The sums of M^k/k!, M^k/(k + 1)!, M^k/(k + 2)!: of M/2^s, with rows of at most 2^-8, doubled s times."""
         n = range(len(m))
+        hold(8 * len(m) ** 2 * len(self.exponents), 0)
         norm, s = max((sum(abs(f[0][0]) + beside_constant(f) for f in row) for row in m), default=0), 0
         while norm >> s >= self.one >> 8:
             s += 1
@@ -2870,7 +2950,7 @@ class Moving:
         return [f for m in out for row in m for f in row]
 
 class OverBoxes:
-    """Polynomials in two parameters and what depends on them, over boxes."""
+    """Polynomials in the names of a box and what depends on them, over boxes."""
 
     def __init__(self, polynomials, sources, models):
         self.sources, self.models, self.monomials, self.powers = sources, models, {}, {}
@@ -2878,10 +2958,13 @@ class OverBoxes:
         for p in polynomials:
             row = {}
             for e, c in p.items():
-                power, monomial = e >> 2 * FIELD & (MASK << FIELD | MASK), e >> 4 * FIELD
+                power, monomial = e >> 2 * FIELD & (1 << models.names * FIELD) - 1, e >> (2 + models.names) * FIELD
                 row.setdefault(self.monomials.setdefault(monomial, len(self.monomials)), []).append(
                     (self.powers.setdefault(power, len(self.powers)), c))
             self.rows.append(row)
+
+    def allow_to_compute(self):
+        hold((len(self.powers) + len(self.monomials) + len(self.rows)) * len(self.models.exponents), self.models.bits)
 
     def at(self, sides):
         """The functions, None where a series does not reach over the box."""
@@ -2904,7 +2987,7 @@ class OverBoxes:
             return out
 
         powers = [product(e, 0) or tables[0][0] for e in self.powers]
-        monomials = [product(e, 2) for e in self.monomials]
+        monomials = [product(e, models.names) for e in self.monomials]
         found = []
         for row in self.rows:
             total = models.units(0)
@@ -2919,6 +3002,28 @@ class OverBoxes:
                 total = summed(total, models.times(factor, monomials[k]) if monomials[k] else factor)
             found.append(total)
         return found
+
+class InParts:
+    """Functions over boxes, first the real and the imaginary parts of n + 1 coefficients, which come out as those of the polynomial times its
+    conjugate: it is real, and has each root and its conjugate."""
+
+    def __init__(self, functions, n):
+        self.functions, self.n = functions, n
+        self.allow_to_compute = functions.allow_to_compute
+
+    def at(self, sides):
+        found, n, models = self.functions.at(sides), self.n, self.functions.models
+        if not found:
+            return None
+        more = models.bits - max(size([abs(f[0][0]) + beside_constant(f)]) for f in found[:2 * n + 2])
+        parts = [multiplied(f, 1 << max(more, 0)) for f in found[:2 * n + 2]]  # squares of small numbers have few digits
+        product = [models.units(0)] * (2 * n + 1)
+        for part in (parts[:n + 1], parts[n + 1:]):
+            part = [(k, f) for k, f in enumerate(part) if any(f[0]) or f[1]]
+            for i, (j, f) in enumerate(part):
+                for k, g in part[i:]:
+                    product[j + k] = summed(product[j + k], models.times(f, g), 1 if j == k else 2)
+        return product + found[2 * n + 2:]
 
 AXES = (1, 0), (0, 1), (-1, 0), (0, -1)  # directions, by quarters of a turn
 
@@ -2945,13 +3050,13 @@ def holds(d, e, o):
         return all(sign_of(f) == (1 if sum(d) > 0 else -1) for f in (o if d[0] == 0 else e))
     return all(sign_of(summed(multiplied(f, d[0]), g, d[1])) > 0 for f, g in zip(e, o))
 
-def half_plane(last, e, o):
+def half_plane(last, e, o, names):
     """One that all values are in: around an axis, or across the ways on which they change most; None if that is not found."""
     k = len(e) // 2
     for d in (*last, *AXES):
         if holds(d, e, o):
             return d
-    ways = [(e[k][0][i], o[k][0][i]) for i in (1, 2)] + [[c[-1][0][0] - c[0][0][0] for c in (e, o)]]
+    ways = [(e[k][0][i], o[k][0][i]) for i in range(1, names + 1)] + [[c[-1][0][0] - c[0][0][0] for c in (e, o)]]
     return next((d for x, y in ways for d in across(x, y, (e[k][0][0], o[k][0][0])) if holds(d, e, o)), None)
 
 def roots_to_the_right(p, models):
@@ -2978,12 +3083,12 @@ def roots_to_the_right(p, models):
         e, o, halvings = todo.pop()
         seen += 1
         spend(8 * (n + 1), models.bits)
-        found = half_plane([direction], e, o)
+        found = half_plane([direction], e, o, models.names)
         if found and turn(direction, found) is not None:
             turns, direction = turns + turn(direction, found), found
             continue
         # Where not even one point of the axis is told from a root there is nothing to halve for.
-        if not all(half_plane([], [e[i]], [o[i]]) for i in (0, -1)) or halvings >= 64 or seen >= 2000:
+        if not all(half_plane([], [e[i]], [o[i]], models.names) for i in (0, -1)) or halvings >= 64 or seen >= 2000:
             return None
         spend((k + 1) ** 2 * len(e[0][0]) // 4, models.bits)
         lower, upper = [], []
@@ -3090,8 +3195,12 @@ class Judge:
     """Whether boxes are stable everywhere, or nowhere. What is known of one are the functions over it, and whether they are its own or
     those of a larger one, halved."""
 
-    def __init__(self, functions, n, divisors, models):
-        self.functions, self.n, self.divisors, self.models = functions, n, divisors, models
+    def __init__(self, functions, n, divisors, models, nowhere):
+        self.functions, self.n, self.divisors, self.models, self.nowhere = functions, n, divisors, models, nowhere
+
+    def allow_to_keep(self, boxes):
+        functions = 1 + max([self.n, *(place for ways in self.divisors for place in ways)])
+        hold(boxes * functions * len(self.models.exponents), 2 * self.models.bits)
 
     def is_precise(self, known, share):
         return all(f[1] << share <= beside_constant(f) or f[1] < 1 << 7 for f in known[:self.n + 1])
@@ -3185,9 +3294,10 @@ class Turns:
 class Delayed:
     """A polynomial in s times exp(-tau s), over a box: the coefficients as models, the dead time's middle and changes, none for no delay."""
 
-    def __init__(self, coefficients, delay, bits):
-        self.about = [[c[0][way] for c in coefficients] for way in range(3)]
-        moduli = [abs(u) + abs(v) for u, v in zip(*self.about[1:])]
+    def __init__(self, coefficients, delay, models):
+        bits = models.bits
+        self.about = [[c[0][way] for c in coefficients] for way in range(models.names + 1)]
+        moduli = [sum(map(abs, ways)) for ways in zip(*self.about[1:])]
         self.rest = [beside_constant(c) - x + 8 for c, x in zip(coefficients, moduli)]  # and roundings
         self.change = [x + r for x, r in zip(moduli, self.rest)]
         self.derivative = derivative(self.about[0])
@@ -3200,13 +3310,13 @@ class Delayed:
             self.spread = sum(abs(x) + 1 for x in self.changes)
 
 def local(parts, middle, half, turns, bits):
-    """The function about the middle of a stretch of the axis and of a box: its value, the changes by half of either side and of the stretch,
+    """The function about the middle of a stretch of the axis and of a box: its value, the changes by half of each side and of the stretch,
     what is off that at most, and the derivative by the frequency with how far it is off."""
     far, one = middle + half, 1 << bits
     above = (far >> FREQUENCY_BITS) + 2
-    value, by_u, by_v, slope, rest, slope_rest = [0, 0], [0, 0], [0, 0], [0, 0], 0, 0
+    rest, slope_rest, *totals = 0, 0, *([0, 0] for _ in range(len(parts[0].about) + 1))
     for part in parts:
-        p, u, v = (on_axis(c, middle) for c in part.about)
+        p, *ways = (on_axis(c, middle) for c in part.about)
         d = on_axis(part.derivative, middle)
         d = -d[1], d[0]
         change_slope, second = at_most(part.change_slope, far), at_most(part.second, far)
@@ -3229,7 +3339,7 @@ def local(parts, middle, half, turns, bits):
                 return z[1] * by >> bits, -(z[0] * by >> bits)
 
             changed = []
-            for z, time in zip((u, v), part.changes):
+            for z, time in zip(ways, part.changes):
                 more = back(p, middle * time >> FREQUENCY_BITS)
                 changed.append((z[0] + more[0], z[1] + more[1]))
             more = back(p, part.floor)
@@ -3237,16 +3347,17 @@ def local(parts, middle, half, turns, bits):
             d_size = modulus(d)
             rounded = 2 * p_size * above + sum(map(modulus, changed))
             c, s = turn
-            p, u, v, d = ((x * c + y * s >> bits, y * c - x * s >> bits) for x, y in (p, *changed, d))
+            p, d, *ways = ((x * c + y * s >> bits, y * c - x * s >> bits) for x, y in (p, d, *changed))
             # exp(-i x) is off 1 - i x by at most x^2/2, and off 1 by at most x.
             square = up(part.spread * half, FREQUENCY_BITS) + up(angle * angle, bits + 1)
             slope_rounded = (p_size + d_size >> bits - 3) + 64
             rest += bent + up(p_size * square + off * angle, bits) + (rounded >> bits - 3) + 64 + up(slope_rounded * half, FREQUENCY_BITS)
             slope_rest += slope_off + up(longest * off + part.spread * (p_size + off) + d_size * angle, bits) + slope_rounded
-        for total, z in zip((value, by_u, by_v, slope), (p, u, v, d)):
+        for total, z in zip(totals, (p, d, *ways)):
             total[0] += z[0]
             total[1] += z[1]
-    vectors = value, by_u, by_v, [x * half >> FREQUENCY_BITS for x in slope]
+    value, slope, *ways = totals
+    vectors = value, *ways, [x * half >> FREQUENCY_BITS for x in slope]
     far = max(size([*(x for z in vectors for x in z), rest]) - 56, 0)
     own = max(size([*slope, slope_rest]) - 56, 0)
     return [(x >> far, y >> far) for x, y in vectors], (rest >> far) + 8, (slope[0] >> own, slope[1] >> own), (slope_rest >> own) + 4
@@ -3383,27 +3494,27 @@ class Walk:
         return True
 
 def times_range(time, sides):
-    """The least and the greatest value of a + b x + c y."""
+    """The least and the greatest value of a + b x + c y + ..."""
     ends = [sorted(slope * end for end in side) for slope, side in zip(time[1:], sides)]
-    return time[0] + ends[0][0] + ends[1][0], time[0] + ends[0][1] + ends[1][1]
+    return time[0] + sum(least for least, _ in ends), time[0] + sum(most for _, most in ends)
 
 class JudgeOfDelays:
     """Whether boxes are stable everywhere, or nowhere. What is known of one is the way along the axis."""
 
     def __init__(self, own, divisors, sources, sides, models):
         need(all(name == "delay" for name, *_ in sources.sources), "beside dead time the loop has other functions")
-        self.times = [self.time(*f) for _, f in sources.sources]
-        n, self.models = len(own) - 1, models
+        n, self.models, names, behind_names = len(own) - 1, models, models.names, (2 + models.names) * FIELD
+        self.times = [self.time(*f, names) for _, f in sources.sources]
         self.n, self.turns = n, Turns(models.bits)
         divisors = divisors[:-1] if sources.has_lead_last else divisors  # it is looked at where the highest power is to outweigh the rest
-        need(not any(e >> 4 * FIELD for ways in divisors for p in ways for e in p), "a divisor depends on the dead time")
+        need(not any(e >> behind_names for ways in divisors for p in ways for e in p), "a divisor depends on the dead time")
         parts = {}
         for j, p in enumerate(cleared(own)):
             for e, c in p.items():
-                total, behind = (Fraction(0),) * 3, e >> 4 * FIELD
+                total, behind = (Fraction(0),) * (names + 1), e >> behind_names
                 for time in self.times:
                     total, behind = tuple(x + (behind & MASK) * y for x, y in zip(total, time)), behind >> FIELD
-                part, e = parts.setdefault(total, [P() for _ in own]), e & (1 << 4 * FIELD) - 1
+                part, e = parts.setdefault(total, [P() for _ in own]), e & (1 << behind_names) - 1
                 part[j] = part[j] + P({e: c})
         parts = sorted((time, part) for time, part in parts.items() if any(part))
         leads = [k for k, (_, part) in enumerate(parts) if part[n]]
@@ -3414,7 +3525,7 @@ class JudgeOfDelays:
         parts = [part for _, part in parts]
         need(not any(self.is_long(end) for side in sides for end in side), "an end of the window has too many digits")
         lengths = [x.numerator.bit_length() - x.denominator.bit_length() for x in (max(map(abs, side)) for side in sides)]
-        sizes = [max((c.bit_length() + sum((e >> FIELD * (2 + i) & MASK) * lengths[i] for i in (0, 1)) for p in column for e, c in p.items()),
+        sizes = [max((c.bit_length() + sum((e >> FIELD * (2 + i) & MASK) * lengths[i] for i in range(names)) for p in column for e, c in p.items()),
                      default=None) for column in zip(*parts)]
         self.scale = w = max(((x - sizes[n]) // (n - j) + 1 for j, x in enumerate(sizes[:n]) if x is not None), default=0)
         need(abs(w) <= 1000, "the frequencies are too low or too high")
@@ -3427,15 +3538,19 @@ class JudgeOfDelays:
         self.functions = OverBoxes(functions, Moving(), models)
 
     @staticmethod
-    def time(top, bottom):
-        need(not any(bottom) and all(e >> 2 * FIELD in (0, 1, 1 << FIELD) for e in top), "a dead time is not linear in the two parameters")
-        time = tuple(Fraction(top.get(e << 2 * FIELD, 0), bottom[0]) for e in (0, 1, 1 << FIELD))
+    def time(top, bottom, names):
+        places = 0, *(1 << FIELD * (2 + i) for i in range(names))
+        need(not any(bottom) and set(top) <= set(places), "a dead time is not linear in the names of the box")
+        time = tuple(Fraction(top.get(e, 0), bottom[0]) for e in places)
         need(not any(map(JudgeOfDelays.is_long, time)), "a dead time has too many digits")
         return time
 
     @staticmethod
     def is_long(q):
         return size(q.as_integer_ratio()) > 4096
+
+    def allow_to_keep(self, boxes):
+        """Of each the way along the axis, which is short."""
 
     def halves(self, sides, known, own, axis):
         if not own:
@@ -3481,7 +3596,7 @@ class JudgeOfDelays:
         for part, time, (least, most) in zip(parts, self.delays, delays):
             changes = (slope * (high - low) / 2 * factor for slope, (low, high) in zip(time[1:], sides))
             delay = ((least + most) / 2 * factor, *changes) if any(time) else None
-            scaled.append(Delayed([halved(c, down) for c in part], delay, bits))
+            scaled.append(Delayed([halved(c, down) for c in part], delay, self.models))
         walk = Walk(scaled, self.turns, bits, way[1])
         way = way[0], walk.pieces
         right = roots_beside(walk.pieces, n, way[0]) if walk.is_whole else None
@@ -3507,6 +3622,42 @@ class JudgeOfDelays:
         [*delayed] = [k for k in range(1, len(parts)) if moduli[k]]
         return len(delayed) == 1 and delays[delayed[0]][0] > 0 and 2 * abs(tops[delayed[0]][0][0]) - moduli[delayed[0]] > moduli[0]
 
+def judge_of(text, names, values, sides, region, precision, cut=None):
+    """Of the boxes in a window, of names of the model and those of a cut behind them."""
+    discrete, extent = region
+    sources, sides = Moving(), sides + (cut.sides(True) if cut else [])
+    enclosed = (sides, precision[1]) if has_several_rates(text) else None
+    is_discrete, own, divisors, is_complex = over_box(text, names, values, sources, enclosed, cut)
+    need(is_discrete == discrete, "the model's time is another")
+    if cut:
+        cut.is_real, sides = not is_complex, sides[:len(names)] + cut.sides(not is_complex)
+    models = Models(*precision, len(sides))
+    parts = [own]  # the real and the imaginary part, of what has complex coefficients
+    if cut and cut.is_complex:
+        parts, divisors = cut.in_parts(own, divisors, 2 + len(names))
+    has_delay = any(name == "delay" for name, *_ in sources.sources)
+    common = ONE if enclosed else in_common(sum(parts, []), 2 + len(sides) if has_delay else 1 << FIELD)
+    if any(common):  # where it vanishes, all coefficients do; the last divisor has a meaning of its own
+        parts, divisors = [[c / common if c else c for c in part] for part in parts], [[common], *divisors]
+    if has_delay:
+        need(not discrete and extent == 0, "a loop with dead time is not continuous, or its boundary is not the imaginary axis")
+        own = parts[0] if len(parts) == 1 else [sum(both, ZERO) for both in zip(*map(squared, parts))]
+        return JudgeOfDelays(own, divisors, sources, sides, models)
+    if len(parts) == 1:
+        parts = [in_region(parts[0], discrete, extent)]
+    n = len(own) - 1
+    functions = cleared(sum((in_half_plane(part) if discrete else part for part in parts), []))
+    nowhere = not all(map(any, divisors))
+    nowhere = nowhere or (not all(functions) if len(parts) == 1 else not any(functions[::n + 1]) or not any(functions[n::n + 1]))
+    places, begin = [], n + 1 if len(parts) == 1 else 2 * n + 1
+    for ways in separated(divisors):
+        places.append(range(begin, begin + len(ways)))
+        functions, begin = functions + ways, begin + len(ways)
+    functions = OverBoxes(functions, sources, models)
+    if len(parts) == 1:
+        return Judge(functions, n, places, models, nowhere)
+    return Judge(InParts(functions, n), 2 * n, places, models, nowhere)
+
 def check_boxes(model, document, statement, values, discrete, extent):
     _, _, order, bits = parts(document, ["schema", "statement", "order", "bits"], ["model"])
     *_, x, y, window, tree = parts(statement, ["kind", "time", "set", "region", "x", "y", "window", "tree"])
@@ -3516,27 +3667,7 @@ def check_boxes(model, document, statement, values, discrete, extent):
     need(all(len(ends) == 2 for ends in sides) and isinstance(tree, str), "a side has not two ends, or there is no tree")
     is_line = sides[1][0] == sides[1][1]  # one parameter alone is asked about
     need(sides[0][0] < sides[0][1] and sides[1][0] <= sides[1][1], "the window is empty")
-    sources, models = Moving(), Models(order, bits)
-    enclosed = (sides, bits) if has_several_rates(model) else None
-    is_discrete, own, divisors, _ = over_box(model, names, values, sources, enclosed)
-    need(is_discrete == discrete, "the model's time is another")
-    has_delay = any(name == "delay" for name, *_ in sources.sources)
-    common = ONE if enclosed else in_common(own, 4 if has_delay else 1 << FIELD)
-    if any(common):  # where it vanishes, all coefficients do; the last divisor has a meaning of its own
-        own, divisors = [c / common if c else c for c in own], [[common], *divisors]
-    if has_delay:
-        need(not discrete and extent == 0, "a loop with dead time is not continuous, or its boundary is not the imaginary axis")
-        judge = JudgeOfDelays(own, divisors, sources, sides, models)
-        nowhere = judge.nowhere
-    else:
-        own = in_region(own, discrete, extent)
-        own = cleared(in_half_plane(own)) if discrete else own
-        nowhere, n = not all(map(any, divisors)) or not all(own), len(own) - 1
-        functions, places = list(own), []
-        for ways in separated(divisors):
-            places.append(range(len(functions), len(functions) + len(ways)))
-            functions += ways
-        judge = Judge(OverBoxes(functions, sources, models), n, places, models)
+    judge = judge_of(model, names, values, sides, (discrete, extent), (order, bits))
     where = " and ".join("{} from {} to {}".format(name, *inward(*side)) for name, side in zip(names, sides[:1] if is_line else sides))
     where = f"For {where}{and_with(({names[1]: sides[1][0]} if is_line else {}) | values)}, "
     inside = within(discrete, extent)
@@ -3551,8 +3682,8 @@ def check_boxes(model, document, statement, values, discrete, extent):
             continue
         need(letter in shares, "tree: another letter")
         shares[letter] += Fraction(1, 1 << depth)
-        if letter != "?" and not (nowhere and letter == "-"):
-            shown = not nowhere and judge.shows(sides, known, is_own, letter == "+")
+        if letter != "?" and not (judge.nowhere and letter == "-"):
+            shown = not judge.nowhere and judge.shows(sides, known, is_own, letter == "+")
             need(shown, f"stable: a leaf {letter} is not shown, {' x '.join(f'[{a}, {b}]' for a, b in sides)}")
         if pieces and pieces[-1][0] == letter:  # those of one parameter follow each other
             pieces[-1][2] = sides[0][1]
@@ -3572,6 +3703,263 @@ def check_boxes(model, document, statement, values, discrete, extent):
     tenths = [int(1000 * shares[letter]) for letter in "+-"]
     stable, unstable = (f"{k // 10}.{k % 10} %" for k in tenths)
     return (f"{where}the loop is stable{inside} in all boxes '+' of the tree, and nowhere in its boxes '-': at least {stable} and {unstable} of "
+            "the window. Nothing is said of the rest.")
+
+# ---------------------------------------------------------------- for all values
+
+class Cut:
+    """A requirement: where the loop is cut, and the factor that it has there, in names of its own. The loop meets the requirement where it is stable
+    with the factor for all values of these. Those of a disc are r and t, delta = r (1 + j t)/(1 - j t)."""
+
+    def __init__(self, item):
+        further = ["turns"] if isinstance(item, dict) and item.get("kind") == "phase_margin" else []
+        self.requirement, at, bound, *turns = parts(item, ["kind", "at", "bound"] + further)
+        need(isinstance(at, dict) and len(at) == 1 and set(at) <= {"signal", "input", "parameter"}, "require: a cut is a signal, an input or a parameter")
+        [(self.kind, name)] = at.items()
+        self.name, self.bound = text_of(name) if self.kind == "input" else name_of(name), of_few_digits(bound)
+        self.is_complex, self.is_real, x = self.requirement != "gain_margin", True, self.bound
+        self.names = 2
+        need(x > 0, "require: a bound is not positive")
+        if self.requirement == "phase_margin":
+            need(x < 180, "require: a phase margin is not below 180 degrees")
+            self.names, self.turns = 1, self.around_tangent(items(turns[0], of_few_digits))
+        elif self.requirement == "gain_margin":
+            need(x > 1, "require: a gain margin is not above 1")
+            self.names = 1
+        elif self.requirement == "disk_margin":
+            need(x < 2, "require: a disk margin is not below 2")
+        else:
+            need(self.requirement in ("modulus_margin", "complementary_peak"), "require: unknown kind")
+            need(self.requirement == "complementary_peak" or x < 1, "require: a modulus margin is not below 1")
+
+    def around_tangent(self, turns):
+        """Two numbers, the tangent of half the angle between them."""
+        need(len(turns) == 2 and 0 < turns[0] <= turns[1], "require: 'turns' are not two positive numbers in order")
+        if self.bound == 90:
+            need(turns[0] <= 1 <= turns[1], "require: the tangent is not between the 'turns'")
+            return turns
+        bits = 128 + 4 * size(x for q in (*turns, self.bound) for x in q.as_integer_ratio())
+        pi = scaled_by(inverse_tangent(1 << bits, bits), 4)
+        low, high = (scaled_by(arc(enclosed(t, bits), bits), 360 * self.bound.denominator) for t in turns)
+        angle = scaled_by(pi, self.bound.numerator)
+        need(low[1] <= angle[0] and angle[1] <= high[0], "require: the tangent is not between the 'turns'")
+        return turns
+
+    def begin(self, first):
+        """From here on the variables are its own."""
+        self.factor = scalar(P({FACTOR if self.is_complex else 1 << FIELD * first: 1}))
+
+    def sides(self, is_real, refuting=False):
+        """The ranges of its names. What has real coefficients without the factor is stable for a factor where it is for its conjugate."""
+        if self.requirement == "gain_margin":
+            return [[1 / self.bound, self.bound]]
+        t = self.turns[0 if refuting else 1] if self.requirement == "phase_margin" else Fraction(1)
+        return [[-t, t]] * (self.names - 1) + [[Fraction(0) if is_real else -t, t]]
+
+    def quotient(self, first):
+        """The factor over a denominator that has no zero."""
+        t = P({UNIT | 1 << FIELD * (first + self.names - 1): 1})
+        plus, minus, x = ONE + t, ONE + -t, self.bound / 2 if self.requirement == "disk_margin" else self.bound
+        if self.requirement == "phase_margin":
+            return minus, plus
+        x = 1 / x if self.requirement == "complementary_peak" else x
+        disc, whole = P({1 << FIELD * first: x.numerator}) * plus, minus * number(x.denominator)
+        return {"modulus_margin": (whole, whole + -disc), "disk_margin": (whole + disc, whole + -disc), "complementary_peak": (whole + disc, whole)}[self.requirement]
+
+    def in_parts(self, own, divisors, first):
+        """The real and the imaginary parts of coefficients with the factor in the place of variable 1, times a number that is never zero; and the
+        squares of the moduli of complex divisors."""
+        top, bottom = self.quotient(first)
+
+        def put_in(p, degree):
+            powers = p.coefficients(1)
+            return short(sum((c * top ** k * bottom ** (degree - k) for k, c in enumerate(powers)), ZERO))
+
+        need(all(p.degree(1) < 2 for p in own), "require: the loop is not linear in what is cut")
+        found = [re_im(put_in(p, 1)) for p in own]
+        divisors = [cleared([p if is_real(p) and not p.degree(1) else squared_modulus(put_in(short(p), p.degree(1))) for p in ways])
+                    for ways in divisors]
+        return [list(part) for part in zip(*found)], divisors
+
+    def where(self):
+        return {"signal": "at {}", "parameter": "at the parameter {}", "input": "at the input of '{}'"}[self.kind].format(CONTROL.sub(" ", self.name))
+
+def of_few_digits(text):
+    q = rational(text)
+    need(size(q.as_integer_ratio()) <= 4096, "a number has too many digits")
+    return q
+
+class Proofs:
+    """Reads the parts of a tree, and has them shown, for the loop of each requirement, or for the one without."""
+
+    def __init__(self, text, loops, axes, names):
+        self.text, self.at, self.loops, self.axes, self.names = text, 0, loops, axes, names
+
+    def letter(self):
+        need(self.at < len(self.text), "tree: it ends too early")
+        self.at += 1
+        return self.text[self.at - 1]
+
+    def axis(self, letter, sides):
+        """A name by its letter."""
+        k = "abcdefgh".find(letter)
+        need(0 <= k < len(sides), "tree: another letter")
+        return k
+
+    def good(self, sides):
+        """One proof for each loop: that it is stable at all points."""
+        for cut, judge in self.loops:
+            stack = [(sides + (cut.sides(cut.is_real) if cut else []), None, False, 0)]
+            while stack:
+                box, known, is_own, depth = stack.pop()
+                letter = self.letter()
+                if letter != ".":
+                    axis = self.axis(letter, box)
+                    need(depth < MOST_HALVINGS, "tree: too deep")
+                    need(box[axis][0] < box[axis][1], "tree: a side without a width is halved")
+                    judge.allow_to_keep(len(stack) + 2)
+                    stack += [(*half, depth + 1) for half in judge.halves(box, known, is_own, axis)][::-1]
+                    continue
+                shown = not judge.nowhere and judge.shows(box, known, is_own, True)
+                need(shown, f"stable: a part is not shown to be stable, {' x '.join(f'[{a}, {b}]' for a, b in box)}")
+
+    def part(self, sides):
+        """The number of a loop, and the part that the steps lead to from the ranges of its names."""
+        letter = self.letter()
+        need(letter in "0123456789" and int(letter) < len(self.loops), "tree: there is no such loop")
+        cut = self.loops[int(letter)][0]
+        box, steps = sides + (cut.sides(cut.is_real, True) if cut else []), 0
+        while (step := self.letter()) != ".":
+            need(step in "lum<>", "tree: another step")
+            k = self.axis(self.letter(), box)
+            need(k >= self.axes, "tree: a step along an axis")
+            need(steps < MOST_HALVINGS, "tree: too deep")
+            low, high = box[k]
+            middle = (low + high) / 2
+            box[k] = {"l": [low, middle], "u": [middle, high], "m": [middle, middle], "<": [low, low], ">": [high, high]}[step]
+            steps += 1
+        return int(letter), box
+
+    @staticmethod
+    def nowhere_stable(judge, box):
+        shown = judge.nowhere or judge.shows(box, None, False, False)
+        need(shown, f"stable: a part is not shown to be nowhere stable, {' x '.join(f'[{a}, {b}]' for a, b in box)}")
+
+    def leaves(self, sides):
+        """The boxes of the axes, in order, each with its letter and its share of the window."""
+        stack, found = [(sides[:self.axes], 0)], []
+        while stack:
+            box, depth = stack.pop()
+            letter = self.letter()
+            if letter in "+-?":
+                found.append((letter, box, Fraction(1, 1 << depth)))
+                if letter == "+":
+                    self.good(box + sides[self.axes:])
+                elif letter == "-":
+                    k, part = self.part(box + sides[self.axes:])
+                    self.nowhere_stable(self.loops[k][1], part)
+                continue
+            axis = self.axis(letter, box)
+            need(depth < MOST_HALVINGS, "tree: too deep")
+            low, high = box[axis]
+            for side in [(low + high) / 2, high], [low, (low + high) / 2]:
+                stack.append(([side if i == axis else other for i, other in enumerate(box)], depth + 1))
+        need(self.at == len(self.text), "tree: something follows it")
+        return found
+
+MOST_HALVINGS = 160
+
+def ranges_of(json_list):
+    found = {}
+    for name, between in items(json_list, lambda item: parts(item, ["name", "between"])):
+        low, high = items(between, of_few_digits)
+        need(name_of(name) not in found and low <= high, "a range is empty, or a name has two")
+        found[name] = [low, high]
+    return found
+
+def check_for_all(model, document, statement, values, discrete, extent):
+    _, _, order, bits = parts(document, ["schema", "statement", "order", "bits"], ["model"])
+    keys = ["kind", "time", "set", "region", "axes", "for_all", "require", "tree", "beyond"]
+    *_, axes, for_all, require, tree, beyond = parts(statement, keys)
+    need(extent != "parameter", "the region has no parameter here")
+    need(1 <= count(order) <= 8 and 64 <= count(bits) <= 1024, "order or bits: out of range")
+    axes, for_all, require = ranges_of(axes), ranges_of(for_all), items(require, Cut)
+    need(len(axes) <= 2 and all(low < high for low, high in axes.values()), "the window is empty, or has more than two axes")
+    need(not set(axes) & set(for_all), "a name has two ranges")
+    need(len(require) <= 9 and (axes or for_all or require), "there is nothing that has a range, or more than nine requirements")
+    need(len(axes) + len(for_all) + max((cut.names for cut in require), default=0) <= 8, "there are too many names")
+    need(not require or extent == (1 if discrete else 0), "a region of its own has no requirements beside")
+    several = has_several_rates(model)
+    need(not several or not any(cut.is_complex for cut in require), "a requirement of a loop with several rates has no certificate")
+    need(isinstance(tree, str), "there is no tree")
+    global most
+    most += WORK_OF_PART * len(tree)
+    names, sides = [*axes, *for_all], [*axes.values(), *for_all.values()]
+
+    def judge(cut, sides):
+        found = judge_of(model, names, values, sides, (discrete, extent), (order, bits), cut)
+        found.functions.allow_to_compute()
+        return found
+
+    loops = [(cut, judge(cut, sides)) for cut in require or [None]]
+    leaves = Proofs(tree, loops, len(axes), names).leaves(sides)
+    if beyond is not None:
+        need(not axes, "beyond: there are axes")
+        point, steps = parts(beyond, ["point", "not"])
+        point = items(point, of_few_digits)
+        need(len(point) == len(names) and isinstance(steps, str), "beyond: there is no point")
+        proofs, sides = Proofs(steps, loops, 0, names), [[x, x] for x in point]
+        k, part = proofs.part(sides)
+        need(proofs.at == len(steps), "beyond: something follows the steps")
+        # By enclosures a judge knows nothing beyond its window.
+        proofs.nowhere_stable(judge(require[k] if require else None, sides) if several else loops[k][1], part)
+        beyond = dict(zip(names, point))
+    return of_for_all(axes, for_all, values, within(discrete, extent), require, leaves, beyond)
+
+def of_for_all(axes, for_all, values, inside, require, leaves, beyond):
+    """The statement in words. Ends of ranges are exact: what is not so for all values of a range need not be in a smaller one."""
+    ways = {"phase_margin": "a phase margin of at least {} degrees", "gain_margin": "a gain margin of at least {} both ways",
+            "modulus_margin": "a modulus margin of at least {}", "disk_margin": "a disk margin of at least {}",
+            "complementary_peak": "a peak of the complementary sensitivity of at most {}"}
+    wishes = [f"{ways[cut.requirement].format(exact(cut.bound))} {cut.where()}" for cut in require]
+    good = f"stable{inside}" + (f", with {' and '.join(wishes)}" if wishes else "")
+    values = {name: low for name, (low, high) in for_all.items() if low == high} | values
+    every = " and ".join(f"{name} from {exact(low)} to {exact(high)}" for name, (low, high) in for_all.items() if low < high)
+    if not axes:
+        [(letter, _, _)] = leaves
+        begin = f"or all {every}" if every else ""
+        if letter == "-" and every:
+            sentence = f"Not f{begin}{and_with(values)}, the loop is {good}."
+        else:
+            begin = f"F{begin}{and_with(values)}, the" if every else f"At {at_values(values)}, the" if values else "The"
+            sentence = {"+": f"{begin} loop is {good}.", "-": f"{begin} loop is not {good.replace(', with', ' with', 1)}.", "?": f"{begin} loop may be stable or not: nothing is said of it."}[letter]
+        if beyond is not None:
+            at = f"At {at_values(beyond)}, it" if beyond else "It"
+            sentence += f" {at} is not."
+        return sentence
+    where = " and ".join("{} from {} to {}".format(name, *inward(*side)) for name, side in axes.items())
+    where = f"For {where}{f', for all {every}' if every else ''}{and_with(values)}, "
+    if len(axes) == 1:
+        [name], pieces = axes, []
+        for letter, [(low, high)], _ in leaves:
+            if pieces and pieces[-1][0] == letter:
+                pieces[-1][2] = high
+            else:
+                pieces.append([letter, low, high])
+
+        def ranges(letter):
+            own = (inward(low, high) for kind, low, high in pieces if kind == letter)
+            return " and ".join(f"{low} <= {name} <= {high}" for low, high in own)
+
+        stable, not_stable = ranges("+"), ranges("-")
+        so = ", " if wishes else " "
+        said = (f"the loop is {good}{so}for {stable}, and not so for any value in {not_stable}." if stable and not_stable else
+                f"the loop is {good}{so}for {stable}." if stable else
+                f"the loop is not {good}{so}for any value in {not_stable}." if not_stable else "nothing is said of the loop.")
+        return f"{where}{said} Nothing is said of the rest."
+    tenths = [int(1000 * sum(share for kind, _, share in leaves if kind == letter)) for letter in "+-"]
+    stable, not_stable = (f"{k // 10}.{k % 10} %" for k in tenths)
+    return (f"{where}the loop is {good}{', ' if wishes else ' '}in all boxes '+' of the tree, and nowhere in its boxes '-': at least {stable} and {not_stable} of "
             "the window. Nothing is said of the rest.")
 
 # ---------------------------------------------------------------- dead time
@@ -4116,8 +4504,8 @@ def read(certificate):
     need(isinstance(document, dict) and document.get("schema") in SCHEMAS, "unknown schema")
     return document
 
-SCHEMAS = [f"jurist/certificate/{version}" for version in range(1, 10)]
-RATIONAL, WITH_SYMBOLS, WITH_DEAD_TIME, OF_BOXES, OF_MAPS, OF_CELLS, OF_MAPS_BY_BOXES, OF_BOXES_WITH_SYMBOLS, BY_ENCLOSURES = SCHEMAS
+SCHEMAS = [f"jurist/certificate/{version}" for version in range(1, 11)]
+RATIONAL, WITH_SYMBOLS, WITH_DEAD_TIME, OF_BOXES, OF_MAPS, OF_CELLS, OF_MAPS_BY_BOXES, OF_BOXES_WITH_SYMBOLS, BY_ENCLOSURES, FOR_ALL = SCHEMAS
 FURTHER = ["bits", "symbols", "modes"]
 
 def table_of(document):
@@ -4138,7 +4526,7 @@ def check(model, certificate):
     statement = document["statement"]
     kind, time, values, region = (statement[key] for key in ("kind", "time", "set", "region"))
     kinds = {OF_BOXES: ["tolerance"], OF_MAPS: ["map"], OF_CELLS: ["cells", "verdict"], OF_MAPS_BY_BOXES: ["boxes"],
-             OF_BOXES_WITH_SYMBOLS: ["tolerance"], BY_ENCLOSURES: ["verdict"]}
+             OF_BOXES_WITH_SYMBOLS: ["tolerance"], BY_ENCLOSURES: ["verdict"], FOR_ALL: ["for_all"]}
     need(kind in kinds.get(document["schema"], ["intervals", "verdict"]), "unknown kind of statement")
     need(time in ("discrete", "continuous"), "unknown time")
     discrete = time == "discrete"
@@ -4147,12 +4535,14 @@ def check(model, certificate):
     extent = "parameter" if extent == "parameter" else rational(extent)
     need(not discrete or extent == "parameter" or extent > 0, "the radius is not positive")
     if has_several_rates(model):
-        need(extent == 1 and document["schema"] in (RATIONAL, WITH_SYMBOLS, OF_MAPS_BY_BOXES, BY_ENCLOSURES),
+        need(extent == 1 and document["schema"] in (RATIONAL, WITH_SYMBOLS, OF_MAPS_BY_BOXES, BY_ENCLOSURES, FOR_ALL),
              "a loop of several rates has certificates of stability without further wishes alone")
     if kind == "tolerance":
         return check_tolerance(model, document, statement, values, discrete, extent)
     if kind == "boxes":
         return check_boxes(model, document, statement, values, discrete, extent)
+    if kind == "for_all":
+        return check_for_all(model, document, statement, values, discrete, extent)
     if kind == "map":
         return check_map(model, document, statement, values, discrete, extent)
     if document["schema"] == OF_CELLS:
@@ -4306,7 +4696,7 @@ def walk(d, n, discrete, certain, identity, factors, line, low, high, ring):
 
 def places_by_enclosures(model, values, extent, bits):
     """The degree, and how many roots are inside and outside; none is on the boundary, and none at infinity."""
-    sources, models = Moving(), Models(1, bits)
+    sources, models = Moving(), Models(1, bits, 0)
     is_discrete, d, divisors, doubled = over_box(model, [], values, sources, ([], bits))
     need(is_discrete and not any(name == "delay" for name, *_ in sources.sources), "the model's time is another")
     known = sources.values([], models)
