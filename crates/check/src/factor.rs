@@ -66,6 +66,12 @@ pub(super) struct Factor {
     pub family: Family,
 }
 
+impl Factor {
+    pub fn is_complex_at_parameter(&self) -> bool {
+        self.family.is_complex() && matches!(self.cut, Cut::Parameter(_))
+    }
+}
+
 impl Family {
     /// The number of its own names.
     pub fn names(&self) -> usize {

@@ -10,6 +10,7 @@ use super::characteristic::{Form, product};
 use super::clock::Clock;
 use super::complex::{parts, real_divisor, short, square_of_root};
 use super::enclosed::Determinant;
+use super::factor::{Factor, Family};
 use super::model::{self, Boxed, Functions};
 use super::moving::Sources;
 use super::multivariate::{Fraction, Multi};
@@ -72,6 +73,15 @@ pub(super) fn with_sources(
     clock: &Clock,
 ) -> Result<(OverBox, Sources), String> {
     let asked = model::asked_over_box(text, boxed, functions, clock)?;
+    if let Some(factor) = boxed.factor.filter(|factor| factor.is_complex_at_parameter()) {
+        // Linear in a gain there, or, doubled, of twice the degree.
+        let factor = Factor { family: Family::Gain, ..factor.clone() };
+        let (plain, _) = with_sources(text, Boxed { factor: Some(&factor), ..boxed }, functions, by, clock)?;
+        let most = if plain.is_doubled { 2 } else { 1 };
+        if plain.coefficients.iter().any(|c| c.degree(FIRST + boxed.names.len()) > most) {
+            return Err("the loop is not linear in the parameter that is cut".into());
+        }
+    }
     clock.reading(|| {
         let values = &asked.values;
         let positive = boxed.factor.map(|f| f.family.positive(FIRST + boxed.names.len(), clock)).transpose()?;

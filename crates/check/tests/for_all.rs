@@ -134,8 +134,12 @@ fn complex_loops_are_asked_about_both_sides() {
     }
     let written = "time = 'continuous'\nparameters.K = {}\nloop.characteristic = 's + K*(1 - j)'";
     told(written, &asked, phases(r#"{"parameter": "K"}"#, [44.5, 45.5]));
+    // Nor is one to the power of two.
     let matrix = "time = 'continuous'\nparameters.K = {}\nloop.matrix = [['-K', '-K'], ['K', '-K']]";
-    told(matrix, &asked, phases(r#"{"parameter": "K"}"#, [44.5, 45.5]));
+    let twice = asked.clone().require(phase(r#"{"parameter": "K"}"#, 30.0));
+    assert_eq!(check(matrix, &twice.certificate("+."), &LIMITS).unwrap_err().step, Step::Model);
+    let gain = asked.require(other("gain_margin", r#"{"parameter": "K"}"#, "2"));
+    assert_eq!(accepted(matrix, &gain).0, '+');
 }
 
 /// A name of the model that is the imaginary unit elsewhere keeps its meaning.
@@ -353,7 +357,7 @@ fn cuts_beside_the_loop_and_factors_of_zero() {
     for require in [
         phase(r#"{"signal": "w"}"#, 170.0),
         other("modulus_margin", r#"{"signal": "w"}"#, "99/100"),
-        other("disk_margin", r#"{"input": "filter"}"#, "199/100"),
+        other("disk_margin", r#"{"input": "filter"}"#, "1/2"),
     ] {
         assert_eq!(accepted(&model, &asked.clone().require(require)).0, '+');
     }
