@@ -131,7 +131,7 @@ pub(super) fn system_matrix<'t>(
     let numbered = driven.iter().enumerate().map(|(i, name)| (*name, i)).chain(external);
     let signals = numbered.map(|(name, i)| (name.to_owned(), i)).collect();
     // Behind a factor a signal is another one.
-    let cut = scope.factor.as_ref().filter(|(cut, _)| !matches!(cut, Cut::Parameter(_))).map(|_| driven.len());
+    let cut = scope.factor.as_ref().filter(|factor| !matches!(factor.cut, Cut::Parameter(_))).map(|_| driven.len());
     let unknowns = driven.len() + usize::from(cut.is_some());
     let (rows, alone) = (Vec::new(), Vec::new());
     let (rates, rate) = (Rates::default(), Rate { every: 1, phase: 0 });

@@ -36,7 +36,7 @@ fn joined([x, y]: [Multi; 2], unit: usize, clock: &Clock) -> Result<Multi, Strin
 }
 
 /// Without powers of the unit.
-fn short(m: &Multi, unit: usize, clock: &Clock) -> Result<Multi, String> {
+pub(super) fn short(m: &Multi, unit: usize, clock: &Clock) -> Result<Multi, String> {
     if m.degree(unit) < 2 { Ok(m.clone()) } else { joined(parts(m, unit), unit, clock) }
 }
 
@@ -94,8 +94,17 @@ impl Scope<'_> {
         }
     }
 
+    /// Refuses what has a complex factor: it is one of the loop and not of a part of it.
+    pub(super) fn without_factor(&self, f: &Fraction) -> Result<(), String> {
+        match &self.factor {
+            Some(factor) if factor.is_in(f) => Err("the complex factor of a cut is inside of a function".into()),
+            _ => Ok(()),
+        }
+    }
+
     /// Refuses what has an imaginary unit.
     pub(super) fn real(&self, f: Fraction) -> Result<Fraction, String> {
+        self.without_factor(&f)?;
         match self.unit {
             Some(unit) if !f.is_real(unit) => Err("what has to be real is complex".into()),
             _ => Ok(f),
@@ -109,16 +118,14 @@ impl Scope<'_> {
             return Ok(one);
         }
         let unit = self.unit.ok_or("'j' has another meaning here")?;
-        self.has_unit = true;
         let moving = self.moving.as_mut().ok_or("cosines and sines of a frame are read by enclosures alone")?;
         let [cosine, sine] = [Function::Cosine, Function::Sine].map(|f| moving.of(f, angle.clone()));
         cosine?.plus(&sine?.times(&Fraction::variable(unit), self.clock)?, self.clock)
     }
 
     /// `conj(f)`, `re(f)` or `im(f)`.
-    pub(super) fn of_complex(&mut self, name: &str, f: &Fraction) -> Result<Fraction, String> {
-        // It is half the difference from what is conjugated, over the unit.
-        self.has_unit |= name == "im";
+    pub(super) fn of_complex(&self, name: &str, f: &Fraction) -> Result<Fraction, String> {
+        self.without_factor(f)?;
         if f.numerator.degree(0) > 0 || f.denominator.degree(0) > 0 {
             return Err("a function of the loop's variable".into());
         }
@@ -135,6 +142,7 @@ impl Scope<'_> {
 
     /// A function that is read as a variable; of a complex argument `exp` alone.
     pub(super) fn of_function(&mut self, function: Function, f: Fraction) -> Result<Fraction, String> {
+        self.without_factor(&f)?;
         if let (Some(unit), Function::Exponential) = (self.unit, function)
             && !f.is_real(unit)
             && f.numerator.degree(0) == 0
@@ -220,6 +228,15 @@ pub(super) fn doubled_matrix(m: &[Vec<Fraction>], unit: usize, clock: &Clock) ->
     Ok(out)
 }
 
+/// Zero where the given ones are, for real parameters.
+pub(super) fn real_divisors(divisors: &BTreeSet<Multi>, unit: usize, clock: &Clock) -> Result<BTreeSet<Multi>, String> {
+    divisors.iter().map(|m| real_divisor(m, unit, clock)).collect()
+}
+
+pub(super) fn real_divisor(m: &Multi, unit: usize, clock: &Clock) -> Result<Multi, String> {
+    if has_unit(m, unit) { square(m, unit, clock) } else { Ok(m.clone()) }
+}
+
 /// The form and the divisors without the unit, and whether the form is doubled.
 pub(super) fn doubled(
     form: Form,
@@ -227,8 +244,7 @@ pub(super) fn doubled(
     unit: usize,
     clock: &Clock,
 ) -> Result<(Form, BTreeSet<Multi>, bool), String> {
-    let real = |m: &Multi| if has_unit(m, unit) { square(m, unit, clock) } else { Ok(m.clone()) };
-    let divisors = divisors.iter().map(real).collect::<Result<_, String>>()?;
+    let divisors = real_divisors(divisors, unit, clock)?;
     let in_matrix = |m: &[Vec<Fraction>]| m.iter().flatten().any(|f| !f.is_real(unit));
     let in_rows = |(rows, _): &Ordered| rows.iter().flatten().any(|m| has_unit(m, unit));
     let is_complex = match &form {

@@ -2,7 +2,7 @@
 
 use super::clock::Clock;
 use super::expression::{Scope, UNIT, is_name, names_in, number};
-use super::factor::Cut;
+use super::factor::PutIn;
 use super::model::{matrix, sized};
 use super::moving::Moving;
 use super::multivariate::Fraction;
@@ -35,8 +35,8 @@ pub(super) struct Meaning<'q> {
     pub changes_constants: bool,
     /// The variable that is the imaginary unit; it has no value.
     pub unit: usize,
-    /// A factor at a cut of the loop, in so many names of its own, which are the variables behind those of a box.
-    pub factor: Option<(Cut, Fraction, usize)>,
+    /// A factor at a cut of the loop, whose own names are the variables behind those of a box.
+    pub factor: Option<PutIn>,
 }
 
 impl<'t> Declarations<'t> {
@@ -200,11 +200,11 @@ impl<'t> Declarations<'t> {
         // Behind all others.
         let mut last = meaning.variables.values().copied().max().unwrap_or(1).max(meaning.unit);
         scope.unit = (!self.is_taken(UNIT)).then_some(meaning.unit);
-        if let Some((cut, factor, names)) = &meaning.factor {
-            last += names;
+        if let Some(factor) = &meaning.factor {
+            last = last.max(factor.names.end - 1);
             // Where the name has another meaning it keeps that one.
             scope.unit = Some(meaning.unit);
-            scope.factor = Some((cut.clone(), factor.clone()));
+            scope.factor = Some(factor.clone());
         }
         scope.moving = is_moving.then(|| Moving::new(last + 1, !self.discrete));
         for (name, text) in self.constants.iter().filter(|(name, _)| !meaning.variables.contains_key(*name)) {

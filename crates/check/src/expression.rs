@@ -1,7 +1,7 @@
 //! Expressions: read and evaluated in one pass.
 
 use super::clock::Clock;
-use super::factor::Cut;
+use super::factor::{Cut, PutIn};
 use super::moving::{Function, Moving};
 use super::multivariate::{Fraction, Multi};
 use super::number::{Q, decimal, shorten};
@@ -46,10 +46,8 @@ pub(super) struct Scope<'c> {
     pub dead_time: Option<DeadTime>,
     /// The variable that is the imaginary unit, where the name has no other meaning.
     pub unit: Option<usize>,
-    /// Whether the imaginary unit was read, or an imaginary part.
-    pub has_unit: bool,
     /// A factor at a cut of the loop.
-    pub factor: Option<(Cut, Fraction)>,
+    pub factor: Option<PutIn>,
     /// Functions and holds, where they are read as further variables.
     pub moving: Option<Moving>,
     /// Values of constants.
@@ -90,7 +88,6 @@ impl<'c> Scope<'c> {
         Scope {
             dead_time: None,
             unit: None,
-            has_unit: false,
             factor: None,
             moving: None,
             constants: BTreeMap::new(),
@@ -175,7 +172,9 @@ impl<'c> Scope<'c> {
     /// The value of a name, with the factor if the loop is cut there.
     fn with_factor(&self, name: &str, value: Fraction) -> Result<Fraction, String> {
         match &self.factor {
-            Some((Cut::Parameter(cut), factor)) if cut == name => value.times(factor, self.clock),
+            Some(PutIn { cut: Cut::Parameter(cut), value: factor, .. }) if cut == name => {
+                value.times(factor, self.clock)
+            }
             _ => Ok(value),
         }
     }
@@ -434,7 +433,6 @@ impl<'t> Parser<'_, '_, 't> {
             return Ok(plain(moving.pi()));
         }
         if let (UNIT, false, Some(unit)) = (name, is_known, self.scope.unit) {
-            self.scope.has_unit = true;
             return Ok(plain(Fraction::variable(unit)));
         }
         let constant = self.scope.constants.get(name).cloned();

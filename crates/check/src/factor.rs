@@ -5,6 +5,7 @@ use super::complex::square;
 use super::multivariate::{Fraction, Multi};
 use super::number::{Q, Z};
 use super::over_symbols::primitive;
+use std::ops::Range;
 
 /// Where a factor is put in.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -32,11 +33,43 @@ pub(super) enum Family {
     Complementary(Q),
 }
 
+/// A factor in a model.
+#[derive(Clone, Debug)]
+pub(super) struct PutIn {
+    pub cut: Cut,
+    pub value: Fraction,
+    /// The variables that are its own names.
+    pub names: Range<usize>,
+    is_complex: bool,
+}
+
+impl PutIn {
+    /// Its own names are the variables from `first` on.
+    pub fn new(of: &Factor, first: usize, unit: usize, clock: &Clock) -> Result<Self, String> {
+        let [numerator, scalar] = of.family.quotient(first, unit, clock)?;
+        let value = Fraction { numerator, denominator: Multi::one(), scalar };
+        let names = first..first + of.family.names();
+        Ok(PutIn { cut: of.cut.clone(), value, names, is_complex: of.family.is_complex() })
+    }
+
+    /// Whether it is complex, and occurs.
+    pub fn is_in(&self, f: &Fraction) -> bool {
+        let occurs = |m: &Multi| self.names.clone().any(|name| m.degree(name) > 0);
+        self.is_complex && [&f.numerator, &f.denominator, &f.scalar].into_iter().any(occurs)
+    }
+}
+
 /// A family of factors at a cut.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Factor {
     pub cut: Cut,
     pub family: Family,
+}
+
+impl Factor {
+    pub fn is_complex_at_parameter(&self) -> bool {
+        self.family.is_complex() && matches!(self.cut, Cut::Parameter(_))
+    }
 }
 
 impl Family {
@@ -82,12 +115,6 @@ impl Family {
                 [top, whole]
             }
         })
-    }
-
-    /// The factor.
-    pub fn value(&self, first: usize, unit: usize, clock: &Clock) -> Result<Fraction, String> {
-        let [numerator, scalar] = self.quotient(first, unit, clock)?;
-        Ok(Fraction { numerator, denominator: Multi::one(), scalar })
     }
 
     /// Polynomials in the own names that are positive wherever the factors are asked about.

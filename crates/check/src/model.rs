@@ -3,10 +3,10 @@
 use super::blocks::{Values, system_matrix};
 use super::characteristic::{Characteristic, Form, specialised};
 use super::clock::Clock;
-use super::complex::doubled;
+use super::complex::{doubled, has_unit, real_divisors};
 use super::declarations::{Declarations, Meaning};
 use super::expression::{Base, DeadTime, Names, Scope, number};
-use super::factor::{Cut, Factor};
+use super::factor::{Cut, Factor, PutIn};
 use super::keys;
 use super::moving::Moving;
 use super::multivariate::{Fraction, Multi};
@@ -47,7 +47,9 @@ pub(super) struct Asked {
     pub moving: Option<Moving>,
     /// Whether the loop is complex, so that it is doubled.
     pub is_doubled: bool,
-    /// Whether that is so without its factor, or the unit is where the factor goes.
+    /// The variable that is the imaginary unit in a loop that is not doubled: one with a complex factor.
+    pub unit: Option<usize>,
+    /// Whether such a loop is complex without its factor.
     pub is_complex: bool,
 }
 
@@ -113,7 +115,7 @@ fn read_for(
             evaluated(&root, &declared, (&declared.as_written(), is_moving), None, clock)?;
         }
         let mut first = meaning.values.len() + boxed.names.len();
-        let mut is_complex = false;
+        let (mut unit, mut is_complex) = (None, false);
         if let Some(factor) = boxed.factor {
             // Without the factor it must be right as well.
             let of = Values { numbers: &meaning.values, first, table, base };
@@ -126,29 +128,30 @@ fn read_for(
             if !is_parameter && !matches!(plain.form, Form::System(..)) {
                 return Err("a loop without blocks is cut at a parameter alone".into());
             }
-            // Conjugated factors make conjugated loops, unless the unit stands beside the parameter.
-            is_complex = is_parameter && plain.has_unit;
+            // Conjugated factors make conjugated loops of real ones.
+            is_complex = plain.divisors.iter().any(|divisor| has_unit(divisor, meaning.unit));
             is_complex |= doubled(plain.form, &plain.divisors, meaning.unit, clock)?.2;
-            let value = factor.family.value(first, meaning.unit, clock)?;
-            let names = factor.family.names();
-            meaning.factor = Some((factor.cut.clone(), value, names));
-            first += names;
+            if factor.family.is_complex() {
+                // No parameter is in question beside those of a box.
+                meaning.unit = KEPT;
+                unit = Some(KEPT);
+            }
+            meaning.factor = Some(PutIn::new(factor, first, meaning.unit, clock)?);
+            first += factor.family.names();
         }
         let of = Values { numbers: &meaning.values, first, table, base };
         let found = evaluated(&root, &declared, (&meaning, is_moving), Some(of), clock)?;
-        let (form, divisors, is_doubled) = doubled(found.form, &found.divisors, meaning.unit, clock)?;
-        let moving = found.moving;
-        Ok(Asked {
-            discrete: declared.discrete,
-            form,
-            divisors,
-            values: meaning.values,
-            moving,
-            is_doubled,
-            is_complex,
-        })
+        let (discrete, moving) = (declared.discrete, found.moving);
+        let (form, divisors, is_doubled) = match unit {
+            Some(unit) => (found.form, real_divisors(&found.divisors, unit, clock)?, false),
+            None => doubled(found.form, &found.divisors, meaning.unit, clock)?,
+        };
+        Ok(Asked { discrete, form, divisors, values: meaning.values, moving, is_doubled, unit, is_complex })
     })
 }
+
+/// The variable of the parameter in question.
+const KEPT: usize = 1;
 
 /// A loop as it is read.
 struct Evaluated {
@@ -157,7 +160,6 @@ struct Evaluated {
     divisors: BTreeSet<Multi>,
     /// The functions in it, if they are read.
     moving: Option<Moving>,
-    has_unit: bool,
 }
 
 fn evaluated(
@@ -209,7 +211,7 @@ fn evaluated(
         (Form::Feedback([a, b, c, k]), ports)
     };
     simulation(root, &ports, clock)?;
-    Ok(Evaluated { form, divisors: scope.divisors, moving: scope.moving, has_unit: scope.has_unit })
+    Ok(Evaluated { form, divisors: scope.divisors, moving: scope.moving })
 }
 
 /// What a loop calls what enters it, what it remembers, and what is seen of it.

@@ -8,8 +8,9 @@ pub(super) use common::separated;
 use super::blocks::cleared;
 use super::characteristic::{Form, product};
 use super::clock::Clock;
-use super::complex::square_of_root;
+use super::complex::{parts, real_divisor, short, square_of_root};
 use super::enclosed::Determinant;
+use super::factor::{Factor, Family};
 use super::model::{self, Boxed, Functions};
 use super::moving::Sources;
 use super::multivariate::{Fraction, Multi};
@@ -32,11 +33,13 @@ pub(super) struct OverBox {
     pub divisors: Vec<Vec<Multi>>,
     /// Whether the loop is complex, so that it is doubled.
     pub is_doubled: bool,
+    /// The imaginary parts of the coefficients, where the loop has a complex factor.
+    pub imaginary: Option<Vec<Multi>>,
     /// Whether the last of them is the leading coefficient, that of a determinant.
     pub has_lead_last: bool,
     /// Polynomials that are positive wherever the loop is asked about.
     pub positive: Vec<Multi>,
-    /// Whether the loop is complex without its factor, or the factor is not all that is complex beside it.
+    /// Whether a loop with a complex factor is complex without it.
     pub is_complex: bool,
 }
 
@@ -70,6 +73,15 @@ pub(super) fn with_sources(
     clock: &Clock,
 ) -> Result<(OverBox, Sources), String> {
     let asked = model::asked_over_box(text, boxed, functions, clock)?;
+    if let Some(factor) = boxed.factor.filter(|factor| factor.is_complex_at_parameter()) {
+        // Linear in a gain there, or, doubled, of twice the degree.
+        let factor = Factor { family: Family::Gain, ..factor.clone() };
+        let (plain, _) = with_sources(text, Boxed { factor: Some(&factor), ..boxed }, functions, by, clock)?;
+        let most = if plain.is_doubled { 2 } else { 1 };
+        if plain.coefficients.iter().any(|c| c.degree(FIRST + boxed.names.len()) > most) {
+            return Err("the loop is not linear in the parameter that is cut".into());
+        }
+    }
     clock.reading(|| {
         let values = &asked.values;
         let positive = boxed.factor.map(|f| f.family.positive(FIRST + boxed.names.len(), clock)).transpose()?;
@@ -78,6 +90,7 @@ pub(super) fn with_sources(
         for divisor in &asked.divisors {
             divisors.push(substituted(&divisor.coefficients(0), values, clock)?);
         }
+        let unit = asked.unit;
         let specialised = |rows: &[Vec<Multi>]| -> Result<Vec<Vec<Multi>>, String> {
             rows.iter().map(|row| substituted(row, values, clock)).collect()
         };
@@ -86,11 +99,15 @@ pub(super) fn with_sources(
         let (rows, degree) = match &asked.form {
             Form::Written(f) => {
                 let mut both = substituted(&[f.numerator.clone(), f.whole_denominator(clock)?], values, clock)?;
-                divisors.extend(both.pop().map(|below| vec![below]));
-                let coefficients = resized(&both.pop().unwrap_or_default(), f.numerator.degree(0));
+                let below = both.pop().unwrap_or_default();
+                divisors.push(vec![unit.map_or_else(|| Ok(below.clone()), |unit| real_divisor(&below, unit, clock))?]);
+                let d = reduced(both.pop().unwrap_or_default(), unit, clock)?;
+                let degree = reduced(f.numerator.clone(), unit, clock)?.degree(0);
+                let [coefficients, imaginary] = in_parts(resized(&d, degree), unit);
                 let found = OverBox {
                     discrete: asked.discrete,
                     coefficients,
+                    imaginary: unit.map(|_| imaginary),
                     divisors,
                     is_doubled: asked.is_doubled,
                     has_lead_last: false,
@@ -112,14 +129,16 @@ pub(super) fn with_sources(
             }
             Form::System((rows, degree), alone) => {
                 for (rows, degree) in alone {
-                    divisors.extend(expanded(&specialised(rows)?, *degree, clock)?.pop().map(|lead| vec![lead]));
+                    let lead = expanded(&specialised(rows)?, *degree, unit, clock)?.pop().unwrap_or_default();
+                    divisors
+                        .push(vec![unit.map_or_else(|| Ok(lead.clone()), |unit| real_divisor(&lead, unit, clock))?]);
                 }
                 (rows.clone(), *degree)
             }
         };
         let rows = specialised(&rows)?;
         let (coefficients, sources) = match by {
-            By::Expansion => (expanded(&rows, degree, clock)?, sources),
+            By::Expansion => (expanded(&rows, degree, unit, clock)?, sources),
             By::Enclosures { window, bits } => {
                 let first = FIRST + window.len() + sources.len();
                 let found =
@@ -134,14 +153,19 @@ pub(super) fn with_sources(
                 (coefficients, sources.with_numbers(found.into_values().collect()))
             }
         };
-        divisors.push(coefficients.last().cloned().into_iter().collect());
+        if unit.is_none() {
+            divisors.push(coefficients.last().cloned().into_iter().collect());
+        }
+        let [coefficients, imaginary] = in_parts(coefficients, unit);
         Ok((
             OverBox {
                 discrete: asked.discrete,
                 coefficients,
+                imaginary: unit.map(|_| imaginary),
                 divisors,
                 is_doubled: asked.is_doubled,
-                has_lead_last: true,
+                // With a complex factor it is looked at where roots are.
+                has_lead_last: unit.is_none(),
                 positive,
                 is_complex: asked.is_complex,
             },
@@ -150,9 +174,21 @@ pub(super) fn with_sources(
     })
 }
 
+/// With `j^2 = -1`.
+fn reduced(d: Multi, unit: Option<usize>, clock: &Clock) -> Result<Multi, String> {
+    unit.map_or(Ok(d.clone()), |unit| short(&d, unit, clock))
+}
+
+/// The real and the imaginary parts.
+fn in_parts(coefficients: Vec<Multi>, unit: Option<usize>) -> [Vec<Multi>; 2] {
+    let Some(unit) = unit else { return [coefficients, Vec::new()] };
+    let (real, imaginary) = coefficients.iter().map(|c| parts(c, unit)).map(|[x, y]| (x, y)).unzip();
+    [real, imaginary]
+}
+
 /// The coefficients of a determinant that has at most this degree.
-fn expanded(rows: &[Vec<Multi>], degree: usize, clock: &Clock) -> Result<Vec<Multi>, String> {
-    let d = determinant(rows, clock)?;
+fn expanded(rows: &[Vec<Multi>], degree: usize, unit: Option<usize>, clock: &Clock) -> Result<Vec<Multi>, String> {
+    let d = reduced(determinant(rows, clock)?, unit, clock)?;
     if d.degree(0) > degree {
         return Err("a determinant has a higher degree than the model".into());
     }

@@ -11,8 +11,8 @@ use num_traits::One;
 impl Diagram<'_, '_> {
     /// Puts the signal behind the factor into the inputs of a block, where it belongs.
     pub(super) fn behind_factor(&mut self, block: &Toml, inputs: &mut [Row]) -> Result<(), String> {
-        let (Some(behind), Some((cut, _))) = (self.cut, &self.scope.factor) else { return Ok(()) };
-        match cut {
+        let (Some(behind), Some(factor)) = (self.cut, &self.scope.factor) else { return Ok(()) };
+        match &factor.cut {
             Cut::Signal(name) => {
                 let signal = self.signals.get(name);
                 for input in inputs {
@@ -35,8 +35,8 @@ impl Diagram<'_, '_> {
 
     /// The equation of the signal behind the factor. The first `driven` unknowns are signals of blocks, the first `signals` are signals.
     pub(super) fn factor(&mut self, driven: usize, signals: usize) -> Result<(), String> {
-        let (Some(behind), Some((cut, factor))) = (self.cut, &self.scope.factor) else { return Ok(()) };
-        let before = match cut {
+        let (Some(behind), Some(factor)) = (self.cut, self.scope.factor.clone()) else { return Ok(()) };
+        let before = match &factor.cut {
             Cut::Signal(name) => {
                 let signal = self.signals.get(name).filter(|signal| **signal < driven);
                 let signal =
@@ -50,8 +50,8 @@ impl Diagram<'_, '_> {
             Cut::Parameter(_) => return Ok(()),
         };
         let whole = |m: &Multi| Fraction { numerator: m.clone(), denominator: Multi::one(), scalar: Multi::one() };
-        let mut row = Row::from([(behind, whole(&factor.scalar))]);
-        let minus = whole(&factor.numerator).negated();
+        let mut row = Row::from([(behind, whole(&factor.value.scalar))]);
+        let minus = whole(&factor.value.numerator).negated();
         self.feed(&mut row, &minus, &before)?;
         self.rows.push(row);
         self.rates.note(Rate::ALWAYS, behind..behind + 1, self.rows.len(), self.unknowns - signals);

@@ -170,6 +170,7 @@ impl Diagram<'_, '_> {
     /// The same where it depends on the parameters of a box.
     pub(super) fn moving(&mut self, a: &[Vec<Fraction>], inputs: usize, hold: &MovingHold) -> Result<Held, String> {
         let clock = self.scope.clock;
+        a.iter().flatten().try_for_each(|f| self.scope.without_factor(f))?;
         let in_parts = self.in_parts(a)?;
         let moving = self.scope.moving.as_mut().ok_or("internal: a hold with numbers")?;
         let of = hold::moving(in_parts.as_deref().unwrap_or(a), inputs, hold, moving, clock)?;

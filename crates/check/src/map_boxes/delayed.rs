@@ -108,6 +108,7 @@ impl Delayed {
             return Err("an end of the window has too many digits".into());
         }
         let parameters = of.window.len();
+        let own = own.doubled(clock)?;
         let positive = own.positive.clone();
         let terms = Terms::new(own, sources, parameters, clock)?;
         let farthest: Vec<Q> = of.window.iter().map(|[low, high]| low.abs().max(high.abs())).collect();

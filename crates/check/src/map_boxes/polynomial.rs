@@ -25,8 +25,9 @@ pub(super) struct Polynomial {
     sources: Sources,
     /// Polynomials in the parameters and what depends on them: the coefficients in the half plane, then lists of divisors.
     functions: Functions,
-    /// The number of coefficients.
+    /// The number of coefficients of the polynomial, and of the polynomials whose squares add up to it, if it is made of such.
     coefficients: usize,
+    squared: Option<usize>,
     /// Places of those divisors that one list has.
     divisors: Vec<Range<usize>>,
     /// Whether a divisor, or a coefficient, is zero everywhere: then no point is stable.
@@ -44,20 +45,39 @@ pub(super) struct Known {
 
 impl Polynomial {
     pub fn new(own: OverBox, sources: Sources, of: &Question, parts: &Parts, clock: &Clock) -> Result<Self, String> {
-        let in_this_region = in_region(&own.coefficients, own.discrete, &of.extent, clock)?;
-        let all = if own.discrete { in_half_plane(&in_this_region, clock)? } else { in_this_region };
+        let mut all = Vec::new();
+        for part in [Some(&own.coefficients), own.imaginary.as_ref()].into_iter().flatten() {
+            let in_this_region = in_region(part, own.discrete, &of.extent, clock)?;
+            all.extend(if own.discrete { in_half_plane(&in_this_region, clock)? } else { in_this_region });
+        }
         let mut all = primitive(all, clock)?;
-        let coefficients = all.len();
+        let n = own.coefficients.len();
+        let squared = own.imaginary.map(|_| n);
+        let coefficients = if squared.is_some() { 2 * n - 1 } else { n };
         let is_undefined = own.divisors.iter().any(|parts| parts.iter().all(Multi::is_zero));
-        let is_nowhere = is_undefined || all.iter().any(Multi::is_zero);
+        let is_zero = |k: usize| all[k..].iter().step_by(n).all(Multi::is_zero);
+        // Of squares the first and the last coefficient vanish where both parts do.
+        let is_nowhere =
+            is_undefined || if squared.is_some() { is_zero(0) || is_zero(n - 1) } else { (0..n).any(is_zero) };
         let mut divisors = Vec::with_capacity(own.divisors.len());
         for parts in separated(own.divisors, &own.positive, clock)? {
-            divisors.push(all.len()..all.len() + parts.len());
+            // Their places beside the coefficients.
+            let first = all.len() + coefficients - n * if squared.is_some() { 2 } else { 1 };
+            divisors.push(first..first + parts.len());
             all.extend(primitive(parts, clock)?);
         }
         let functions = Functions::new(&all, of.window.len());
         let precision = Precision::new(of.window.len(), parts.order, parts.bits);
-        Ok(Polynomial { precision, share: parts.share, sources, functions, coefficients, divisors, is_nowhere })
+        Ok(Polynomial {
+            precision,
+            share: parts.share,
+            sources,
+            functions,
+            coefficients,
+            squared,
+            divisors,
+            is_nowhere,
+        })
     }
 
     /// Makes sure that the halves have something to begin with.
@@ -97,11 +117,28 @@ impl Polynomial {
         let parameters = sides.iter().enumerate().map(|(i, side)| Taylor::coordinate(side, i, p)).collect();
         // A box may be too wide for a series; then it is not shown.
         let own = self.sources.values(parameters, p, clock).and_then(|v| self.functions.at(&v, p, clock));
+        let own = own.and_then(|own| self.with_squares(own, clock));
         clock.tick()?;
         if let Ok(own) = own {
             of.functions = Some((own, true));
         }
         Ok(())
+    }
+
+    /// With the polynomial in the place of those whose squares add up to it.
+    fn with_squares(&self, own: Vec<Taylor>, clock: &Clock) -> Result<Vec<Taylor>, String> {
+        let Some(n) = self.squared else { return Ok(own) };
+        let mut out = vec![Taylor::zero(); self.coefficients];
+        for part in own[..2 * n].chunks(n) {
+            for i in 0..n {
+                for k in i..n {
+                    let product = part[i].times(&part[k], &self.precision, clock)?;
+                    out[i + k].add_scaled(&product, &Z::from(if i == k { 1 } else { 2 }));
+                }
+            }
+        }
+        out.extend_from_slice(&own[2 * n..]);
+        Ok(out)
     }
 
     pub fn shown(&self, sides: &Sides, of: &mut Known, stable: bool, clock: &Clock) -> Result<bool, String> {

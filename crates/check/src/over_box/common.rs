@@ -20,15 +20,32 @@ impl OverBox {
     /// Without the factor that all coefficients have in common, which becomes a divisor of the loop: where it vanishes, all coefficients do. Only
     /// variables below a bound are in it.
     pub fn without_common(mut self, below: usize, clock: &Clock) -> Result<Self, String> {
-        let common = common(&self.coefficients, below, clock)?;
+        let all: Vec<Multi> = self.coefficients.iter().chain(self.imaginary.iter().flatten()).cloned().collect();
+        let common = common(&all, below, clock)?;
         if common.is_constant() {
             return Ok(self);
         }
-        for c in self.coefficients.iter_mut().filter(|c| !c.is_zero()) {
+        let both = self.coefficients.iter_mut().chain(self.imaginary.iter_mut().flatten());
+        for c in both.filter(|c| !c.is_zero()) {
             *c = c.divided(&common, clock)?.ok_or("internal: a gcd does not divide")?;
         }
         // The last divisor has a meaning of its own.
         self.divisors.insert(0, vec![common]);
+        Ok(self)
+    }
+
+    /// With the square of the modulus in the place of complex coefficients: the polynomial times the conjugated one.
+    pub fn doubled(mut self, clock: &Clock) -> Result<Self, String> {
+        let Some(imaginary) = self.imaginary.take() else { return Ok(self) };
+        let mut squares = vec![Multi::default(); 2 * self.coefficients.len() - 1];
+        for part in [&self.coefficients, &imaginary] {
+            for (i, x) in part.iter().enumerate() {
+                for (k, y) in part.iter().enumerate() {
+                    squares[i + k].add_all(&x.times(y, clock)?);
+                }
+            }
+        }
+        self.coefficients = squares;
         Ok(self)
     }
 }
