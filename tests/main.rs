@@ -129,6 +129,7 @@ mod certificates {
     mod complex;
     mod coq;
     mod dead_time;
+    mod for_all;
     mod gain;
     mod held;
     mod intervals_by_boxes;

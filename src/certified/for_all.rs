@@ -29,7 +29,7 @@ const MOST_HALVINGS: usize = 80;
 
 /// So many points of the ranges are tried for one box that is to be refuted, the more the smaller it is, and for a statement without axes.
 const MOST_POINTS: usize = 12;
-const MOST_POINTS_OF_ONE: usize = 2000;
+const MOST_POINTS_OF_ONE: usize = 300;
 
 /// Points that refuted other boxes and are tried first.
 const MOST_RECENT: usize = 6;

@@ -137,6 +137,12 @@ questions! {
     BoxMapCertificate,
     /// A certificate of a box of tolerances.
     ToleranceCertificate,
+    /// A certificate of requirements at a point.
+    VerdictWithMarginsCertificate,
+    /// A certificate of requirements in one parameter.
+    IntervalsWithMarginsCertificate,
+    /// A certificate of requirements in a map by boxes.
+    BoxMapWithRequirementsCertificate,
     /// A statement for SMT solvers.
     Smt2,
     /// A theorem for Coq about one parameter.
@@ -221,7 +227,7 @@ impl Asked {
     /// ```
     pub fn of_complex_loop(self) -> Option<&'static Refusal> {
         use Asked::*;
-        const KNOWN: [Asked; 34] = [
+        const KNOWN: [Asked; 35] = [
             Verdict,
             VerdictInRegion,
             Intervals,
@@ -256,6 +262,7 @@ impl Asked {
             ExactMapCertificate,
             BoxMapCertificate,
             ToleranceCertificate,
+            VerdictWithMarginsCertificate,
         ];
         (!KNOWN.contains(&self)).then_some(&COMPLEX)
     }

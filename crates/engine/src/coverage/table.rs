@@ -60,7 +60,6 @@ const BOX_ALONE: Coverage = R(&ONLY_THE_BOX);
 /// The refusals of certificates and proofs over what is not rational are of the same kind everywhere.
 const NO_COQ: Coverage = R(&NOT_FOR_COQ);
 const NO_SMT: Coverage = R(&NOT_ALGEBRAIC);
-const UNCERTIFIED: Coverage = R(&NO_CERTIFICATE);
 const OPEN_LOOP: Coverage = P(&FREQUENCIES, &ONE_FACTOR);
 const BOXES_WITH_DEAD_TIME: Coverage = P(&DELAYED_REQUIRED, &ONE_FACTOR);
 const CERTIFIED: Coverage = P(&WITNESSES, &NO_CERTIFICATE);
@@ -120,7 +119,10 @@ static ROWS: &[Row] = &[
     Row::new(Asked::IntervalsCertificate, "intervals --param NAME --certificate FILE", [A(&WITNESSES), CERTIFIED, CERTIFIED, CERTIFIED, BESIDE, NO_ORDER]),
     Row::new(Asked::ExactMapCertificate, "map -x NAME -y NAME --method exact --certificate FILE", [A(&WITNESSES), R(&MAP_OF_CONSTANTS), R(&MAP_OF_CONSTANTS), R(&MAP_WITH_DEAD_TIME), R(&MAP_WITH_DEAD_TIME), NO_ORDER]),
     Row::new(Asked::BoxMapCertificate, "map -x NAME -y NAME --method boxes --certificate FILE", [B(&WITNESSES), B(&WITNESSES), B(&WITNESSES), B(&WITNESSES), R(&CERTIFIED_BESIDE), NO_ORDER]),
-    Row::new(Asked::ToleranceCertificate, "tolerance --tol NAME=10% --certificate FILE", [A(&WITNESSES), CERTIFIED, UNCERTIFIED, UNCERTIFIED, BESIDE, NO_ORDER]),
+    Row::new(Asked::ToleranceCertificate, "tolerance --tol NAME=10% --certificate FILE", [A(&WITNESSES), A(&WITNESSES), A(&WITNESSES), A(&WITNESSES), BESIDE, NO_ORDER]),
+    at_a_point(Asked::VerdictWithMarginsCertificate, "verdict --modulus-margin 1/100 --certificate FILE", [A(&WITNESSES), A(&WITNESSES), A(&WITNESSES), BESIDE]),
+    Row::new(Asked::IntervalsWithMarginsCertificate, "intervals --param NAME --modulus-margin 1/100 --certificate FILE", [A(&WITNESSES), A(&WITNESSES), A(&WITNESSES), A(&WITNESSES), BESIDE, NO_ORDER]),
+    Row::new(Asked::BoxMapWithRequirementsCertificate, "map -x NAME -y NAME --method boxes --modulus-margin 1/100 --certificate FILE", [B(&WITNESSES), B(&WITNESSES), B(&WITNESSES), B(&WITNESSES), BESIDE, NO_ORDER]),
     Row::new(Asked::Smt2, "intervals --param NAME --smt2 FILE", [A(&WITNESSES), NO_SMT, NO_SMT, NO_SMT, BESIDE, NO_SMT]),
     Row::new(Asked::IntervalsCoq, "intervals --param NAME --coq FILE", [A(&WITNESSES), NO_COQ, NO_COQ, NO_COQ, BESIDE, NO_ORDER]),
     at_a_point(Asked::VerdictCoq, "verdict --coq FILE", [A(&WITNESSES), NO_COQ, NO_COQ, BESIDE]),
