@@ -41,7 +41,7 @@
 //! | [`Question::analyze`] | [`Analysis`] | the verdict, and the stable set of each parameter |
 //!
 //! An answer writes itself for people (`text`), for programs (`json`) and for checkers (`certificate`, `smt2`); [`check()`]
-//! re-checks a certificate with code that shares nothing with the engine. What stands in the JSON is said by
+//! re-checks a certificate with code that shares nothing with the engine. Where a certificate is made of boxes, of requirements as of maps, it is written by [`certified`]. What stands in the JSON is said by
 //! [`documents`], as types, and by [`schemas`](_documentation::schemas). Everything that takes long takes a [`Budget`].
 //!
 //! # Why an answer is right
@@ -97,13 +97,9 @@ pub use jurist_algebra::poly::{
 };
 pub use jurist_algebra::real::Real;
 // Certificates, checked by code of their own.
-pub use certified::{
-    CertifiedBoxes, CertifiedIntervals, CertifiedTolerance, certify_boxes, certify_intervals,
-    certify_required_intervals, certify_requirements, certify_tolerance,
-};
 pub use jurist_check::{Limits, Proved, Rejection, Step, check};
 
-mod certified;
+pub mod certified;
 #[cfg(feature = "commands")]
 pub mod cli;
 #[cfg(feature = "cli")]

@@ -235,7 +235,9 @@ impl Answered {
     /// A certificate.
     fn certificate(&self, py: Python<'_>, timeout: Option<f64>) -> PyResult<String> {
         self.made(py, timeout, |kind, budget| match kind {
-            Kind::Stable(answer) => jurist::certify_intervals(answer, budget).map(|certified| certified.text),
+            Kind::Stable(answer) => {
+                jurist::certified::certify_intervals(answer, budget).map(|certified| certified.text)
+            }
             Kind::Verdict(answer) => answer.certificate(budget),
         })
     }

@@ -33,7 +33,8 @@ const MOST_WORK: u64 = 40_000_000_000;
 /// The shares are of the window's area; what is neither is unknown in the certificate.
 ///
 /// ```
-/// use jurist::{BoxRequest, Budget, MapMethod, MapOrBoxes, Model, Range, certify_boxes};
+/// use jurist::certified::certify_boxes;
+/// use jurist::{BoxRequest, Budget, MapMethod, MapOrBoxes, Model, Range};
 /// let side = |low: &str, high: &str| Range::between(low.parse().ok(), high.parse().ok());
 /// let request = BoxRequest::new([side("1/12000", "1/10000"), side("100", "110")], "1/10".parse().unwrap());
 /// let problem = Model::drive().ask().free("T").free("K_pwm").plane_problem()?;
@@ -64,7 +65,8 @@ pub struct CertifiedBoxes {
 /// Cost: each box is tried, so for the tree twice what its check costs.
 ///
 /// ```standalone_crate
-/// use jurist::{BoxRequest, Budget, Limits, MapMethod, MapOrBoxes, Model, Range, Source, certify_boxes, check};
+/// use jurist::certified::certify_boxes;
+/// use jurist::{BoxRequest, Budget, Limits, MapMethod, MapOrBoxes, Model, Range, Source, check};
 /// let text = std::fs::read_to_string("examples/dc-servo.toml").unwrap();
 /// let (model, _) = Model::from_toml(&Source::new("dc-servo.toml", &text))?;
 /// let side = |low: &str, high: &str| Range::between(low.parse().ok(), high.parse().ok());

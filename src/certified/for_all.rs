@@ -218,7 +218,8 @@ pub(super) fn leaf(
 /// Cost: some dozen boxes of the factor for each requirement, more as the margin gets closer to what is required.
 ///
 /// ```standalone_crate
-/// use jurist::{Budget, Limits, Model, Requirement, Source, certify_requirements, check};
+/// use jurist::certified::certify_requirements;
+/// use jurist::{Budget, Limits, Model, Requirement, Source, check};
 /// let line = Source::new("loop", "K/(s*(s + 1))");
 /// let (model, _) = Model::from_line(&line)?;
 /// let (problem, budget) = (model.ask().set("K", "1/2".parse().unwrap()).problem()?, Budget::unlimited());

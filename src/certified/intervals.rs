@@ -42,7 +42,8 @@ const LEFT_BITS_OF_REQUIREMENTS: u64 = 20;
 /// A certificate of the answer about one parameter, and how much it says.
 ///
 /// ```
-/// use jurist::{Budget, Model, certify_intervals};
+/// use jurist::certified::certify_intervals;
+/// use jurist::{Budget, Model};
 /// let answer = Model::drive().ask().free("K_pwm").stable_set(&Budget::unlimited())?;
 /// assert!(certify_intervals(&answer, &Budget::unlimited())?.window.is_none(), "an exact one");
 /// # Ok::<(), jurist::Error>(())
@@ -66,7 +67,8 @@ pub struct CertifiedIntervals {
 /// Cost: that of [`Answer::certificate`], else that of [`certify_boxes`](crate::certify_boxes) for some dozen boxes at each end.
 ///
 /// ```standalone_crate
-/// use jurist::{Budget, Limits, Model, Source, certify_intervals, check};
+/// use jurist::certified::certify_intervals;
+/// use jurist::{Budget, Limits, Model, Source, check};
 /// let text = std::fs::read_to_string("examples/dc-servo.toml").unwrap();
 /// let (model, _) = Model::from_toml(&Source::new("dc-servo.toml", &text))?;
 /// let answer = model.ask().free("T").stable_set(&Budget::unlimited())?;
@@ -132,7 +134,8 @@ fn by_boxes(answer: &Answer<StableSet>, budget: &Budget) -> Result<Option<Certif
 /// Cost: that of [`certify_requirements`](crate::certify_requirements) for some dozen pieces at each end.
 ///
 /// ```standalone_crate
-/// use jurist::{Budget, Limits, Model, Requirement, Source, certify_required_intervals, check};
+/// use jurist::certified::certify_required_intervals;
+/// use jurist::{Budget, Limits, Model, Requirement, Source, check};
 /// let (model, _) = Model::from_line(&Source::new("loop", "K/(s*(s + 1))"))?;
 /// let (requirement, budget) = ([Requirement::phase_margin(&45.into())?], Budget::unlimited());
 /// let answer = model.ask().free("K").problem()?.required_set(&requirement, None, &budget)?;

@@ -1,4 +1,6 @@
-//! Certificates that are made with what the check sees as the judge of each box.
+//! Certificates that are made with what the check sees as the judge of each box: where no exact certificate is, and of requirements.
+//!
+//! They say no more than the answer they are made of; what the checkers do not see stays unknown.
 
 mod boxes;
 mod for_all;

@@ -21,7 +21,8 @@ const STEPS_BEYOND: [(i64, i64); 3] = [(1, 1), (1_000_001, 1_000_000), (1001, 10
 /// A certificate of the largest box of tolerances that was proved, and how much of it.
 ///
 /// ```
-/// use jurist::{Budget, Model, ToleranceRequest, certify_tolerance};
+/// use jurist::certified::certify_tolerance;
+/// use jurist::{Budget, Model, ToleranceRequest};
 /// let request = ToleranceRequest::new([("R_a", "20%".parse()?), ("L_a", "20%".parse()?)]);
 /// let answer = Model::drive().ask().tolerance(&request, &Budget::unlimited()).unwrap();
 /// assert_eq!(certify_tolerance(&answer, None, &Budget::unlimited()).unwrap().factor, None, "an exact one");
@@ -42,6 +43,19 @@ pub struct CertifiedTolerance {
 /// of each that it is good. Margins are taken at a cut. Next to the largest factor these are many, so a box that is a little smaller is taken if they are too many.
 ///
 /// Cost: that of [`Answer::certificate`], else that of the parts.
+///
+/// ```standalone_crate
+/// use jurist::certified::certify_tolerance;
+/// use jurist::{Budget, Limits, Model, Source, ToleranceRequest, check};
+/// let text = std::fs::read_to_string("examples/dc-servo.toml").unwrap();
+/// let (model, _) = Model::from_toml(&Source::new("servo.toml", &text))?;
+/// let request = ToleranceRequest::new([("T_m", "20%".parse().unwrap())]);
+/// let budget = Budget::unlimited();
+/// let certified = certify_tolerance(&model.ask().tolerance(&request, &budget)?, None, &budget)?;
+/// assert!(certified.factor.unwrap() > 1.into());
+/// assert!(check(&text, &certified.text, &Limits::default()).unwrap().statement.contains("the loop is stable"));
+/// # Ok::<(), jurist::Error>(())
+/// ```
 ///
 /// # Errors
 /// [`Error::Stopped`] when the budget runs out; [`Error::Refused`] (`E-no-certificate`) where there is neither.

@@ -8,7 +8,8 @@ use crate::helpers::certificates::{emitted, is_true, verdict_emitted, with_count
 use crate::helpers::model::{example_text, read};
 use crate::helpers::number::number;
 use crate::helpers::random::Random;
-use jurist::{Budget, certify_intervals};
+use jurist::Budget;
+use jurist::certified::certify_intervals;
 use jurist_check::format::Json;
 use jurist_check::{Limits, Step, check};
 use jurist_engine::answer::ToleranceRequest;

@@ -5,10 +5,8 @@ use crate::helpers::certificates::with;
 use crate::helpers::folder::Folder;
 use crate::helpers::model::read;
 use crate::helpers::number::{number, ratio};
-use jurist::{
-    Budget, Rational, Requirement, ToleranceRequest, certify_boxes, certify_required_intervals, certify_requirements,
-    certify_tolerance,
-};
+use jurist::certified::{certify_boxes, certify_required_intervals, certify_requirements, certify_tolerance};
+use jurist::{Budget, Rational, Requirement, ToleranceRequest};
 use jurist_check::{Limits, Step, check};
 use jurist_engine::answer::BoxRequest;
 use jurist_engine::response::{AllOf, MapForAll};

@@ -180,8 +180,8 @@ fn certificates_of_boxes_hold_pulses() {
     for (name, domain) in [("D", ["1/10", "9/10"]), ("T", ["1/20", "2/5"])] {
         let domain = Range::between(Some(number(domain[0])), Some(number(domain[1])));
         let answer = read(&model).ask().free(name).domain(name, domain).stable_set(&Budget::unlimited()).expect(name);
-        let certified =
-            jurist::certify_intervals(&answer, &Budget::unlimited()).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let certified = jurist::certified::certify_intervals(&answer, &Budget::unlimited())
+            .unwrap_or_else(|e| panic!("{name}: {e}"));
         let certificate = &certified.text;
         accept(&model, certificate);
         let changed = model.replace("'trailing'", "'leading'");

@@ -4,7 +4,8 @@ use crate::helpers::certificates::checkers::{PYTHON_EVERY, accept, reject, rejec
 use crate::helpers::model::{path, read};
 use crate::helpers::number::number;
 use crate::helpers::program::{jurist, jurist_with_input};
-use jurist::{Budget, certify_intervals};
+use jurist::Budget;
+use jurist::certified::certify_intervals;
 use jurist_algebra::number::Rational;
 use jurist_check::{Limits, Step, check};
 use std::time::Duration;
@@ -16,7 +17,7 @@ const LAG: &str = "time = 'discrete'\n[parameters]\nT = { nominal = 0.1, min = 0
     [[block]]\nname = 'C'\ninput = 'r - y'\noutput = 'u'\ngain = 'K'\n\
     [[block]]\nname = 'P'\ninput = 'u'\noutput = 'y'\ntransfer = '1/(s + 1)'\ndiscretize = { method = 'zoh', T = 'T' }\n";
 
-fn certified(text: &str, parameter: &str) -> jurist::CertifiedIntervals {
+fn certified(text: &str, parameter: &str) -> jurist::certified::CertifiedIntervals {
     let answer = read(text).ask().free(parameter).stable_set(&Budget::unlimited()).unwrap();
     certify_intervals(&answer, &Budget::unlimited()).unwrap_or_else(|e| panic!("{e}"))
 }

@@ -5,7 +5,8 @@ use crate::helpers::certificates::{emitted, is_true, mutations, with_count_chang
 use crate::helpers::model::{example_text, read};
 use crate::helpers::number::number;
 use crate::helpers::random::Random;
-use jurist::{Budget, certify_intervals};
+use jurist::Budget;
+use jurist::certified::certify_intervals;
 use jurist_algebra::number::Rational;
 use jurist_check::format::Json;
 use jurist_check::{Limits, Step, check};
@@ -35,7 +36,7 @@ fn cascade(plant: &str, [outer, inner]: [&str; 2]) -> String {
     )
 }
 
-fn certified(text: &str) -> (jurist::CertifiedIntervals, StableSet) {
+fn certified(text: &str) -> (jurist::certified::CertifiedIntervals, StableSet) {
     let answer = read(text).ask().free("K").stable_set(&Budget::unlimited()).unwrap_or_else(|e| panic!("{e}\n{text}"));
     let certified = certify_intervals(&answer, &Budget::unlimited()).unwrap_or_else(|e| panic!("{e}\n{text}"));
     (certified, answer.into_value())

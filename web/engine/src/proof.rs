@@ -3,7 +3,8 @@
 use crate::model::problem;
 use crate::reply::Reply;
 use crate::told::budget;
-use jurist::{Error, Limits, certify_intervals};
+use jurist::certified::certify_intervals;
+use jurist::{Error, Limits};
 use serde::Deserialize;
 use serde_json::{Value, json};
 

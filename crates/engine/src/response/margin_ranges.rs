@@ -49,6 +49,8 @@ pub struct MarginLevel {
 impl Model {
     /// The usual margins as requirements.
     ///
+    /// Cost: that of isolating the roots of a few polynomials of small degree.
+    ///
     /// # Errors
     /// [`Error::Stopped`] when the budget runs out.
     pub fn usual_margins(&self, budget: &Budget) -> Result<Vec<Requirement>, Error> {
