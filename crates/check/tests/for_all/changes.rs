@@ -42,6 +42,34 @@ fn complex() -> Plant {
     }
 }
 
+/// What is inside of a function depends on a name.
+fn held() -> Plant {
+    Plant {
+        model: loop_of("discrete", "K/(s + a)", "sample_time = 1\nparameters = { K = {}, a = {} }")
+            + "discretize = 'zoh'\n",
+        time: "discrete",
+        open: |of| {
+            let decay = (-of["a"]).exp();
+            [vec![[-decay, 0.0], [1.0, 0.0]], vec![[of["K"] * (1.0 - decay) / of["a"], 0.0]]]
+        },
+    }
+}
+
+/// In the variable of a hyperperiod.
+fn rates() -> Plant {
+    Plant {
+        model: "time = 'discrete'\nparameters = { K = {}, a = {} }\n[loop]\ninputs = ['r']\n[[block]]\nname = 'plant'\ninput = 'r - y'\noutput = 'u'\ngain = 'K'\n\
+                every = 2\n[[block]]\ninput = 'u'\noutput = 'y'\ntransfer = '1/(z - a)'\n"
+            .to_owned(),
+        time: "discrete",
+        // y goes on by a y + u, then by a y + u again.
+        open: |of| {
+            let (k, a) = (of["K"], of["a"]);
+            [vec![[-a * a, 0.0], [1.0, 0.0]], vec![[(1.0 + a) * k, 0.0]]]
+        },
+    }
+}
+
 const K: &str = r#"{"name": "K", "between": ["1/2", "3/4"]}"#;
 const K_AND_A: &str = r#"{"name": "K", "between": ["1/2", "3/4"]}, {"name": "a", "between": ["1/2", "2/3"]}"#;
 const A: &str = r#"{"name": "a", "between": ["1/2", "2/3"]}"#;
@@ -54,8 +82,10 @@ fn asked() -> Vec<(Plant, Asked)> {
         (plant, Asked { order: 2, ..Asked::of(time) })
     };
     let mut out = Vec::new();
-    for (plant, asked) in [of(third()), of(sampled()), of(complex())] {
-        let _ = &plant;
+    let (plant, asked) = of(rates());
+    out.push((plant, asked.clone().axes(K).for_all(A).require(other("gain_margin", SIGNAL, "3/2"))));
+    out.push((rates(), asked.for_all(K_AND_A).beyond(r#"{"point": ["-9", "1/2"], "not": "0."}"#)));
+    for (plant, asked) in [of(third()), of(sampled()), of(complex()), of(held())] {
         let model = plant.model.clone();
         let again = || Plant { model: model.clone(), time: plant.time, open: plant.open };
         out.push((again(), asked.clone().for_all(K_AND_A).require(&*both)));
@@ -151,7 +181,7 @@ fn what_is_accepted_of_changed_certificates_is_true() {
             (plant, certificate)
         })
         .collect();
-    assert!(told >= 18, "{told} of {}", all.len());
+    assert!(told >= 24, "{told} of {}", all.len());
     let mut accepted = 0;
     for _ in 0..count {
         let (plant, certificate) = &all[draw.below(all.len())];
