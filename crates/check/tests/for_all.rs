@@ -200,7 +200,7 @@ fn axes_have_parts_of_both_kinds() {
     let k = r#"{"name": "K", "between": ["1/4", "4"]}"#;
     let a = r#"{"name": "a", "between": ["1", "2"]}"#;
     let one = Asked::of("continuous").axes(k).for_all(a).require(phase(INPUT, 45.0));
-    let (certificate, tree) = written(&model, &one, 6, 60);
+    let (certificate, tree) = written(&model, &one, 6, 20);
     let statement = check(&model, &certificate, &LIMITS).unwrap().statement;
     assert!(tree.contains('+') && tree.contains('-'), "{tree}");
     // For a = 1 the bound is K = sqrt(2).
@@ -212,7 +212,7 @@ fn axes_have_parts_of_both_kinds() {
         for_all: "",
         ..one
     };
-    let (certificate, tree) = written(&model, &two, 6, 60);
+    let (certificate, tree) = written(&model, &two, 4, 20);
     let statement = check(&model, &certificate, &LIMITS).unwrap().statement;
     assert!(tree.contains('+') && tree.contains('-'), "{tree}");
     assert!(statement.contains("in all boxes '+' of the tree, and nowhere in its boxes '-': at least"), "{statement}");
