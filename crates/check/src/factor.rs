@@ -135,3 +135,59 @@ impl Family {
         Ok(squares)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use num_traits::ToPrimitive;
+    use std::time::Duration;
+
+    /// At values of the own names.
+    fn at(m: &Multi, names: &[f64]) -> [f64; 2] {
+        let unit = names.len();
+        m.0.iter().fold([0.0, 0.0], |[x, y], (e, c)| {
+            let power = |v: usize| e.get(v).copied().unwrap_or(0);
+            let size = names.iter().enumerate().fold(c.to_f64().unwrap(), |all, (v, x)| all * x.powi(power(v) as i32));
+            match power(unit) % 4 {
+                0 => [x + size, y],
+                1 => [x, y + size],
+                2 => [x - size, y],
+                _ => [x, y - size],
+            }
+        })
+    }
+
+    #[test]
+    fn factors_are_those_of_the_disc() {
+        let clock = Clock::new(Duration::MAX);
+        let q = |n: i64, d: i64| Q::new(n.into(), d.into());
+        let times = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a * c - b * d, a * d + b * c];
+        for family in [
+            Family::Turn,
+            Family::Modulus(q(3, 4)),
+            Family::Disk(q(7, 4)),
+            Family::Complementary(q(3, 2)),
+            Family::Gain,
+        ] {
+            let [top, below] = family.quotient(0, family.names(), &clock).unwrap();
+            let positive = family.positive(0, &clock).unwrap();
+            for k in 0..99_i32 {
+                let (r, t) = (f64::from(k % 9) / 4.0 - 1.0, f64::from(k / 9) / 5.0 - 1.0);
+                let names: Vec<f64> = if family.names() == 1 { vec![t] } else { vec![r, t] };
+                let turn = [2.0 * t.atan()].map(|a| [a.cos(), a.sin()])[0];
+                let d = turn.map(|x| x * r);
+                let plus = |x: f64, share: f64| [x + share * d[0], share * d[1]];
+                let [expected, over] = match family {
+                    Family::Gain => [[t, 0.0], [1.0, 0.0]],
+                    Family::Turn => [[turn[0], -turn[1]], [1.0, 0.0]],
+                    Family::Modulus(_) => [[1.0, 0.0], plus(1.0, -0.75)],
+                    Family::Disk(_) => [plus(1.0, 0.875), plus(1.0, -0.875)],
+                    Family::Complementary(_) => [plus(1.0, 1.0 / 1.5), [1.0, 0.0]],
+                };
+                let (left, right) = (times(at(&top, &names), over), times(at(&below, &names), expected));
+                assert!((left[0] - right[0]).abs() < 1e-9 && (left[1] - right[1]).abs() < 1e-9, "{family:?} {r} {t}");
+                assert!(positive.iter().all(|p| at(p, &names)[0] > 1e-3), "{family:?} {r} {t}");
+            }
+        }
+    }
+}

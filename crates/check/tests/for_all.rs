@@ -93,6 +93,14 @@ fn margins_of_a_loop_with_dead_time_are_told_from_both_sides() {
     let asked = Asked { order: 1, ..Asked::of("continuous") };
     told(&model, &asked, both("gain_margin", INPUT, ["314/100", "315/100"]));
     told(&model, &asked, phases(INPUT, [60.5, 62.0]));
+    // The least distance to -1, and the largest of the other sensitivity, on a grid.
+    let open = |w: f64| [-(w / 2.0).sin() / w, -(w / 2.0).cos() / w];
+    let grid = || (1..4000).map(|k| open(f64::from(k) / 200.0));
+    let least = grid().map(|[x, y]| (1.0 + x).hypot(y)).fold(f64::INFINITY, f64::min);
+    let most = grid().map(|[x, y]| x.hypot(y) / (1.0 + x).hypot(y)).fold(0.0, f64::max);
+    let hundredths = |x: f64| format!("{}/100", (100.0 * x).round());
+    told(&model, &asked, [0.96, 1.1].map(|x| other("modulus_margin", INPUT, &hundredths(x * least))));
+    told(&model, &asked, [1.3, 0.9].map(|x| other("complementary_peak", INPUT, &hundredths(x * most))));
 }
 
 /// At a parameter the margins are those at the input that it multiplies.
@@ -192,7 +200,7 @@ fn axes_have_parts_of_both_kinds() {
     let k = r#"{"name": "K", "between": ["1/4", "4"]}"#;
     let a = r#"{"name": "a", "between": ["1", "2"]}"#;
     let one = Asked::of("continuous").axes(k).for_all(a).require(phase(INPUT, 45.0));
-    let (certificate, tree) = written(&model, &one, 6, 60);
+    let (certificate, tree) = written(&model, &one, 6, 20);
     let statement = check(&model, &certificate, &LIMITS).unwrap().statement;
     assert!(tree.contains('+') && tree.contains('-'), "{tree}");
     // For a = 1 the bound is K = sqrt(2).
@@ -204,7 +212,7 @@ fn axes_have_parts_of_both_kinds() {
         for_all: "",
         ..one
     };
-    let (certificate, tree) = written(&model, &two, 6, 60);
+    let (certificate, tree) = written(&model, &two, 4, 20);
     let statement = check(&model, &certificate, &LIMITS).unwrap().statement;
     assert!(tree.contains('+') && tree.contains('-'), "{tree}");
     assert!(statement.contains("in all boxes '+' of the tree, and nowhere in its boxes '-': at least"), "{statement}");

@@ -128,3 +128,73 @@ fn is_tangent_above(share: &Q, t: &Q) -> Result<bool, String> {
     let difference = sine.minus(&cosine.times(&Taylor::number(t, &p), &p, &clock)?);
     difference.sign().ok_or_else(|| "'turns' are not told from a tangent".into())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(bound: &str, turns: [&str; 2]) -> Result<Requirement, String> {
+        let text = format!(
+            r#"{{"kind": "phase_margin", "at": {{"signal": "u"}}, "bound": "{bound}", "turns": ["{}", "{}"]}}"#,
+            turns[0], turns[1]
+        );
+        Requirement::read(&Json::parse(&text).expect("it is JSON"))
+    }
+
+    #[test]
+    fn turns_are_told_from_tangents() {
+        for tenths in (1..1800).step_by(29) {
+            let tangent = (f64::from(tenths) / 20.0).to_radians().tan();
+            let scale = (1e13 / tangent.max(1.0)).floor();
+            let at = |x: f64| format!("{}/{}", x as u64, scale as u64);
+            let [below, above] = [at((tangent * scale).floor() - 2.0), at((tangent * scale).ceil() + 2.0)];
+            let bound = format!("{tenths}/10");
+            let is_known = tenths == 900;
+            assert!(read(&bound, [&below, &above]).is_ok(), "{tenths}");
+            for wrong in [[&above, &above], [&below, &below], [&above, &below]] {
+                assert!(read(&bound, wrong.map(String::as_str)).is_err(), "{tenths}");
+            }
+            assert_eq!(read(&bound, ["1", "1"]).is_ok(), is_known);
+        }
+        // tan(30 degrees) is 1/sqrt(3): 40 digits, and one more or less.
+        let digits = "5773502691896257645091487805019574556476";
+        let [below, above] =
+            [digits.to_owned(), digits.replace("6476", "6477")].map(|d| format!("{d}/1{}", "0".repeat(40)));
+        assert!(read("60", [&below, &above]).is_ok());
+        assert!(read("60", [&above, &above]).is_err() && read("60", [&below, &below]).is_err());
+        for wrong in ["0", "180", "-45", "200"] {
+            assert!(read(wrong, ["1/1000", "1000"]).is_err(), "{wrong}");
+        }
+        assert!(read("45", ["0", "1"]).is_err() && read("45", ["-1", "1"]).is_err());
+    }
+
+    #[test]
+    fn ranges_go_through_the_family() {
+        let of = |kind: &str, bound: &str| {
+            let text = format!(r#"{{"kind": "{kind}", "at": {{"input": "a b"}}, "bound": "{bound}"}}"#);
+            Requirement::read(&Json::parse(&text).expect("it is JSON"))
+        };
+        let q = |n: i64, d: i64| Q::new(n.into(), d.into());
+        let gain = of("gain_margin", "5/2").unwrap();
+        assert_eq!(gain.ranges(true, false), [[q(2, 5), q(5, 2)]]);
+        let disc = of("disk_margin", "1").unwrap();
+        assert_eq!(disc.ranges(false, true), [[q(-1, 1), q(1, 1)], [q(0, 1), q(1, 1)]]);
+        assert_eq!(disc.ranges(true, true), [[q(-1, 1), q(1, 1)], [q(-1, 1), q(1, 1)]]);
+        let phase = read("90", ["9/10", "11/10"]).unwrap();
+        assert_eq!(phase.ranges(false, false), [[q(0, 1), q(11, 10)]]);
+        assert_eq!(phase.ranges(true, true), [[q(-9, 10), q(9, 10)]]);
+        for (kind, bound) in [
+            ("gain_margin", "1"),
+            ("gain_margin", "1/2"),
+            ("modulus_margin", "1"),
+            ("modulus_margin", "0"),
+            ("disk_margin", "2"),
+            ("disk_margin", "-1"),
+            ("complementary_peak", "0"),
+            ("phase_margin", "45"),
+            ("delay_margin", "1"),
+        ] {
+            assert!(of(kind, bound).is_err(), "{kind} {bound}");
+        }
+    }
+}

@@ -4,6 +4,7 @@ use crate::truth::{Plant, is_true};
 use crate::writer::{Asked, LIMITS, written};
 use crate::{INPUT, SIGNAL, loop_of, other, phase};
 use jurist_check::check;
+use std::rc::Rc;
 
 /// Numbers that look random.
 struct Draw(u64);
@@ -19,10 +20,10 @@ fn third() -> Plant {
     Plant {
         model: loop_of("continuous", "K/(s*(s + a)*(s/5 + 1))", "parameters = { K = {}, a = {} }"),
         time: "continuous",
-        open: |of| {
+        open: Rc::new(|of| {
             let (k, a) = (of["K"], of["a"]);
             [vec![[0.0, 0.0], [a, 0.0], [1.0 + a / 5.0, 0.0], [0.2, 0.0]], vec![[k, 0.0]]]
-        },
+        }),
     }
 }
 
@@ -30,7 +31,7 @@ fn sampled() -> Plant {
     Plant {
         model: loop_of("discrete", "K/(z*(z - a))", "parameters = { K = {}, a = {} }"),
         time: "discrete",
-        open: |of| [vec![[0.0, 0.0], [-of["a"], 0.0], [1.0, 0.0]], vec![[of["K"], 0.0]]],
+        open: Rc::new(|of| [vec![[0.0, 0.0], [-of["a"], 0.0], [1.0, 0.0]], vec![[of["K"], 0.0]]]),
     }
 }
 
@@ -38,7 +39,35 @@ fn complex() -> Plant {
     Plant {
         model: loop_of("continuous", "(2 + j)*K/(s + a)", "parameters = { K = {}, a = {} }"),
         time: "continuous",
-        open: |of| [vec![[of["a"], 0.0], [1.0, 0.0]], vec![[2.0 * of["K"], of["K"]]]],
+        open: Rc::new(|of| [vec![[of["a"], 0.0], [1.0, 0.0]], vec![[2.0 * of["K"], of["K"]]]]),
+    }
+}
+
+/// What is inside of a function depends on a name.
+fn held() -> Plant {
+    Plant {
+        model: loop_of("discrete", "K/(s + a)", "sample_time = 1\nparameters = { K = {}, a = {} }")
+            + "discretize = 'zoh'\n",
+        time: "discrete",
+        open: Rc::new(|of| {
+            let decay = (-of["a"]).exp();
+            [vec![[-decay, 0.0], [1.0, 0.0]], vec![[of["K"] * (1.0 - decay) / of["a"], 0.0]]]
+        }),
+    }
+}
+
+/// In the variable of a hyperperiod.
+fn rates() -> Plant {
+    Plant {
+        model: "time = 'discrete'\nparameters = { K = {}, a = {} }\n[loop]\ninputs = ['r']\n[[block]]\nname = 'plant'\ninput = 'r - y'\noutput = 'u'\ngain = 'K'\n\
+                every = 2\n[[block]]\ninput = 'u'\noutput = 'y'\ntransfer = '1/(z - a)'\n"
+            .to_owned(),
+        time: "discrete",
+        // y goes on by a y + u, then by a y + u again.
+        open: Rc::new(|of| {
+            let (k, a) = (of["K"], of["a"]);
+            [vec![[-a * a, 0.0], [1.0, 0.0]], vec![[(1.0 + a) * k, 0.0]]]
+        }),
     }
 }
 
@@ -54,10 +83,12 @@ fn asked() -> Vec<(Plant, Asked)> {
         (plant, Asked { order: 2, ..Asked::of(time) })
     };
     let mut out = Vec::new();
-    for (plant, asked) in [of(third()), of(sampled()), of(complex())] {
-        let _ = &plant;
+    let (plant, asked) = of(rates());
+    out.push((plant, asked.clone().axes(K).for_all(A).require(other("gain_margin", SIGNAL, "3/2"))));
+    out.push((rates(), asked.for_all(K_AND_A).beyond(r#"{"point": ["-9", "1/2"], "not": "0."}"#)));
+    for (plant, asked) in [of(third()), of(sampled()), of(complex()), of(held())] {
         let model = plant.model.clone();
-        let again = || Plant { model: model.clone(), time: plant.time, open: plant.open };
+        let again = || Plant { model: model.clone(), time: plant.time, open: plant.open.clone() };
         out.push((again(), asked.clone().for_all(K_AND_A).require(&*both)));
         out.push((again(), asked.clone().axes(K).for_all(A)));
         out.push((again(), asked.clone().axes(K).set(SET).require(phase(INPUT, 40.0))));
@@ -144,14 +175,14 @@ fn what_is_accepted_of_changed_certificates_is_true() {
     let all: Vec<(Plant, String)> = asked()
         .into_iter()
         .map(|(plant, asked)| {
-            let (certificate, tree) = written(&plant.model, &asked, 4, 200);
+            let (certificate, tree) = written(&plant.model, &asked, 3, 90);
             let proved = check(&plant.model, &certificate, &LIMITS).unwrap_or_else(|e| panic!("{e}\n{certificate}"));
             assert!(is_true(&plant, &certificate), "{proved:?}\n{certificate}");
             told += usize::from(tree.contains(['+', '-']));
             (plant, certificate)
         })
         .collect();
-    assert!(told >= 18, "{told} of {}", all.len());
+    assert!(told >= 20, "{told} of {}", all.len());
     let mut accepted = 0;
     for _ in 0..count {
         let (plant, certificate) = &all[draw.below(all.len())];
@@ -166,4 +197,63 @@ fn what_is_accepted_of_changed_certificates_is_true() {
     }
     println!("{accepted} of {count} are accepted");
     assert!(accepted * 20 > count, "{accepted} of {count}");
+}
+
+/// A random loop, real or complex, of up to three poles, and a requirement of some kind.
+fn random(draw: &mut Draw) -> (Plant, Asked) {
+    let time = ["continuous", "discrete"][draw.below(2)];
+    let variable = ["s", "z"][usize::from(time == "discrete")];
+    let is_complex = draw.below(3) == 0;
+    // Numbers in tenths, about zero.
+    let mut number = |about: i64, around: usize| about + draw.below(2 * around + 1) as i64 - around as i64;
+    let n = 1 + number(1, 1) as usize;
+    let mut of = |n: usize, about: i64, around: usize| -> Vec<[i64; 2]> {
+        (0..n).map(|_| [number(about, around), if is_complex { number(0, 4) } else { 0 }]).collect()
+    };
+    let poles = if time == "discrete" { of(n, 0, 8) } else { of(n, -12, 13) };
+    let zeros = if time == "discrete" { of(n - 1, 0, 9) } else { of(n - 1, -30, 29) };
+    let gain = of(1, 9, 14)[0];
+    let text = |[x, y]: [i64; 2]| if y == 0 { format!("({x}/10)") } else { format!("({x}/10 + {y}/10*j)") };
+    let product = |all: &[[i64; 2]]| all.iter().map(|c| format!("*({variable} - {})", text(*c))).collect::<String>();
+    let transfer = format!("{}{}/(1{})", text(gain), product(&zeros), product(&poles));
+    let tenth = |c: &[i64; 2]| c.map(|x| x as f64 / 10.0);
+    let expanded = move |lead: [i64; 2], roots: &[[i64; 2]]| {
+        roots.iter().fold(vec![tenth(&lead)], |p, root| {
+            let [a, b] = tenth(root);
+            let mut out = vec![[0.0, 0.0]; p.len() + 1];
+            for (k, [x, y]) in p.iter().enumerate() {
+                out[k + 1] = [out[k + 1][0] + x, out[k + 1][1] + y];
+                out[k] = [out[k][0] - (x * a - y * b), out[k][1] - (x * b + y * a)];
+            }
+            out
+        })
+    };
+    let model = loop_of(time, &transfer, "");
+    let open = Rc::new(move |_: &_| [expanded([10, 0], &poles), expanded(gain, &zeros)]);
+    let at = if draw.below(2) == 0 { INPUT } else { SIGNAL };
+    let share = (1 + draw.below(9)) as i64;
+    let require = match draw.below(5) {
+        0 => phase(at, 17.0 * share as f64),
+        1 => other("gain_margin", at, &format!("{}/10", 10 + 3 * share)),
+        2 => other("modulus_margin", at, &format!("{share}/10")),
+        3 => other("disk_margin", at, &format!("{share}/5")),
+        _ => other("complementary_peak", at, &format!("{}/10", 6 + 2 * share)),
+    };
+    (Plant { model, time, open }, Asked { order: 2, ..Asked::of(time) }.require(require))
+}
+
+/// `JURIST_LOOPS=1000` looks at so many loops.
+#[test]
+fn what_is_said_of_random_loops_is_true() {
+    let count = std::env::var("JURIST_LOOPS").ok().and_then(|n| n.parse().ok()).unwrap_or(40);
+    let (mut draw, mut seen) = (Draw(11), [0; 3]);
+    for _ in 0..count {
+        let (plant, asked) = random(&mut draw);
+        let (certificate, tree) = written(&plant.model, &asked, 0, 60);
+        let proved = check(&plant.model, &certificate, &LIMITS).unwrap_or_else(|e| panic!("{e}\n{certificate}"));
+        assert!(is_true(&plant, &certificate), "{proved:?}\n{}\n{certificate}", plant.model);
+        seen[['+', '-', '?'].iter().position(|letter| tree.starts_with(*letter)).unwrap()] += 1;
+    }
+    println!("{seen:?}");
+    assert!(seen[0] * 8 > count && seen[1] * 8 > count && seen[2] * 3 < count, "{seen:?}");
 }

@@ -34,8 +34,10 @@ fn modulus([a, b]: Complex) -> f64 {
 pub struct Plant {
     pub model: String,
     pub time: &'static str,
-    pub open: fn(&BTreeMap<String, f64>) -> [Vec<Complex>; 2],
+    pub open: Open,
 }
+
+pub type Open = std::rc::Rc<dyn Fn(&BTreeMap<String, f64>) -> [Vec<Complex>; 2]>;
 
 /// How far the farthest root is beyond the boundary; all of them by the method of Weierstrass.
 fn beyond(polynomial: &[Complex], discrete: bool) -> f64 {
