@@ -235,6 +235,17 @@ class KnownMargins(Case):
         own = document(model, for_all=[("K", "1/10", "9/10")], tree="+.", beyond={"point": ["3/2"], "not": "0."})
         self.accept(model, own, "At K = 3/2, it is not.")
         self.reject(model, document(model, values={"K": "1/2"}, require=[require("phase_margin", 10)], tree="+."), "several rates")
+        # What is known of a function over the window is not known beyond it: w = 1 - 2 K exp(b).
+        model = model.replace("K = {}", "K = {}\nb = {}").replace('gain = "K"', 'gain = "K*exp(b)"')
+        for point, judge in (("1", self.accept), ("-3", self.reject)):
+            judge(model, document(model, for_all=[("b", 0, "1/100")], values={"K": 2}, tree="-0.", beyond={"point": [point], "not": "0."}))
+        # Two names that are left in the determinant, and one with a value in a function.
+        model = model.replace('transfer = "1/(z-1)"', 'transfer = "c/(z-c^2)"').replace("K = {}", "K = {}\nc = {}")
+        for c, tree in ((["1/2", "3/4"], "+"), (["2", "9/4"], "-0.")):  # w = c^4 - (1 + c^2) c K exp(b)
+            of = {"axes": [("K", "1/8", "1/4")], "for_all": [("b", 0, 0), ("c", *c)]}
+            tree = good(model, document(model, **of)) if tree == "+" else tree
+            self.accept(model, document(model, tree=tree, **of))
+            self.reject(model, document(model, tree="+." if tree[0] == "-" else "-0.", **of))
 
 # ---------------------------------------------------------------- boxes
 
@@ -255,6 +266,8 @@ class Boxes(Case):
         model = siso("continuous", "K", "1/(s-a)", "K a")
         own = document(model, axes=[("K", 0, 4), ("a", 0, 2)], tree="ab-0.?b+.?")
         self.reject(model, own)
+        for tree in ("-0<a.", "-0>b.", "-0mamb."):  # at some of its points only
+            self.reject(model, document(model, axes=[("K", 0, 4), ("a", 1, 3)], tree=tree))
         own = document(model, axes=[("K", 0, 4), ("a", 1, 3)], tree="ab??b?b??")
         said = self.accept(model, own)
         self.assertIn("at least 0.0 % and 0.0 % of the window", said)
