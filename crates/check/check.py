@@ -2597,8 +2597,11 @@ def check_map(model, document, statement, values, discrete, extent):
 
 # ---------------------------------------------------------------- maps by boxes
 
-class TooWide(Exception):
+class TooWide(Rejected):
     """A series does not reach over a box: nothing is shown of it."""
+
+    def __str__(self):
+        return "a function is not known over the whole of a box"
 
 def of_degree(degree, names):
     """The exponents of the monomials in so many names, falling powers of the first name first."""

@@ -247,6 +247,18 @@ class KnownMargins(Case):
             self.accept(model, document(model, tree=tree, **of))
             self.reject(model, document(model, tree="+." if tree[0] == "-" else "-0.", **of))
 
+    def test_several_rates_where_a_function_has_no_value(self):
+        """What is not known over the window was an exception of its own, which nobody caught."""
+        model = ('time = "discrete"\nsample_time = "T"\n[parameters]\nK = {}\nT = {}\n[loop]\n[[block]]\ninput = "-y"\noutput = "u"\ngain = "K"\nevery = 2\n'
+                 '[[block]]\ninput = "u"\noutput = "y"\ntransfer = "1/(s+1)"\ndiscretize = "zoh"\n')
+        of = {"for_all": [("K", "1/4", "1/2"), ("T", 1, 1)]}
+        self.accept(model, document(model, tree="+.", **of))
+        self.reject(model, document(model, tree="+.", beyond={"point": ["1", "-1"], "not": "0."}, **of), "a function is not known")
+        for window in (["-1", "1"], ["-1", "-1/2"]):
+            self.reject(model, document(model, tree="-0.", for_all=[("K", 1, 2), ("T", *window)]), "a function is not known")
+        boxes = {"kind": "boxes", "time": "discrete", "x": "K", "y": "T", "set": {}, "region": {"radius": "1"}, "window": {"x": ["1", "2"], "y": ["-1", "1"]}, "tree": "-"}
+        self.reject(model, {"schema": "jurist/certificate/7", "statement": boxes, "order": 3, "bits": 128}, "a function is not known")
+
 # ---------------------------------------------------------------- boxes
 
 class Boxes(Case):
