@@ -257,6 +257,7 @@ ZERO, ONE, Z = P(), P({0: 1}), P({1: 1})
 def number(x):
     return P({0: x}) if x else ZERO
 
+MAX_VARIABLES = 900  # none may be the unit or the factor
 UNIT = 1 << 950 * FIELD  # the imaginary unit, behind all other variables
 FACTOR = 1 << 951 * FIELD  # the complex factor of a loop that is cut, of which nothing has a real part until it has a value
 
@@ -511,7 +512,7 @@ class Scope:
         self.cut = cut if cut and cut.kind == "parameter" else None
         self.moving = moving  # functions, where they are read
         self.unit = unit  # whether j is the imaginary unit; None where there are nothing but numbers
-        need(len(variables) < 900, "there are too many parameters")  # HIGHEST
+        need(len(variables) < MAX_VARIABLES, "there are too many parameters")
         self.matrices = {name: c for name, c in constants.items() if isinstance(c, list)}
         self.divisors, self.constants = [], {name: c for name, c in constants.items() if name not in self.matrices}
         self.known = {name: self.with_factor(name, scalar(P({1 << FIELD * v: 1}))) for name, v in variables.items()}
@@ -741,6 +742,7 @@ class Loop:
         self.z, self.taken, self.cut, root = model.z, model.taken, cut, model.root
         self.values, self.symbols, self.sample_time = values, symbols, root.get("sample_time")
         self.first = 2 + len(values or []) + boxed  # symbols are the variables from here on
+        allow(self.first + len(getattr(symbols, "symbols", [])) <= MAX_VARIABLES, "there are too many symbols")
         self.moving = symbols if isinstance(symbols, Moving) else None
         if self.moving:
             self.moving.is_continuous = self.z == "s"
@@ -1501,17 +1503,23 @@ def determinant(m):
             for z in range(degrees[0])]))
     return sum((P.of(interpolated(list(row)), 1) * Z ** k for k, row in enumerate(zip(*columns))), ZERO)
 
+MAX_BITS_OF_TERMS = 1 << 32  # of the exponents of a determinant's terms
+
 def expanded(rows):
     """The determinant of a matrix with few entries: those of the rows so far, for each set of columns [Laplace]."""
     minors = {0: ONE}
     for row in rows:
-        after = {}
+        after, terms = {}, 0
+        longest = sum(max(max(p, default=0) for p in of).bit_length() for of in (minors.values(), row))
         for columns, minor in minors.items():
+            allow(terms * longest <= MAX_BITS_OF_TERMS, "a loop with symbols is too large for the check")
             for j, e in enumerate(row):
                 if e and not columns >> j & 1:
                     term = minor * e
                     term = -term if (columns >> j).bit_count() % 2 else term
-                    after[columns | 1 << j] = after.get(columns | 1 << j, ZERO) + term
+                    old = after.get(columns | 1 << j, ZERO)
+                    after[columns | 1 << j] = old + term
+                    terms += len(after[columns | 1 << j]) - len(old)
         minors = {columns: short(minor) for columns, minor in after.items() if minor}
         terms = sum(map(len, minors.values()))
         allow(len(minors) <= 20_000 and terms <= 400_000, "a loop with symbols is too large for the check")
@@ -2589,8 +2597,11 @@ def check_map(model, document, statement, values, discrete, extent):
 
 # ---------------------------------------------------------------- maps by boxes
 
-class TooWide(Exception):
+class TooWide(Rejected):
     """A series does not reach over a box: nothing is shown of it."""
+
+    def __str__(self):
+        return "a function is not known over the whole of a box"
 
 def of_degree(degree, names):
     """The exponents of the monomials in so many names, falling powers of the first name first."""
@@ -2801,6 +2812,7 @@ class Moving:
         for known, first in self.known:
             if known == source:
                 return first
+        allow(self.next + count <= MAX_VARIABLES, "the model has too many functions")
         self.known.append((source, self.next))
         self.next += count
         return self.next - count
