@@ -1,14 +1,20 @@
 //! Certificates of maps by boxes, made with what the check sees as the judge of each box.
 
 use super::for_all::Asked;
+#[cfg(feature = "commands")]
+use super::for_all::ForAll;
 use super::search::{Judge, Search};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_check::{BoxJudge, JudgedBox, Limits};
 use jurist_engine::answer::{Answer, MapBoxes};
 use jurist_engine::error::{Code, Diagnostic, Error};
+#[cfg(feature = "commands")]
+use jurist_engine::problem::Free;
 use jurist_engine::problem::Problem;
 use jurist_engine::prove::ForAllClaim;
+#[cfg(feature = "commands")]
+use jurist_engine::response::Requirements;
 use jurist_engine::response::{AllOf, RequiredBox, RequiredBoxes};
 use jurist_engine::stability::plane::boxes::{BoxVerdict, PlaneBox, Window};
 use std::time::Duration;
@@ -121,6 +127,19 @@ fn of_all_values(answer: &Answer<MapBoxes>, goal: Rational, budget: &Budget) -> 
     let asked = Asked { problem, claim: &claim, boxes: &all, window, goal, most_work: MOST_WORK };
     let (text, [stable, unstable]) = asked.certified(budget)?;
     Ok(CertifiedBoxes { text, stable, unstable })
+}
+
+/// Refuses requirements that have no certificate, before there is a map.
+///
+/// # Errors
+/// Those of [`certify_boxes`].
+#[cfg(feature = "commands")]
+pub(crate) fn refuse_required(problem: &Problem, asked: &Requirements, budget: &Budget) -> Result<(), Error> {
+    // Any window will do to see whether the checkers read them.
+    let axis = |free: &Free| AllOf::new(&free.name, Rational::ZERO, Rational::ONE).expect("not empty");
+    let axes = problem.free().iter().map(axis).collect();
+    let claim = ForAllClaim::new(axes, Vec::new()).with_requirements(asked.list.clone(), asked.at.clone());
+    ForAll::new(problem, &claim, budget).map(|_| ())
 }
 
 /// What is said of a window of two names.

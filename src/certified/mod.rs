@@ -8,9 +8,9 @@ mod intervals;
 mod search;
 mod tolerance;
 
-#[cfg(feature = "commands")]
-pub(crate) use boxes::judge;
 pub use boxes::{CertifiedBoxes, certify_boxes};
+#[cfg(feature = "commands")]
+pub(crate) use boxes::{judge, refuse_required};
 pub use for_all::certify_requirements;
 pub use intervals::{CertifiedIntervals, certify_intervals, certify_required_intervals};
 pub use tolerance::{CertifiedTolerance, certify_tolerance};

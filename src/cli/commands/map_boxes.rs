@@ -1,7 +1,7 @@
 //! Options of `jurist map` that choose the method, and its answer by boxes.
 
 use super::{Context, decided};
-use crate::certified::{CertifiedBoxes, judge};
+use crate::certified::{CertifiedBoxes, judge, refuse_required};
 use crate::cli::arguments::OutputOptions;
 use crate::cli::assignments::{AxisRequest, in_line, plain_number};
 use crate::cli::output::ending;
@@ -68,7 +68,10 @@ impl MethodOptions {
                         .help("leave out '--method exact'")
                         .into())
                 }
-                MethodName::Boxes | MethodName::Auto => Ok(MapMethod::Boxes),
+                MethodName::Boxes | MethodName::Auto => {
+                    refuse_required(problem, asked, budget)?;
+                    Ok(MapMethod::Boxes)
+                }
             };
         }
         let exact = problem.refuse_map_certificate(budget);
