@@ -100,14 +100,28 @@ impl ForAll {
                     out.push('.');
                     continue;
                 }
-                // Where the loop changes most along the axes the box is halved.
-                let axis = Some(self.judge.axis(k, &part)).filter(|axis| *axis >= self.axes)?;
+                let axis = self.axis_of_part(k, &part, halvings)?;
                 out.push(letter(axis));
                 let [low, high] = self.judge.halves(k, &mut part, axis);
                 open.extend([(high, halvings + 1), (low, halvings + 1)]);
             }
         }
         Some(out)
+    }
+
+    /// The name whose side of a part is halved; `None` where the box of the axes is to be halved instead: there the middle of the ranges shows no more.
+    fn axis_of_part(&self, k: usize, part: &JudgedBox, halvings: usize) -> Option<usize> {
+        let axis = self.judge.axis(k, part);
+        let names = self.axes..self.judge.names(k);
+        if names.contains(&axis) && (halvings > 0 || self.axes == 0) {
+            return Some(axis);
+        }
+        let pinned = names.clone().fold(part.clone(), |part, name| self.judge.part(&part, Part::Middle, name));
+        if names.is_empty() || !self.judge.shows(k, &mut { pinned }, true) {
+            return None;
+        }
+        // What is even about the middle of a side has no slope there.
+        Some(if names.contains(&axis) { axis } else { names.start + halvings % names.len() })
     }
 
     /// How it is written that a loop is not stable, for some values of the other names, at any point of a cell.

@@ -156,10 +156,13 @@ pub fn certify_required_intervals(
 ) -> Result<CertifiedIntervals, Error> {
     budget.step("certificate");
     let (problem, set) = (answer.problem(), LineSet::from(answer.value()));
-    let ends = window(problem, &set);
+    let ends = match answer.value().for_all.is_empty() {
+        true => window(problem, &set),
+        false => looked_at(problem, &set),
+    };
     let axis = AllOf::new(&problem.parameter().name, ends[0].clone(), ends[1].clone()).expect("a window is not empty");
-    let claim =
-        ForAllClaim::new(vec![axis], Vec::new()).with_requirements(requirements.to_vec(), at.map(str::to_owned));
+    let claim = ForAllClaim::new(vec![axis], answer.value().for_all.clone())
+        .with_requirements(requirements.to_vec(), at.map(str::to_owned));
     let (boxes, whole) = (set.pieces(&ends), over(ends.clone()));
     let goal = Rational::dyadic(&1.into(), LEFT_BITS_OF_REQUIREMENTS);
     let asked = Asked { problem, claim: &claim, boxes: &boxes, window: &whole, goal, most_work: MOST_WORK };
@@ -249,6 +252,15 @@ fn window(problem: &Problem, set: &LineSet<'_>) -> [Rational; 2] {
             (None, None) => [-&far, far],
         },
     }
+}
+
+/// The window of a set that says how far it was looked for.
+fn looked_at(problem: &Problem, set: &LineSet<'_>) -> [Rational; 2] {
+    let domain = &problem.parameter().domain;
+    let below = set.undecided.iter().find(|b| b.lower.is_none()).and_then(|b| b.upper.clone());
+    let above = set.undecided.iter().find(|b| b.upper.is_none()).and_then(|b| b.lower.clone());
+    let ends = [below.or_else(|| domain.lower.clone()), above.or_else(|| domain.upper.clone())];
+    ends.map(|end| end.expect("the domain has an end, or the set says where nothing is known"))
 }
 
 /// A number with two digits, not below this positive one: what is added is more than what rounding takes off.

@@ -1,16 +1,18 @@
 //! Maps of two parameters for all values of others, against the exact set of the other one at points.
 
+use crate::helpers::certificates::checkers::accept;
 use crate::helpers::model::{example_text, keeping, load, read};
 use crate::helpers::number::{number, ratio};
 use crate::helpers::program::{jurist, jurist_with_input};
 use crate::helpers::random::Random;
+use jurist::certified::certify_required_intervals;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, BoxRequest, MapBoxes, Verdict};
 use jurist_engine::model::Model;
-use jurist_engine::response::{AllOf, MapForAll, Requirement};
+use jurist_engine::response::{AllOf, MapForAll, RequiredEnd, Requirement};
 use jurist_engine::stability::plane::boxes::{BoxVerdict, Window};
-use jurist_engine::stability::{Range, StableSet};
+use jurist_engine::stability::{Range, StableSet, UndecidedBracket};
 
 fn boxes(
     model: &Model,
@@ -237,4 +239,97 @@ fn a_sample_time_that_is_not_positive_for_some_values_is_not_for_all() {
     assert_eq!(whole.unstable, number("4/25"), "{whole:?}");
     let positive = areas(["1/10", "1"]);
     assert_eq!(positive.stable, number("4/25"), "{positive:?}");
+}
+
+/// One name in the place of two: closed forms, and ends that both programs of `verify` see nearly as far.
+#[test]
+fn one_parameter_is_good_up_to_ends_that_are_known() {
+    for (text, name, range, requirement, expected) in [
+        (
+            "time = 'continuous'\nparameters = { K = 2, c = 0 }\nloop.characteristic = 's + K - 1 + 4*(c - 1/2)^2'\n",
+            "c",
+            ["0", "1"],
+            None,
+            "1",
+        ),
+        (
+            "time = 'continuous'\nparameters = { K = { nominal = 1, min = 0 }, c = 1 }\nloop.characteristic = 's + K*exp(-c*s)'\n",
+            "c",
+            ["1/2", "1"],
+            None,
+            "1.57079632679489661923",
+        ),
+        (
+            "time = 'discrete'\nparameters = { K = { nominal = 1, min = 0 }, c = 1 }\nloop.characteristic = 'z - 1 + K*c'\n",
+            "c",
+            ["1/2", "4"],
+            None,
+            "1/2",
+        ),
+        // The phase margin of K/(s (s + 1)) is 60 degrees at 2/3, with the gain c that of K c.
+        (
+            "time = 'continuous'\nparameters = { K = { nominal = 1, min = 0 }, c = 1 }\nloop = { inputs = ['r'], outputs = ['y'] }\n\
+             [[block]]\nname = 'P'\ninput = 'r - y'\noutput = 'y'\ntransfer = 'K*c/(s*(s + 1))'\n",
+            "c",
+            ["1", "2"],
+            Some("60"),
+            "1/3",
+        ),
+    ] {
+        let requirements: Vec<Requirement> =
+            requirement.iter().map(|degrees| Requirement::phase_margin(&number(degrees)).unwrap()).collect();
+        let all = vec![AllOf::new(name, number(range[0]), number(range[1])).unwrap()];
+        let asked = MapForAll::new(all).with_requirements(requirements.clone(), None);
+        let found = asked.intervals(read(text).ask().free("K"), &Budget::unlimited()).unwrap();
+        let set = found.value();
+        let expected = number(expected);
+        let near = |end: &RequiredEnd| (end.value().exact().unwrap() - expected.clone()).abs() < number("1e-7");
+        let ends: Vec<&RequiredEnd> = set.intervals.iter().flat_map(|i| [&i.lower, &i.upper]).flatten().collect();
+        assert!(set.intervals.len() == 1 && ends.iter().any(|end| near(end)), "{text}: {set:?}");
+        // The true end is in what is undecided.
+        let holds = |b: &UndecidedBracket| {
+            b.lower.as_ref().is_some_and(|low| *low <= expected)
+                && b.upper.as_ref().is_some_and(|high| *high >= expected)
+        };
+        assert!(set.undecided.iter().any(holds), "{text}: {set:?}");
+        let certified = certify_required_intervals(&found, &requirements, None, &Budget::unlimited()).unwrap();
+        accept(text, &certified.text);
+        assert!(certified.proved > number("99/100"), "{text}: {certified:?}");
+    }
+}
+
+/// At random values of a set for all values, the exact set of the other name covers its range, and beside the set it does not.
+#[test]
+fn sets_of_one_parameter_for_all_values_agree_with_the_set_of_the_other_name() {
+    let mut random = Random::new(41);
+    let (mut good, mut spoiled) = (0, 0);
+    for _ in 0..12 {
+        let mut number = |most: usize| random.below(most) as i64 - most as i64 / 2;
+        let [a, b, c, d, e, f] = [number(8), number(6), number(6), number(8), number(6), number(6)];
+        let text = format!(
+            "time = 'continuous'\nparameters = {{ K = {{ nominal = 0, min = -3, max = 3 }}, c = 0 }}\n\
+             loop.characteristic = 's^3 + ({a} + 5 + ({b})*K + ({c})*c)*s^2 + ({d} + 4 + ({e})*c^2 - K*c)*s + 3 + ({f})*K'\n"
+        );
+        let all = vec![AllOf::new("c", ratio(-1, 2), ratio(1, 2)).unwrap()];
+        let found = MapForAll::new(all).intervals(read(&text).ask().free("K"), &Budget::unlimited()).unwrap();
+        let set = found.value();
+        for k in -29..30 {
+            let x = ratio(k, 10) + ratio(1, 97);
+            let is_open = |b: &UndecidedBracket| {
+                b.lower.as_ref().is_none_or(|low| *low <= x) && b.upper.as_ref().is_none_or(|high| *high >= x)
+            };
+            if set.undecided.iter().any(is_open) {
+                continue;
+            }
+            let of_c = read(&text).ask().set("K", x.clone()).free("c").stable_set(&Budget::unlimited()).unwrap();
+            let [low, high] = [ratio(-1, 2), ratio(1, 2)];
+            let covers = of_c.value().intervals().iter().any(|i| {
+                i.lower.as_ref().is_none_or(|end| end.value.compare_rational(&low).is_lt())
+                    && i.upper.as_ref().is_none_or(|end| end.value.compare_rational(&high).is_gt())
+            });
+            assert_eq!(set.intervals.iter().any(|i| i.contains(&x)), covers, "{text} at {x}");
+            if covers { good += 1 } else { spoiled += 1 }
+        }
+    }
+    assert!(good > 40 && spoiled > 100, "{good} {spoiled}");
 }

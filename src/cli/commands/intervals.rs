@@ -3,6 +3,7 @@
 use super::{Context, Runs, decided};
 use crate::certified::{CertifiedIntervals, certify_intervals, certify_required_intervals};
 use crate::cli::arguments::{DecisionOptions, RunOptions};
+use crate::cli::commands::map::ranges;
 use crate::cli::destinations::Files;
 use crate::cli::input::{decision, known_names, only_parameter};
 use crate::cli::output::{note, write_answer};
@@ -11,9 +12,11 @@ use crate::cli::requirements::{RequirementOptions, refuse_theorems};
 use crate::cli::status::{Error, Outcome, Status};
 use crate::cli::written::{certified, check_certificate, share};
 use clap::Args;
+use jurist_engine::answer::Answer;
 use jurist_engine::coverage::Asked;
 use jurist_engine::model::Model;
 use jurist_engine::problem::{DECAY, RADIUS};
+use jurist_engine::response::{MapForAll, RequiredSet, Requirement};
 use jurist_engine::show::documents::Intervals;
 use jurist_engine::show::intervals_text;
 use std::ffi::OsString;
@@ -32,6 +35,9 @@ pub(in crate::cli) struct Options {
     /// Adds how each limit moves with each other parameter and constant: exact derivatives
     #[arg(long)]
     pub sensitivity: bool,
+    /// The values that are good for all values of another name in a range, both ends included (can be given again)
+    #[arg(long = "for-all", value_name = "NAME=LO..HI", conflicts_with_all = ["smt2", "coq", "sensitivity"])]
+    pub for_all: Vec<String>,
     /// Writes a certificate that 'jurist verify' re-checks
     #[arg(long, value_name = "FILE")]
     pub certificate: Option<OsString>,
@@ -75,6 +81,14 @@ fn run(options: &Options, context: &Context) -> Outcome {
     let digits = output.digits() as usize;
     let (asked, question) = options.require.asked(&model, question.free(&name), &options.decision.region, context)?;
     refuse_theorems(&asked, options.smt2.is_some() || options.coq.is_some())?;
+    if !options.for_all.is_empty() {
+        let all = ranges(&options.for_all, &model, context)?;
+        let for_all = MapForAll::new(all).with_requirements(asked.list.clone(), asked.at.clone());
+        return match decided(for_all.intervals(question, &context.budget))? {
+            Ok(answer) => required(&answer, (&asked.list, asked.at.as_deref()), options, &model, context),
+            Err(stopped) => Ok(context.say_undecided(&stopped)),
+        };
+    }
     let problem = question.problem()?;
     let requirements = asked.list;
     let question = requirements.iter().fold(Asked::Intervals, |asked, r| asked.with_requirement(r, problem.time()));
@@ -82,13 +96,7 @@ fn run(options: &Options, context: &Context) -> Outcome {
     if !requirements.is_empty() {
         let at = asked.at.as_deref();
         return match decided(problem.required_set(&requirements, at, &context.budget))? {
-            Ok(answer) => {
-                context.warn(None, problem.warnings());
-                context.answer(output, || answer.text(&requirements, digits), || answer.json(&requirements, digits))?;
-                let make = || certify_required_intervals(&answer, &requirements, at, &context.budget);
-                written(options, &model, (&name, &certified(context, &options.certificate, make)?), context)?;
-                Ok(Status::Holds)
-            }
+            Ok(answer) => required(&answer, (&requirements, at), options, &model, context),
             Err(stopped) => {
                 context.undecided(output, &stopped, || None, || Intervals::new(&problem, Err(&stopped), digits))
             }
@@ -128,6 +136,24 @@ fn run(options: &Options, context: &Context) -> Outcome {
         }
     }
     written(options, &model, (&name, &certified), context)?;
+    Ok(Status::Holds)
+}
+
+/// The answer with requirements, or for all values of other names.
+fn required(
+    answer: &Answer<RequiredSet>,
+    (requirements, at): (&[Requirement], Option<&str>),
+    options: &Options,
+    model: &Model,
+    context: &Context,
+) -> Outcome {
+    let output = &options.decision.output;
+    let digits = output.digits() as usize;
+    context.warn(None, answer.problem().warnings());
+    context.answer(output, || answer.text(requirements, digits), || answer.json(requirements, digits))?;
+    let make = || certify_required_intervals(answer, requirements, at, &context.budget);
+    let certified = certified(context, &options.certificate, make)?;
+    written(options, model, (&answer.problem().parameter().name, &certified), context)?;
     Ok(Status::Holds)
 }
 

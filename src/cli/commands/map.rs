@@ -109,7 +109,7 @@ impl Runs for Options {
 }
 
 /// The values of other names for all of which something is asked.
-fn ranges(texts: &[String], model: &Model, context: &Context) -> Result<Vec<AllOf>, Error> {
+pub(super) fn ranges(texts: &[String], model: &Model, context: &Context) -> Result<Vec<AllOf>, Error> {
     let mut all: Vec<AllOf> = Vec::new();
     for text in texts {
         let request = axis(context.line, "--for-all", text)?;

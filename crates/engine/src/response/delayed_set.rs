@@ -64,7 +64,7 @@ impl Problem {
         };
         let boxes = requirements.iter().map(of).collect::<Result<Vec<_>, Error>>()?;
         let set = DelayedSet { problem: self, requirements, at, boxes, budget };
-        let mut found = RequiredSet { intervals: Vec::new(), undecided: stable.undecided().to_vec() };
+        let mut found = RequiredSet { undecided: stable.undecided().to_vec(), ..RequiredSet::default() };
         for interval in stable.intervals() {
             set.within(interval, &mut found)?;
         }

@@ -115,26 +115,15 @@ impl MapForAll {
         }
         let together = self.together(question)?;
         let window = plane.window(request, budget)?;
-        let mut near: Vec<Rational> = [&window.x, &window.y].map(|[low, high]| low.midpoint(high)).into();
-        near.extend(self.all.iter().map(|all| all.range[0].midpoint(&all.range[1])));
-        budget.step("coefficients over the window and the ranges");
-        let stability = RequirementBoxes::of_stability(&together, &near, budget)?;
-        let stability =
-            [stability.ok_or_else(|| Error::Undefined("the loop has no characteristic function".to_owned()))?];
-        let requirement = |r: &Requirement| {
-            let found = RequirementBoxes::of(&together, r, self.at.as_deref(), &near, budget)?;
-            found.ok_or_else(|| NOT_IN_A_PLANE.diagnostic(&[("name", r.name()), ("help", NOT_IN_BOXES)]).into())
-        };
-        let requirements = self.requirements.iter().map(requirement).collect::<Result<Vec<_>, Error>>()?;
+        let middles = [&window.x, &window.y].map(|[low, high]| low.midpoint(high)).into();
+        let (stability, requirements) = self.tests(&together, middles, budget)?;
         let part = if requirements.is_empty() { budget.clone() } else { budget.share(STABILITY.0, STABILITY.1) };
         let first = self.parts(&stability);
         let boxes = boxes_of(&window, &request.undecided, first, &part, |place, open| {
-            let seen = self.look(&stability, (place, &window), open, &part)?;
-            Ok(match seen {
-                Look::Decided(None) => Look::Decided(BoxVerdict::Stable),
-                Look::Decided(Some(_)) => Look::Decided(BoxVerdict::Unstable { outside: None }),
-                Look::Cut(axis) => Look::Cut(axis),
-                Look::Open(never) => match never {},
+            Ok(match self.look(&stability, &sides_of(place, &window), open, &part)? {
+                Some(None) => Look::Decided(BoxVerdict::Stable),
+                Some(Some(_)) => Look::Decided(BoxVerdict::Unstable { outside: None }),
+                None => Look::Cut(place.wider()),
             })
         });
         let stable = boxes.boxes.iter().filter(|b| b.verdict == BoxVerdict::Stable).map(|b| b.window.clone());
@@ -143,7 +132,8 @@ impl MapForAll {
             let stable: Vec<Window> = stable.collect();
             let first = self.parts(&requirements);
             let found = refined(&window, &stable, first, &request.undecided, budget, |place, open| {
-                self.look(&requirements, (place, &window), open, budget)
+                let seen = self.look(&requirements, &sides_of(place, &window), open, budget)?;
+                Ok(seen.map_or(Look::Cut(place.wider()), Look::Decided))
             });
             RequiredBoxes::new(&self.requirements, self.at.as_deref(), found)
         });
@@ -157,8 +147,28 @@ impl MapForAll {
         Ok(Answer::new(plane.without_values_of(|name| self.all.iter().any(|all| all.name == name)), value))
     }
 
+    /// The tests of stability and of each requirement over boxes of all names, made for points near to this one of the axes and the middles of the ranges.
+    pub(super) fn tests(
+        &self,
+        together: &Arc<Problem>,
+        mut near: Vec<Rational>,
+        budget: &Budget,
+    ) -> Result<([RequirementBoxes; 1], Vec<RequirementBoxes>), Error> {
+        near.extend(self.all.iter().map(|all| all.range[0].midpoint(&all.range[1])));
+        budget.step("coefficients over the window and the ranges");
+        let stability = RequirementBoxes::of_stability(together, &near, budget)?;
+        let stability =
+            [stability.ok_or_else(|| Error::Undefined("the loop has no characteristic function".to_owned()))?];
+        let requirement = |r: &Requirement| {
+            let found = RequirementBoxes::of(together, r, self.at.as_deref(), &near, budget)?;
+            found.ok_or_else(|| NOT_IN_A_PLANE.diagnostic(&[("name", r.name()), ("help", NOT_IN_BOXES)]).into())
+        };
+        let requirements = self.requirements.iter().map(requirement).collect::<Result<Vec<_>, Error>>()?;
+        Ok((stability, requirements))
+    }
+
     /// The question in which all names are free.
-    fn together(&self, question: Question) -> Result<Arc<Problem>, Error> {
+    pub(super) fn together(&self, question: Question) -> Result<Arc<Problem>, Error> {
         if self.all.len() > MOST_RANGES {
             let message = format!("'for all' takes up to {MOST_RANGES} names");
             return Err(Diagnostic::error(Code::Usage, message).help("give the others values, with '--set'").into());
@@ -181,7 +191,7 @@ impl MapForAll {
     }
 
     /// The parts that a whole window is looked at with: the corners of the ranges, then all of them.
-    fn parts(&self, tests: &[RequirementBoxes]) -> Vec<OpenPart> {
+    pub(super) fn parts(&self, tests: &[RequirementBoxes]) -> Vec<OpenPart> {
         let corners = (0..1usize << self.all.len()).map(|corner| {
             let side = |(k, all): (usize, &AllOf)| {
                 let end = &all.range[corner >> k & 1];
@@ -195,25 +205,24 @@ impl MapForAll {
         (0..tests.len()).flat_map(of).collect()
     }
 
-    /// Whether a box is decided: the number of a test that it does not pass for some values, or none where it passes all for all values. What is decided
-    /// leaves the list.
-    fn look(
+    /// Whether a box of the axes is decided: the number of a test that it does not pass for some values, or none where it passes all for all values. What is
+    /// decided leaves the list.
+    pub(super) fn look(
         &self,
         tests: &[RequirementBoxes],
-        (place, window): (&Place, &Window),
+        (axes, halvings): &(Vec<[Rational; 2]>, u32),
         open: &mut Vec<OpenPart>,
         budget: &Budget,
-    ) -> Result<Look<Option<usize>, std::convert::Infallible>, Exhausted> {
-        let Window { x, y } = place.window(window);
-        let most = place.halvings[0].max(place.halvings[1]) + FINER;
+    ) -> Result<Option<Option<usize>>, Exhausted> {
+        let most = halvings + FINER;
         let (mut waiting, mut rest) = (std::mem::take(open), Vec::new());
         waiting.reverse();
         while let Some(OpenPart { test, part }) = waiting.pop() {
             budget.check()?;
-            let sides: Vec<[Rational; 2]> = [x.clone(), y.clone()].into_iter().chain(part.sides.clone()).collect();
+            let sides: Vec<[Rational; 2]> = axes.iter().cloned().chain(part.sides.clone()).collect();
             match tests[test].short_look(&sides, budget)? {
                 OverPoints::All => continue,
-                OverPoints::None => return Ok(Look::Decided(Some(test))),
+                OverPoints::None => return Ok(Some(Some(test))),
                 OverPoints::Open { .. } => {}
             }
             let is_wide = |axis: &usize| part.sides[*axis][0] < part.sides[*axis][1] && part.halvings[*axis] < most;
@@ -223,9 +232,9 @@ impl MapForAll {
                 continue;
             };
             let pinned = part.sides.iter().map(|[low, high]| [low.midpoint(high), low.midpoint(high)]);
-            let pinned: Vec<[Rational; 2]> = [x.clone(), y.clone()].into_iter().chain(pinned).collect();
+            let pinned: Vec<[Rational; 2]> = axes.iter().cloned().chain(pinned).collect();
             match tests[test].short_look(&pinned, budget)? {
-                OverPoints::None => return Ok(Look::Decided(Some(test))),
+                OverPoints::None => return Ok(Some(Some(test))),
                 // With single values the box is open as well: it is the one to be halved.
                 OverPoints::Open { .. } => rest.push(OpenPart { test, part }),
                 OverPoints::All => {
@@ -235,15 +244,21 @@ impl MapForAll {
             }
         }
         *open = rest;
-        Ok(if open.is_empty() { Look::Decided(None) } else { Look::Cut(place.wider()) })
+        Ok(open.is_empty().then_some(None))
     }
 }
 
 const NOT_IN_BOXES: &str = "ask 'verdict' with a value for every parameter, or 'tolerance' for a box around one point";
 
+/// The sides of a box of the plane, and how often the window was halved for it.
+fn sides_of(place: &Place, window: &Window) -> (Vec<[Rational; 2]>, u32) {
+    let Window { x, y } = place.window(window);
+    (vec![x, y], place.halvings[0].max(place.halvings[1]))
+}
+
 /// A part of the ranges. For its values and the points of a box the test is not decided.
 #[derive(Clone, Debug)]
-struct OpenPart {
+pub(super) struct OpenPart {
     /// The number of the test.
     test: usize,
     part: BoxPart,

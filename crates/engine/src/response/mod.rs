@@ -25,6 +25,7 @@ mod enclosed;
 mod extreme;
 mod family;
 mod for_all;
+mod for_all_line;
 pub(crate) mod ground;
 mod held_delay;
 mod level;

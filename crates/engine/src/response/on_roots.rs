@@ -59,7 +59,7 @@ impl OnRoots {
         stable: &StableSet,
         budget: &Budget,
     ) -> Result<RequiredSet, Error> {
-        let mut found = RequiredSet { intervals: Vec::new(), undecided: stable.undecided().to_vec() };
+        let mut found = RequiredSet { undecided: stable.undecided().to_vec(), ..RequiredSet::default() };
         for interval in stable.intervals() {
             if self.has_roots_on_boundary_throughout(interval, budget)? {
                 return Err(not_decided(requirement));

@@ -110,7 +110,7 @@ impl<'a> SymbolicFamily<'a> {
         if requirements.iter().any(|r| matches!(r.rule(), Rule::DeadTime(_))) {
             return Err(DELAY_AT_POINTS.diagnostic(&[]).into());
         }
-        let mut found = RequiredSet { intervals: Vec::new(), undecided: stable.undecided().to_vec() };
+        let mut found = RequiredSet { undecided: stable.undecided().to_vec(), ..RequiredSet::default() };
         let of = |requirement: &Requirement| {
             let symbols = self.symbols_of(requirement);
             OverBoxes::new(&self.quotient, &self.undefined, requirement.rule(), symbols)

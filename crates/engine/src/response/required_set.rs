@@ -2,6 +2,7 @@
 
 use super::cells::Cells;
 use super::family::{Boundaries, Family};
+use super::for_all::AllOf;
 use super::margins::Margins;
 use super::met::AtPoint;
 use super::on_roots::OnRoots;
@@ -30,6 +31,8 @@ pub struct RequiredSet {
     pub intervals: Vec<RequiredInterval>,
     /// Where it is not told, ascending.
     pub undecided: Vec<UndecidedBracket>,
+    /// Names for all of whose values in these ranges it holds what is said.
+    pub for_all: Vec<AllOf>,
 }
 
 impl RequiredSet {
@@ -60,7 +63,7 @@ impl RequiredSet {
                 }
             }
         }
-        let mut found = RequiredSet { intervals, undecided: self.undecided.clone() };
+        let mut found = RequiredSet { intervals, undecided: self.undecided.clone(), for_all: Vec::new() };
         found.undecided.extend(other.undecided.iter().filter(|b| !self.undecided.contains(b)).cloned());
         found.sort();
         Ok(found)
@@ -71,7 +74,8 @@ impl From<&StableSet> for RequiredSet {
     fn from(set: &StableSet) -> Self {
         let end = |end: &Option<End>| end.clone().map(RequiredEnd::Stability);
         let interval = |i: &StableInterval| RequiredInterval { lower: end(&i.lower), upper: end(&i.upper) };
-        RequiredSet { intervals: set.intervals().iter().map(interval).collect(), undecided: set.undecided().to_vec() }
+        let intervals = set.intervals().iter().map(interval).collect();
+        RequiredSet { intervals, undecided: set.undecided().to_vec(), for_all: Vec::new() }
     }
 }
 
@@ -248,7 +252,7 @@ impl Problem {
             let cells = Cells { requirements, boundaries: &boundaries, family: &family, budget };
             intervals.extend(cells.within(interval)?);
         }
-        Ok(RequiredSet { intervals, undecided: Vec::new() })
+        Ok(RequiredSet { intervals, ..RequiredSet::default() })
     }
 
     /// A requirement on the roots of the closed loop, all of them as they are.

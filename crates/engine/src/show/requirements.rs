@@ -2,6 +2,7 @@
 
 use super::intervals::{free_domain_text, heading, intervals_text, nominal_first, nowhere, undecided_lines};
 use super::layout::Columns;
+use super::map::for_all_text;
 use super::{real, region};
 use crate::answer::Answer;
 use crate::problem::Problem;
@@ -18,8 +19,11 @@ impl Answer<RequiredSet> {
         if domain != "all" {
             asked.push_str(&format!(", domain {domain}"));
         }
-        let wanted: Vec<String> = requirements.iter().map(Requirement::text).collect();
-        let goal = format!("{}, {}", region::goal_or_stable(problem), wanted.join(", "));
+        if let Some(all) = for_all_text(&self.value().for_all, digits) {
+            asked.push_str(&format!(", {all}"));
+        }
+        let wanted = requirements.iter().map(|r| format!(", {}", r.text()));
+        let goal = wanted.fold(region::goal_or_stable(problem).to_string(), |goal, one| goal + &one);
         let mut out = format!("{}\n{asked}: {goal}", heading(problem));
         let undecided = undecided_lines(&self.value().undecided, digits);
         if self.value().intervals.is_empty() {

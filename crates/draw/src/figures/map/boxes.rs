@@ -31,7 +31,7 @@ pub fn boxes_figure(answer: &Answer<MapBoxes>, width: f64, height: f64) -> Figur
     let mut top = heading(&what(problem), problem).draw(&mut scene);
     let required = answer.value().required.as_ref();
     let goal = goal_or_stable(problem);
-    let [good, bad] = match for_all_text(answer.value(), DIGITS) {
+    let [good, bad] = match for_all_text(&answer.value().for_all, DIGITS) {
         Some(all) => [format!("{goal} {all}"), "not for all".to_owned()],
         None if goal == "stable" => [goal, "unstable".to_owned()],
         None => [goal.clone(), format!("not {goal}")],

@@ -2,7 +2,7 @@
 
 use super::number::{Exact, Number};
 use super::schema_name;
-use super::{Answered, Bounds, End, ParameterQuestion, RequirementAsked};
+use super::{AllValues, Answered, Bounds, End, ParameterQuestion, RequirementAsked};
 use crate::answer::{Answer, Sensitivities, Sensitivity};
 use crate::problem::Problem;
 use crate::show::real;
@@ -29,6 +29,9 @@ pub struct Intervals {
     /// The set.
     #[serde(flatten)]
     pub answer: Answered<Stable, IntervalsOpen>,
+    /// Other names, for all of whose values in these ranges it holds; left out where there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub for_all: Vec<AllValues>,
     /// How the limits move with the other names, where it was asked for.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub sensitivity: Vec<SensitivityFound>,
@@ -102,7 +105,7 @@ impl Intervals {
     ) -> Self {
         let undecided = undecided.iter().map(UndecidedEnclosure::from).collect();
         let answer = Answered::Known(Stable { stable, undecided });
-        Intervals { schema: IntervalsName::V1, question, require, answer, sensitivity: Vec::new() }
+        Intervals { schema: IntervalsName::V1, question, require, answer, for_all: Vec::new(), sensitivity: Vec::new() }
     }
 
     /// The document, also of an answer that the budget did not allow; decimals to so many significant digits.
@@ -115,6 +118,7 @@ impl Intervals {
                 stable: End::intervals(set, problem, digits),
                 undecided: set.undecided().iter().map(UndecidedEnclosure::from).collect(),
             }),
+            for_all: Vec::new(),
             sensitivity: Vec::new(),
         }
     }

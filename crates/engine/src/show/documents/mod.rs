@@ -47,8 +47,8 @@ mod verdict;
 pub use analyze::{Analysis, AnalysisName};
 pub use body::{Body, BodyName, BodySlice, Extreme, Stretch, StretchEnd};
 pub use boxes::{
-    Areas, BoxVerdict, MapBoxes, MapBoxesName, MapBoxesOpen, PlaneBox, RequiredAreas, RequiredBox, RequiredInBoxes,
-    SubdividedWindow, Window,
+    AllValues, Areas, BoxVerdict, MapBoxes, MapBoxesName, MapBoxesOpen, PlaneBox, RequiredAreas, RequiredBox,
+    RequiredInBoxes, SubdividedWindow, Window,
 };
 pub(in crate::show) use charpoly::report_text;
 pub use charpoly::{

@@ -55,12 +55,14 @@ impl Answer<RequiredSet> {
     /// The document `jurist/intervals/1`, with `require`, and `requirement` at ends.
     pub fn json(&self, requirements: &[Requirement], digits: usize) -> Intervals {
         let problem = self.problem();
-        Intervals::of_bounds(
+        let for_all = self.value().for_all.iter().map(Into::into).collect();
+        let document = Intervals::of_bounds(
             ParameterQuestion::new(problem),
             bounds(self.value(), problem, digits),
             &self.value().undecided,
             requirements.iter().map(Into::into).collect(),
-        )
+        );
+        Intervals { for_all, ..document }
     }
 }
 

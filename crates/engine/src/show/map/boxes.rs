@@ -37,12 +37,12 @@ pub fn map_boxes_text(problem: &Problem, answer: Result<&MapBoxes, &Exhausted>, 
 }
 
 /// The names for all of whose values the answer holds: `for all b from -1 to 2`; `None` where there are none.
-pub fn for_all_text(answer: &MapBoxes, digits: usize) -> Option<String> {
+pub fn for_all_text(ranges: &[AllOf], digits: usize) -> Option<String> {
     let closed = |all: &AllOf| {
         let [least, greatest] = all.range.each_ref().map(|x| to_decimal(x, digits));
         format!("{} from {least} to {greatest}", all.name)
     };
-    let all: Vec<String> = answer.for_all.iter().map(closed).collect();
+    let all: Vec<String> = ranges.iter().map(closed).collect();
     (!all.is_empty()).then(|| format!("for all {}", all.join(", ")))
 }
 
@@ -50,7 +50,7 @@ fn boxes_text(out: &mut String, answer: &MapBoxes, goal: &str, names: [&str; 2],
     let map = &answer.boxes;
     let window = &map.window;
     out.push_str(&format!("{}, {}\n", span(names[0], &window.x, digits), span(names[1], &window.y, digits)));
-    if let Some(all) = for_all_text(answer, digits) {
+    if let Some(all) = for_all_text(&answer.for_all, digits) {
         out.push_str(&format!("    {all}\n"));
     }
     let unstable = if answer.for_all.is_empty() { "unstable" } else { "not for all" };

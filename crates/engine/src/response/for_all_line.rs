@@ -1,0 +1,197 @@
+//! One parameter for all values of other names in given ranges.
+
+use super::for_all::{MapForAll, OpenPart};
+use super::required_set::{RequiredEnd, RequiredInterval, RequiredSet};
+use super::requirement_boxes::RequirementBoxes;
+use crate::answer::Answer;
+use crate::coverage::refusals::COMPLEX_FOR_ALL;
+use crate::error::{Code, Diagnostic, Error};
+use crate::problem::{Free, Question};
+use crate::stability::{StableSet, UndecidedBracket};
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::Rational;
+use jurist_algebra::real::Real;
+
+/// A piece of the parameter is halved until it is so many times shorter than it is far from zero, or than the window, as powers of two.
+const BITS: u64 = 30;
+const BITS_OF_WINDOW: u64 = 34;
+
+/// The window reaches so many times as far as the farthest end of stability at the middle of the ranges, or the nominal value.
+const BEYOND: i64 = 2;
+
+/// Why nothing is said of a short piece.
+const AT_AN_END: &str = "where it begins or ceases to hold for all values";
+
+/// Why nothing is said beyond the window.
+const OUTSIDE: &str = "not looked at: the domain has no end there, and '--domain' gives one";
+
+/// A piece of the parameter's range.
+struct Piece {
+    between: [Rational; 2],
+    halvings: u32,
+    /// Stability is decided, and requirements are looked at.
+    is_stable: bool,
+    open: Vec<OpenPart>,
+}
+
+/// What is known of a piece: that all is met for all values, or what is not for some.
+#[derive(Clone, Copy, PartialEq)]
+enum Known {
+    Good,
+    Spoiled(&'static str),
+    Undecided,
+}
+
+impl MapForAll {
+    /// The values of the one free name of a question for which the loop is stable, and meets what is required, for all values of the ranges.
+    ///
+    /// The ends are not numbers in a closed form: each is enclosed by a short bracket, in which nothing is said.
+    ///
+    /// Cost: that of a look at some dozen pieces beside each end, times the parts of the ranges that are not decided with longer pieces.
+    ///
+    /// # Errors
+    /// As [`MapForAll::boxes`], but for the window.
+    ///
+    /// ```
+    /// use jurist_algebra::limits::Budget;
+    /// use jurist_engine::error::Source;
+    /// use jurist_engine::model::Model;
+    /// use jurist_engine::response::{AllOf, MapForAll};
+    /// // s + K - 1 + 4 (c - 1/2)^2: the worst c is 1/2.
+    /// let text = "time = 'continuous'\nparameters = { K = 2, c = 0 }\nloop.characteristic = 's + K - 1 + 4*(c - 1/2)^2'\n";
+    /// let (model, _) = Model::from_toml(&Source::new("loop.toml", text))?;
+    /// let for_all = MapForAll::new(vec![AllOf::new("c", 0.into(), 1.into()).unwrap()]);
+    /// let set = for_all.intervals(model.ask().free("K"), &Budget::unlimited())?;
+    /// let end = set.value().intervals[0].lower.as_ref().unwrap().value().exact().unwrap();
+    /// assert!(end >= 1.into() && end < "1.00001".parse()?);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn intervals(&self, question: Question, budget: &Budget) -> Result<Answer<RequiredSet>, Error> {
+        let middle = |all: &super::AllOf| (all.name.clone(), all.range[0].midpoint(&all.range[1]));
+        let line = question.clone().set_all(self.all.iter().map(middle)).problem()?;
+        match line.refuse_complex(budget) {
+            Err(Error::Refused(_)) => return Err(COMPLEX_FOR_ALL.diagnostic(&[]).into()),
+            known => known?,
+        }
+        if line.region().is_free() {
+            let message = "the bound of a region is not asked about for all values of other names";
+            return Err(Diagnostic::error(Code::Usage, message).into());
+        }
+        let together = self.together(question)?;
+        let window = window(line.parameter(), line.stable_set(budget)?.value());
+        let (stability, requirements) = self.tests(&together, vec![window[0].midpoint(&window[1])], budget)?;
+        budget.step("halving the range of the parameter");
+        let mut pieces = Vec::new();
+        let whole = Piece { between: window.clone(), halvings: 0, is_stable: false, open: self.parts(&stability) };
+        let mut waiting = vec![whole];
+        while let Some(mut piece) = waiting.pop() {
+            budget.check()?;
+            match self.known(&mut piece, (&stability, &requirements), budget)? {
+                Known::Undecided if !is_short(&piece.between, &window) => {
+                    let middle = piece.between[0].midpoint(&piece.between[1]);
+                    let [low, high] = piece.between;
+                    let half = |between: [Rational; 2]| Piece {
+                        between,
+                        halvings: piece.halvings + 1,
+                        is_stable: piece.is_stable,
+                        open: piece.open.clone(),
+                    };
+                    waiting.extend([half([middle.clone(), high]), half([low, middle])]);
+                }
+                known => pieces.push((piece.between, known)),
+            }
+        }
+        let found = self.set(pieces, line.parameter());
+        Ok(Answer::new(line.without_values_of(|name| self.all.iter().any(|all| all.name == name)), found))
+    }
+
+    fn known(
+        &self,
+        piece: &mut Piece,
+        (stability, requirements): (&[RequirementBoxes], &[RequirementBoxes]),
+        budget: &Budget,
+    ) -> Result<Known, Exhausted> {
+        let place = (vec![piece.between.clone()], piece.halvings);
+        if !piece.is_stable {
+            match self.look(stability, &place, &mut piece.open, budget)? {
+                Some(None) if requirements.is_empty() => return Ok(Known::Good),
+                Some(None) => (piece.is_stable, piece.open) = (true, self.parts(requirements)),
+                Some(Some(_)) => return Ok(Known::Spoiled("stability")),
+                None => return Ok(Known::Undecided),
+            }
+        }
+        Ok(match self.look(requirements, &place, &mut piece.open, budget)? {
+            Some(None) => Known::Good,
+            Some(Some(test)) => Known::Spoiled(self.requirements[test].name()),
+            None => Known::Undecided,
+        })
+    }
+
+    /// Pieces in ascending order as a set.
+    fn set(&self, pieces: Vec<([Rational; 2], Known)>, parameter: &Free) -> RequiredSet {
+        let mut runs: Vec<([Rational; 2], Known)> = Vec::new();
+        for (between, known) in pieces {
+            match runs.last_mut() {
+                // What spoils a piece may be one thing or another.
+                Some((last, own)) if *own == known => last[1] = between[1].clone(),
+                _ => runs.push((between, known)),
+            }
+        }
+        let mut set = RequiredSet { for_all: self.all.clone(), ..RequiredSet::default() };
+        let end = |x: &Rational, beside: Option<&Known>| {
+            let names = match beside {
+                Some(Known::Spoiled(name)) => vec![*name],
+                Some(_) => vec!["not decided beyond"],
+                None => vec!["domain"],
+            };
+            Some(RequiredEnd::Requirement { value: Real::from(x.clone()), names, closed: true })
+        };
+        for (i, ([low, high], known)) in runs.iter().enumerate() {
+            // Behind a short undecided piece stands what spoils the others.
+            let beyond = |mut at: isize, step: isize| loop {
+                at += step;
+                match usize::try_from(at).ok().and_then(|at| runs.get(at)) {
+                    Some((_, Known::Undecided)) => {}
+                    other => break other.map(|(_, known)| known),
+                }
+            };
+            match known {
+                Known::Good => set.intervals.push(RequiredInterval {
+                    lower: end(low, beyond(i as isize, -1)),
+                    upper: end(high, beyond(i as isize, 1)),
+                }),
+                Known::Undecided => {
+                    set.undecided.push(UndecidedBracket::new(Some(low.clone()), Some(high.clone()), AT_AN_END))
+                }
+                Known::Spoiled(_) => {}
+            }
+        }
+        let outside = |lower, upper| UndecidedBracket::new(lower, upper, OUTSIDE);
+        if let (None, Some(([low, _], _))) = (&parameter.domain.lower, runs.first()) {
+            set.undecided.insert(0, outside(None, Some(low.clone())));
+        }
+        if let (None, Some(([_, high], _))) = (&parameter.domain.upper, runs.last()) {
+            set.undecided.push(outside(Some(high.clone()), None));
+        }
+        set
+    }
+}
+
+fn is_short([low, high]: &[Rational; 2], window: &[Rational; 2]) -> bool {
+    let length = high - low;
+    let far = low.abs().max(high.abs());
+    length <= &far * &Rational::dyadic(&1.into(), BITS)
+        || length <= &(&window[1] - &window[0]) * &Rational::dyadic(&1.into(), BITS_OF_WINDOW)
+}
+
+/// What is looked at: the domain, or as far as the loop at the middle of the ranges says anything.
+fn window(parameter: &Free, at_middle: &StableSet) -> [Rational; 2] {
+    let ends = at_middle.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten();
+    let ends = ends.map(|end| end.value.refined_to_digits(4).enclosure().1.abs());
+    let far = ends.chain(parameter.nominal.iter().map(Rational::abs)).max().filter(|far| !far.is_zero());
+    let far = Rational::from((&far.unwrap_or(Rational::ONE) * &Rational::from(BEYOND)).ceil());
+    let low = parameter.domain.lower.clone().unwrap_or_else(|| -&far);
+    let high = parameter.domain.upper.clone().unwrap_or_else(|| far.clone().max(&low + &far));
+    let low = if low < high { low } else { &high - &far };
+    [low, high]
+}
