@@ -172,7 +172,8 @@ impl Taylor {
     }
 
     pub fn times(&self, other: &Self, p: &Precision, clock: &Clock) -> Result<Self, String> {
-        clock.spend(self.c.len() * other.c.len(), self.longest(p), other.longest(p))?;
+        let products = (self.c.len() * other.c.len()).min(p.monomials.most_products());
+        clock.spend(products, self.longest(p), other.longest(p))?;
         let mut full: Vec<Z> = Vec::new();
         for (i, a) in self.c.iter().enumerate().filter(|(_, a)| !a.is_zero()) {
             let most = p.order - p.monomials.degree(i);
