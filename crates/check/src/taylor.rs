@@ -48,6 +48,14 @@ impl Precision {
         self.monomials.len()
     }
 
+    /// Refuses more functions at once than memory is for. Those of two parameters are short.
+    pub fn hold(&self, functions: usize, clock: &Clock) -> Result<(), String> {
+        match self.parameters() {
+            0..=2 => Ok(()),
+            _ => clock.hold(functions.saturating_mul(self.terms()), self.bits as u64),
+        }
+    }
+
     fn one_unit(&self) -> Z {
         Z::one() << self.bits
     }
