@@ -48,6 +48,14 @@ impl Precision {
         self.monomials.len()
     }
 
+    /// Refuses more functions at once than memory is for. Those of two parameters are short.
+    pub fn hold(&self, functions: usize, clock: &Clock) -> Result<(), String> {
+        match self.parameters() {
+            0..=2 => Ok(()),
+            _ => clock.hold(functions.saturating_mul(self.terms()), self.bits as u64),
+        }
+    }
+
     fn one_unit(&self) -> Z {
         Z::one() << self.bits
     }
@@ -172,7 +180,8 @@ impl Taylor {
     }
 
     pub fn times(&self, other: &Self, p: &Precision, clock: &Clock) -> Result<Self, String> {
-        clock.spend(self.c.len() * other.c.len(), self.longest(p), other.longest(p))?;
+        let products = (self.c.len() * other.c.len()).min(p.monomials.most_products());
+        clock.spend(products, self.longest(p), other.longest(p))?;
         let mut full: Vec<Z> = Vec::new();
         for (i, a) in self.c.iter().enumerate().filter(|(_, a)| !a.is_zero()) {
             let most = p.order - p.monomials.degree(i);
