@@ -2,7 +2,8 @@
 """Certificates for all values (`jurist/certificate/10`), as `check.py` reads them: margins known by hand, forgeries, and random changes whose truth
 is sampled.
 
-    python3 crates/check/tests/for_all.py          FOR_ALL_CHANGES=5000 looks at so many changes
+    python3 crates/check/tests/for_all.py          FOR_ALL_CHANGES=5000 looks at so many changes, FOR_ALL_SEED begins elsewhere
+    python3 crates/check/tests/for_all.py write FOLDER          writes the certificates that are changed, and their models
 """
 import cmath
 import json
@@ -646,7 +647,7 @@ class Truth:
 
 class Changes(Case):
     def test_what_is_accepted_is_true(self):
-        draw, count = random.Random(20020326), int(os.environ.get("FOR_ALL_CHANGES", 0))
+        draw, count = random.Random(int(os.environ.get("FOR_ALL_SEED", 20020326))), int(os.environ.get("FOR_ALL_CHANGES", 0))
         known, count = list(corpus(count > 0)), count or 100
         self.assertGreater(len(known), 20)
         for loop, of in known:
@@ -666,5 +667,10 @@ class Changes(Case):
         self.assertGreater(accepted, count // 20)
         print(f"{count} changes, {accepted} accepted and true by samples", file=sys.stderr)
 
+def write(folder):
+    for number, (loop, of) in enumerate(corpus(True)):
+        (folder / f"for-all-{number}.toml").write_text(loop.model)
+        (folder / f"for-all-{number}.10.json").write_text(json.dumps(of, indent=1) + "\n")
+
 if __name__ == "__main__":
-    unittest.main()
+    write(Path(sys.argv[2])) if sys.argv[1:2] == ["write"] else unittest.main()
