@@ -162,6 +162,7 @@ mod ship {
 /// The best gains within what is required.
 mod tune {
     mod cases;
+    mod formulas;
     mod gains;
     mod laws;
 }

@@ -1,8 +1,8 @@
 //! What is asked: which gains are free, within which bounds, and what is to be best.
 
 use jurist_algebra::number::Rational;
-use jurist_engine::error::{Code, Diagnostic, Error};
-use jurist_engine::model::{Model, Time, nearest_name};
+use jurist_engine::error::{Code, Diagnostic, Diagnostics, Error, Source, Span};
+use jurist_engine::model::{Expression, Model, Time, nearest_name};
 use jurist_engine::response::{Level, Requirements};
 
 /// A gain that is free.
@@ -30,11 +30,19 @@ impl Gain {
 
 /// What is to be best.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Objective {
     /// A gain, by its number, as great as possible.
     Greatest(usize),
     /// A gain as small as possible.
     Least(usize),
+    /// An expression of the gains.
+    Formula {
+        /// As it is written.
+        text: String,
+        /// Whether more of it is better.
+        is_greatest: bool,
+    },
     /// A number of the loop.
     Level(Level),
     /// Nothing: whether any gains meet the requirements.
@@ -102,6 +110,8 @@ impl Asked {
         match &self.objective {
             Objective::Greatest(i) => format!("largest {}", self.gains[*i].name),
             Objective::Least(i) => format!("smallest {}", self.gains[*i].name),
+            Objective::Formula { text, is_greatest: true } => format!("largest {text}"),
+            Objective::Formula { text, is_greatest: false } => format!("smallest {text}"),
             Objective::Level(level) if level.is_greatest_best() => format!("largest {}", level.name()),
             Objective::Level(level) => format!("smallest {}", level.name()),
             Objective::Anything => "any gains".into(),
@@ -113,6 +123,8 @@ impl Asked {
         match &self.objective {
             Objective::Greatest(i) => format!("max {}", self.gains[*i].name),
             Objective::Least(i) => format!("min {}", self.gains[*i].name),
+            Objective::Formula { text, is_greatest: true } => format!("max {text}"),
+            Objective::Formula { text, is_greatest: false } => format!("min {text}"),
             Objective::Level(level) if level.is_greatest_best() => format!("max {}", level.name()),
             Objective::Level(level) => format!("min {}", level.name()),
             Objective::Anything => "none".into(),
@@ -153,16 +165,16 @@ fn check_gains(gains: &[Gain]) -> Result<(), Error> {
 fn objective(model: &Model, gains: &[Gain], text: &str) -> Result<Objective, Error> {
     let refused =
         |message: String, help: String| -> Error { Diagnostic::error(Code::TuneObjective, message).help(help).into() };
-    let words: Vec<&str> = text.split_whitespace().collect();
-    let (is_greatest, name) = match words[..] {
-        ["none"] => return Ok(Objective::Anything),
-        ["max", name] => (true, name),
-        ["min", name] => (false, name),
+    let (word, name) = text.trim().split_once(char::is_whitespace).unwrap_or((text.trim(), ""));
+    let name = name.trim();
+    let is_greatest = match (word, name) {
+        ("none", "") => return Ok(Objective::Anything),
+        ("max" | "min", name) if !name.is_empty() => word == "max",
         _ => {
             return Err(refused(
                 format!("the objective '{text}' is not understood"),
-                "write 'max NAME' or 'min NAME', NAME a free gain or one of decay, radius, damping, gain_margin, phase_margin, modulus_margin, \
-                 complementary_peak, disk_margin; or 'none'"
+                "write 'max NAME' or 'min NAME', NAME a free gain, an expression of free gains or one of decay, radius, damping, gain_margin, \
+                 phase_margin, modulus_margin, complementary_peak, disk_margin; or 'none'"
                     .into(),
             ));
         }
@@ -171,6 +183,10 @@ fn objective(model: &Model, gains: &[Gain], text: &str) -> Result<Objective, Err
         return Ok(if is_greatest { Objective::Greatest(i) } else { Objective::Least(i) });
     }
     let Some(level) = Level::named(name) else {
+        if !name.chars().all(|c| c.is_alphanumeric() || c == '_') {
+            check_names(model, gains, name)?;
+            return Ok(Objective::Formula { text: name.to_owned(), is_greatest });
+        }
         let known = gains.iter().map(|gain| gain.name.as_str()).chain(Level::ALL.map(Level::name));
         let known: Vec<&str> = known.collect();
         let help = match nearest_name(name, known.iter().copied()) {
@@ -192,4 +208,38 @@ fn objective(model: &Model, gains: &[Gain], text: &str) -> Result<Objective, Err
         return Err(refused(format!("'{text}' asks for the worst {name}"), format!("write '{word} {name}'")));
     }
     Ok(Objective::Level(level))
+}
+
+/// An error where an expression has a name that is no gain and none of the model's, or no gain at all.
+fn check_names(model: &Model, gains: &[Gain], text: &str) -> Result<(), Error> {
+    let expression = Expression::parse(text)?;
+    let is_gain = |name: &str| gains.iter().any(|gain| gain.name == name);
+    let mut unknown: Option<(&str, Span)> = None;
+    expression.each_name(&mut |name, span| {
+        let is_known = is_gain(name) || model.parameter(name).is_some() || model.constant(name).is_some();
+        if !is_known && unknown.is_none() {
+            unknown = Some((name, span));
+        }
+    });
+    let error = match unknown {
+        Some((name, span)) => {
+            let parameters = model.parameters().iter().map(|parameter| parameter.name.as_str());
+            let constants = model.constants().iter().map(|constant| constant.name.as_str());
+            let known: Vec<&str> =
+                gains.iter().map(|gain| gain.name.as_str()).chain(parameters).chain(constants).collect();
+            let message = format!("'{name}' is no free gain, no parameter and no constant");
+            let help = match nearest_name(name, known.iter().copied()) {
+                Some(near) => format!("did you mean '{near}'?"),
+                None => "a number of the loop stands alone: 'max decay'".to_owned(),
+            };
+            Diagnostic::error(Code::TuneObjective, message).at(span, "unknown").help(help)
+        }
+        None if !expression.names().iter().any(|name| is_gain(name)) => {
+            let message = "the objective has no free gain";
+            Diagnostic::error(Code::TuneObjective, message)
+                .help("write an expression of the free gains, as in 'max k*ki'")
+        }
+        None => return Ok(()),
+    };
+    Err(Diagnostics::new(Some(Source::new("<objective>", text)), vec![error]).into())
 }

@@ -23,6 +23,8 @@ mod conflict;
 mod critical;
 pub mod decimals;
 pub mod document;
+mod formula;
+mod formula_of_one;
 mod lines;
 mod many_gains;
 mod near;

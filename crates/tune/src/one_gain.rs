@@ -3,6 +3,7 @@
 use crate::answer::{Best, Optimum, Outcome, Place};
 use crate::asked::Objective;
 use crate::critical::Curves;
+use crate::formula_of_one;
 use crate::lines::Lines;
 use crate::near::{approach, is_attained};
 use crate::search::Search;
@@ -24,11 +25,12 @@ pub(crate) const GAIN: usize = 0;
 /// # Errors
 /// As `Lines::set`.
 pub(crate) fn best(lines: &Lines<'_>) -> Result<Outcome, Error> {
-    match lines.asked.objective {
-        Objective::Greatest(_) => best_gain(lines, true),
-        Objective::Least(_) => best_gain(lines, false),
-        Objective::Level(level) => best_level(lines, level),
-        Objective::Anything => anything(lines),
+    match (&lines.asked.objective, &lines.formula) {
+        (Objective::Greatest(_), _) => best_gain(lines, true),
+        (Objective::Least(_), _) => best_gain(lines, false),
+        (Objective::Level(level), _) => best_level(lines, *level),
+        (Objective::Formula { .. }, Some(formula)) => formula_of_one::best(lines, formula),
+        (Objective::Formula { .. } | Objective::Anything, _) => anything(lines),
     }
 }
 

@@ -136,10 +136,13 @@ impl TuneAnswer {
             Some(typed) => {
                 let mut line = format!("type in {}", values(&typed.values));
                 if let Some(value) = &typed.value {
-                    let is_gain = !matches!(asked.objective, Objective::Level(_));
-                    if !is_gain {
-                        let value = enclosed(digits.min(MOST_OF_TYPED), |_| Some(value.clone())).unwrap_or_default();
-                        line.push_str(&format!(": {} {value}{}", level.map_or("", Level::name), unit(level)));
+                    let value = || enclosed(digits.min(MOST_OF_TYPED), |_| Some(value.clone())).unwrap_or_default();
+                    match &asked.objective {
+                        Objective::Level(level) => {
+                            line.push_str(&format!(": {} {}{}", level.name(), value(), unit(Some(*level))));
+                        }
+                        Objective::Formula { text, .. } => line.push_str(&format!(": {text} = {}", value())),
+                        Objective::Greatest(_) | Objective::Least(_) | Objective::Anything => {}
                     }
                 }
                 match self.lost(optimum) {

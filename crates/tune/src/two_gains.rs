@@ -21,7 +21,8 @@ pub(crate) fn best(lines: &Lines<'_>) -> Result<Outcome, Error> {
         Objective::Greatest(gain) => best_gain(lines, gain, true),
         Objective::Least(gain) => best_gain(lines, gain, false),
         Objective::Level(level) => best_level(lines, level),
-        Objective::Anything => anything(lines),
+        // Of an expression boxes are searched.
+        Objective::Formula { .. } | Objective::Anything => anything(lines),
     }
 }
 

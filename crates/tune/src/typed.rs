@@ -53,6 +53,12 @@ pub(crate) fn typed(lines: &Lines<'_>, optimum: &Optimum) -> Result<Option<Typed
                 _ => beside(lines, *gain, &height, optimum)?,
             }
         }
+        (Objective::Formula { is_greatest, .. }, _) => {
+            let given_up = &best - best.abs() * signed(&lines.asked.objective, &loss);
+            let value = |values: &[Rational]| lines.formula.as_ref().and_then(|formula| formula.at(values));
+            let is_enough = |x: Rational| if *is_greatest { x >= given_up } else { x <= given_up };
+            by_trial(lines, &optimum.found, None, |values| value(values).is_some_and(is_enough))?
+        }
         (Objective::Level(level), count) => {
             let scale = given_up(*level, inside, &best, &loss);
             match count {
@@ -75,6 +81,10 @@ pub(crate) fn typed(lines: &Lines<'_>, optimum: &Optimum) -> Result<Option<Typed
     let (_, requirements) = lines.point(&named, None)?;
     let value = match lines.asked.objective {
         Objective::Greatest(gain) | Objective::Least(gain) => Some(Enclosure::from_rational(values[gain].clone())),
+        Objective::Formula { .. } => {
+            let value = lines.formula.as_ref().and_then(|formula| formula.at(&values));
+            value.map(Enclosure::from_rational)
+        }
         Objective::Level(level) => level_at(lines, level, &named)?,
         Objective::Anything => None,
     };
@@ -98,7 +108,11 @@ fn best_of(optimum: &Optimum) -> Option<Rational> {
 }
 
 fn signed(objective: &Objective, loss: &Rational) -> Rational {
-    if matches!(objective, Objective::Least(_)) { -loss } else { loss.clone() }
+    if matches!(objective, Objective::Least(_) | Objective::Formula { is_greatest: false, .. }) {
+        -loss
+    } else {
+        loss.clone()
+    }
 }
 
 fn sorted(a: Rational, b: Rational) -> (Rational, Rational) {
