@@ -230,3 +230,45 @@ fn what_boxes_cannot_be_asked() {
     assert!(run.status == 2 && run.stderr.contains("E-tune-bounds"), "{}", run.stderr);
     assert!(run.stderr.contains("--bound kd=LO..HI"), "{}", run.stderr);
 }
+
+/// Where roots coincide at the best value: the bracket closes, and holds the closed form.
+#[test]
+fn coinciding_roots_of_many_gains() {
+    // All three coefficients are free, the last one up to 2: a triple root at -2^(1/3).
+    let cubic =
+        "time = 'continuous'\nparameters = { a = 3, b = 3, c = 1 }\nloop.characteristic = 's^3 + a*s^2 + b*s + c'\n";
+    let case = Case::new(cubic, &[("a", "3", "4"), ("b", "2", "6"), ("c", "0", "2")], Vec::new());
+    let answer = case.answer("max decay", ratio(1, 100));
+    let [found, proved] = bracket(&answer);
+    let exact = number("1.25992104989487316477");
+    assert!(found < exact && exact < proved && proved <= &found * &ratio(102, 100), "{found} {proved}");
+    // The sum of the four roots is -1: a fourfold root at -1/4.
+    let [found, proved] = bracket(&three(Vec::new()).answer("max decay", ratio(2, 100)));
+    assert!(found < ratio(1, 4) && ratio(1, 4) <= proved && proved <= &found * &ratio(104, 100), "{found} {proved}");
+    // The heavy ball on the eigenvalues 1 and 10: double roots on both sides.
+    let ball = "time = 'discrete'\nparameters = { alpha = 0.1, beta = 0.1 }\n\
+        loop.characteristic = '(z^2 - (1 + beta - alpha)*z + beta)*(z^2 - (1 + beta - 10*alpha)*z + beta)'\n";
+    let case = Case::new(ball, &[("alpha", "0", "1"), ("beta", "0", "1")], Vec::new());
+    let [proved, found] = bracket(&case.answer("min radius", ratio(1, 1000)));
+    let exact = number("0.51949385329591570400");
+    assert!(proved < exact && exact < found && &found - &proved < ratio(1, 1000), "{found} {proved}");
+}
+
+/// Behind a hold too.
+#[test]
+fn coinciding_roots_behind_a_hold() {
+    let options = ["--free", "k", "--free", "ki", "--bound", "k=0..1", "--bound", "ki=0..1", "--gap", "2e-2"];
+    let (status, found) = tune(HELD, &[&options[..], &["--objective", "min radius"]].concat());
+    let [most, proved] = [&found["found"]["value"], &found["proved"]].map(|text| number(text.as_str().unwrap()));
+    assert!(status == 0 && proved < most, "{found}");
+    let case = Case::new(HELD, &[("k", "0", "1"), ("ki", "0", "1")], Vec::new());
+    let is_within = |radius: &Rational, point: &[Rational]| {
+        let set = case.gains.iter().map(|(name, _)| (*name).to_owned()).zip(point.iter().cloned());
+        let region = jurist_engine::problem::Region::disc(radius.clone()).unwrap();
+        let problem = case.model.ask().set_all(set).within(region).problem().unwrap();
+        problem.verdict(&Budget::unlimited()).unwrap().value().verdict == Verdict::Stable
+    };
+    let point = ["k", "ki"].map(|name| number(found["found"]["point"][name].as_str().unwrap()));
+    assert!(is_within(&(most + number("1e-9")), &point));
+    case.sample(100, |point| assert!(!is_within(&proved, point), "{point:?}"));
+}

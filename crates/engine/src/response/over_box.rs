@@ -10,7 +10,9 @@ use super::family::{Quotient, nothing_comes_back};
 use super::loop_functions::{LoopFunctions, dead_time, number_asked};
 use super::on_circle::twice_real;
 use super::requirement::{Requirement, Rule};
-use super::taylor_along::{beyond_axis, binomial, combined, combined_to, of_octave, on_ray, on_wider_disc};
+use super::taylor_along::{
+    beyond_axis, binomial, combined, combined_to, of_octave, on_ray, on_wider_disc, to_half_plane,
+};
 use crate::error::{Code, Diagnostic, Error};
 use crate::model::{Cut, Opened};
 use crate::problem::{Problem, parametric_symbols};
@@ -21,6 +23,7 @@ use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly};
 use jurist_algebra::real::Real;
 use jurist_algebra::symbols::{Definition, ParametricSymbols};
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 /// Bits of coefficients, beside those that the box's size takes away.
@@ -255,6 +258,17 @@ impl OverBox {
         let Some(values) = self.values(sides, bits_of(sides)) else { return false };
         let is_clear = |p: &MultiPoly| !Elementary::range(&self.symbols.value(p, &values)).contains_zero();
         divisors.iter().all(is_clear)
+    }
+
+    /// Whether it is seen from signs that no point of a closed box is stable: brought to the half plane, the coefficients of a stable polynomial have
+    /// one sign.
+    pub fn is_unstable_by_signs(&self, sides: &[[Rational; 2]]) -> bool {
+        let Asks::Stable { coefficients, .. } = &self.asks else { return false };
+        let Some(values) = self.values(sides, bits_of(sides)) else { return false };
+        let d: Vec<MultiTaylorModel> = coefficients.iter().map(|p| self.symbols.value(p, &values)).collect();
+        let d = if self.shape == Shape::UnitDisc { to_half_plane(&d) } else { d };
+        let signs: Vec<_> = d.iter().filter_map(|c| Elementary::range(c).sign()).collect();
+        signs.contains(&Ordering::Less) && signs.contains(&Ordering::Greater)
     }
 
     /// The parameters and symbols in a box.
