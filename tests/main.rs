@@ -165,6 +165,7 @@ mod tune {
     mod formulas;
     mod gains;
     mod laws;
+    mod settling;
 }
 
 /// Responses and root loci in floating point, against exact answers.

@@ -1,5 +1,6 @@
 //! What is asked: which gains are free, within which bounds, and what is to be best.
 
+use crate::reading::SETTLING_TIME;
 use jurist_algebra::number::Rational;
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Error, Source, Span};
 use jurist_engine::model::{Expression, Model, Time, nearest_name};
@@ -45,6 +46,8 @@ pub enum Objective {
     },
     /// A number of the loop.
     Level(Level),
+    /// The settling time, by the decay in continuous time, by the radius in discrete time.
+    SettlingTime(Level),
     /// Nothing: whether any gains meet the requirements.
     Anything,
 }
@@ -65,6 +68,8 @@ pub struct Asked {
     pub loss: Option<Rational>,
     /// Whether boxes are searched where the answer of two gains would be exact.
     pub by_boxes: bool,
+    /// The sample time, of a settling time in discrete time; it is found out when the question is answered.
+    pub sample_time: Option<Rational>,
 }
 
 /// The most gains.
@@ -94,13 +99,13 @@ impl Asked {
         check_gains(&gains)?;
         let objective = self::objective(model, &gains, objective)?;
         let gap = Rational::new(GAP.0.into(), GAP.1.into());
-        Ok(Asked { gains, objective, requirements, gap, loss: None, by_boxes: false })
+        Ok(Asked { gains, objective, requirements, gap, loss: None, by_boxes: false, sample_time: None })
     }
 
     /// The level that is to be best, if it is one.
     pub fn level(&self) -> Option<Level> {
         match self.objective {
-            Objective::Level(level) => Some(level),
+            Objective::Level(level) | Objective::SettlingTime(level) => Some(level),
             _ => None,
         }
     }
@@ -114,6 +119,7 @@ impl Asked {
             Objective::Formula { text, is_greatest: false } => format!("smallest {text}"),
             Objective::Level(level) if level.is_greatest_best() => format!("largest {}", level.name()),
             Objective::Level(level) => format!("smallest {}", level.name()),
+            Objective::SettlingTime(_) => format!("smallest {SETTLING_TIME}"),
             Objective::Anything => "any gains".into(),
         }
     }
@@ -127,6 +133,7 @@ impl Asked {
             Objective::Formula { text, is_greatest: false } => format!("min {text}"),
             Objective::Level(level) if level.is_greatest_best() => format!("max {}", level.name()),
             Objective::Level(level) => format!("min {}", level.name()),
+            Objective::SettlingTime(_) => format!("min {SETTLING_TIME}"),
             Objective::Anything => "none".into(),
         }
     }
@@ -173,8 +180,8 @@ fn objective(model: &Model, gains: &[Gain], text: &str) -> Result<Objective, Err
         _ => {
             return Err(refused(
                 format!("the objective '{text}' is not understood"),
-                "write 'max NAME' or 'min NAME', NAME a free gain, an expression of free gains or one of decay, radius, damping, gain_margin, \
-                 phase_margin, modulus_margin, complementary_peak, disk_margin; or 'none'"
+                "write 'max NAME' or 'min NAME', NAME a free gain, an expression of free gains or one of decay, radius, damping, settling_time, \
+                 gain_margin, phase_margin, modulus_margin, complementary_peak, disk_margin; or 'none'"
                     .into(),
             ));
         }
@@ -182,12 +189,22 @@ fn objective(model: &Model, gains: &[Gain], text: &str) -> Result<Objective, Err
     if let Some(i) = gains.iter().position(|gain| gain.name == name) {
         return Ok(if is_greatest { Objective::Greatest(i) } else { Objective::Least(i) });
     }
+    if name == SETTLING_TIME && !is_greatest {
+        return Ok(Objective::SettlingTime(match model.time() {
+            Time::Continuous => Level::Decay,
+            Time::Discrete => Level::Radius,
+        }));
+    }
     let Some(level) = Level::named(name) else {
         if !name.chars().all(|c| c.is_alphanumeric() || c == '_') {
             check_names(model, gains, name)?;
             return Ok(Objective::Formula { text: name.to_owned(), is_greatest });
         }
-        let known = gains.iter().map(|gain| gain.name.as_str()).chain(Level::ALL.map(Level::name));
+        if name == SETTLING_TIME {
+            return Err(refused(format!("'{text}' asks for the worst {name}"), format!("write 'min {name}'")));
+        }
+        let levels = Level::ALL.map(Level::name).into_iter().chain([SETTLING_TIME]);
+        let known = gains.iter().map(|gain| gain.name.as_str()).chain(levels);
         let known: Vec<&str> = known.collect();
         let help = match nearest_name(name, known.iter().copied()) {
             Some(near) => format!("did you mean '{near}'?"),

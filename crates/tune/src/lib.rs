@@ -30,6 +30,7 @@ mod many_gains;
 mod near;
 mod one_gain;
 mod parts;
+mod reading;
 mod search;
 mod seed;
 mod sets;

@@ -28,7 +28,7 @@ pub(crate) fn best(lines: &Lines<'_>) -> Result<Outcome, Error> {
     match (&lines.asked.objective, &lines.formula) {
         (Objective::Greatest(_), _) => best_gain(lines, true),
         (Objective::Least(_), _) => best_gain(lines, false),
-        (Objective::Level(level), _) => best_level(lines, *level),
+        (Objective::Level(level) | Objective::SettlingTime(level), _) => best_level(lines, *level),
         (Objective::Formula { .. }, Some(formula)) => formula_of_one::best(lines, formula),
         (Objective::Formula { .. } | Objective::Anything, _) => anything(lines),
     }

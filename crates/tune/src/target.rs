@@ -58,7 +58,9 @@ impl<'l> Target<'l> {
         Ok(Some(match (&lines.asked.objective, &lines.formula) {
             (Objective::Greatest(k), _) => gain(*k, true),
             (Objective::Least(k), _) => gain(*k, false),
-            (Objective::Level(level), _) => Target::Level { level: *level, ends: scale(lines, *level) },
+            (Objective::Level(level) | Objective::SettlingTime(level), _) => {
+                Target::Level { level: *level, ends: scale(lines, *level) }
+            }
             (Objective::Formula { is_greatest, .. }, Some(formula)) => {
                 let [low, high] = formula.range_in_parts(whole, &lines.asked.gains)?;
                 let width = &high - &low;

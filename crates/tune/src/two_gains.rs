@@ -20,7 +20,7 @@ pub(crate) fn best(lines: &Lines<'_>) -> Result<Outcome, Error> {
     match lines.asked.objective {
         Objective::Greatest(gain) => best_gain(lines, gain, true),
         Objective::Least(gain) => best_gain(lines, gain, false),
-        Objective::Level(level) => best_level(lines, level),
+        Objective::Level(level) | Objective::SettlingTime(level) => best_level(lines, level),
         // Of an expression boxes are searched.
         Objective::Formula { .. } | Objective::Anything => anything(lines),
     }
