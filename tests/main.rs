@@ -165,6 +165,7 @@ mod tune {
     mod formulas;
     mod gains;
     mod laws;
+    mod norms;
     mod settling;
 }
 

@@ -246,7 +246,7 @@ class ResponseQuestions(Asker):
         ----------
         objective : str, optional
             ``"max NAME"`` or ``"min NAME"``: a free gain, a rational expression of free gains, or ``decay``, ``radius``, ``settling_time``, ``damping``, ``gain_margin``, ``phase_margin``,
-            ``modulus_margin``, ``complementary_peak``, ``disk_margin``; ``"none"`` asks whether there are any gains.
+            ``modulus_margin``, ``complementary_peak``, ``disk_margin``, ``norm INPUT OUTPUT``; ``"none"`` asks whether there are any gains.
         free : sequence of str, optional
             Up to five gains.
         values : mapping, optional

@@ -3,7 +3,7 @@
 use crate::reading::SETTLING_TIME;
 use jurist_algebra::number::Rational;
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Error, Source, Span};
-use jurist_engine::model::{Expression, Model, Time, nearest_name};
+use jurist_engine::model::{Between, Expression, Model, Time, nearest_name};
 use jurist_engine::response::{Level, Requirements};
 
 /// A gain that is free.
@@ -46,6 +46,8 @@ pub enum Objective {
     },
     /// A number of the loop.
     Level(Level),
+    /// The peak gain of the closed loop from an input to an output.
+    Norm(Between),
     /// The settling time, by the decay in continuous time, by the radius in discrete time.
     SettlingTime(Level),
     /// Nothing: whether any gains meet the requirements.
@@ -106,6 +108,15 @@ impl Asked {
     pub fn level(&self) -> Option<Level> {
         match self.objective {
             Objective::Level(level) | Objective::SettlingTime(level) => Some(level),
+            Objective::Norm(_) => Some(Level::Norm),
+            _ => None,
+        }
+    }
+
+    /// The signals between which the level is, if it is a peak gain.
+    pub fn between(&self) -> Option<&Between> {
+        match &self.objective {
+            Objective::Norm(between) => Some(between),
             _ => None,
         }
     }
@@ -120,6 +131,7 @@ impl Asked {
             Objective::Level(level) if level.is_greatest_best() => format!("largest {}", level.name()),
             Objective::Level(level) => format!("smallest {}", level.name()),
             Objective::SettlingTime(_) => format!("smallest {SETTLING_TIME}"),
+            Objective::Norm(between) => format!("smallest norm {}", between.name()),
             Objective::Anything => "any gains".into(),
         }
     }
@@ -134,6 +146,7 @@ impl Asked {
             Objective::Level(level) if level.is_greatest_best() => format!("max {}", level.name()),
             Objective::Level(level) => format!("min {}", level.name()),
             Objective::SettlingTime(_) => format!("min {SETTLING_TIME}"),
+            Objective::Norm(between) => format!("min norm {}", between.name()),
             Objective::Anything => "none".into(),
         }
     }
@@ -181,13 +194,19 @@ fn objective(model: &Model, gains: &[Gain], text: &str) -> Result<Objective, Err
             return Err(refused(
                 format!("the objective '{text}' is not understood"),
                 "write 'max NAME' or 'min NAME', NAME a free gain, an expression of free gains or one of decay, radius, damping, settling_time, \
-                 gain_margin, phase_margin, modulus_margin, complementary_peak, disk_margin; or 'none'"
+                 gain_margin, phase_margin, modulus_margin, complementary_peak, disk_margin; 'min norm INPUT OUTPUT'; or 'none'"
                     .into(),
             ));
         }
     };
     if let Some(i) = gains.iter().position(|gain| gain.name == name) {
         return Ok(if is_greatest { Objective::Greatest(i) } else { Objective::Least(i) });
+    }
+    if let Some(between) = norm(model, name)? {
+        return match is_greatest {
+            false => Ok(Objective::Norm(between)),
+            true => Err(refused(format!("'{text}' asks for the worst norm"), format!("write 'min {name}'"))),
+        };
     }
     if name == SETTLING_TIME && !is_greatest {
         return Ok(Objective::SettlingTime(match model.time() {
@@ -225,6 +244,28 @@ fn objective(model: &Model, gains: &[Gain], text: &str) -> Result<Objective, Err
         return Err(refused(format!("'{text}' asks for the worst {name}"), format!("write '{word} {name}'")));
     }
     Ok(Objective::Level(level))
+}
+
+/// The signals of `norm INPUT OUTPUT`; `None` of another text.
+fn norm(model: &Model, text: &str) -> Result<Option<Between>, Error> {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let (input, output) = match words[..] {
+        ["norm", input, output] => (input, output),
+        ["norm"] => {
+            let error = Diagnostic::error(Code::TuneObjective, "a norm is from an input to an output");
+            return Err(error.help("write 'min norm INPUT OUTPUT'").into());
+        }
+        _ => return Ok(None),
+    };
+    let inputs: Vec<&str> = model.inputs().iter().map(|name| name.name.as_str()).collect();
+    let outputs: Vec<&str> = model.outputs().iter().map(|output| output.name.name.as_str()).collect();
+    for (known, name, what) in [(inputs, input, "input"), (outputs, output, "output")] {
+        if !known.contains(&name) {
+            let error = Diagnostic::error(Code::TuneObjective, format!("the loop has no {what} '{name}'"));
+            return Err(error.help(format!("known here: {}", known.join(", "))).into());
+        }
+    }
+    Ok(Some(Between::new(input, output)))
 }
 
 /// An error where an expression has a name that is no gain and none of the model's, or no gain at all.

@@ -78,7 +78,7 @@ impl<'a> Lines<'a> {
         let mut list = self.asked.requirements.list.clone();
         let mut region = self.region.clone();
         if let (Some(level), Some(scale)) = (self.asked.level(), scale) {
-            match level.asked(scale)? {
+            match level.asked_between(scale, self.asked.between())? {
                 LevelAsked::Region(asked) => region = asked,
                 LevelAsked::Requirement(requirement) => list.push(requirement),
             }
@@ -160,10 +160,13 @@ impl<'a> Lines<'a> {
     }
 
     /// Whether boxes of gains are searched: of three gains or more, and of two behind a hold where the map takes minutes, and of
-    /// two with dead time, where there is none; of an expression.
+    /// two with dead time, where there is none; of an expression, and of a peak gain.
     pub fn are_boxes_asked(&self) -> Result<bool, Error> {
         if self.asked.gains.len() != 2 || self.asked.by_boxes || self.formula.is_some() {
             return Ok(self.asked.gains.len() > 1);
+        }
+        if self.asked.between().is_some() {
+            return Ok(true);
         }
         let is_simple = self.asked.requirements.list.is_empty() && self.asked.level().is_none();
         let is_bounded = self.ranges.iter().all(|range| range.lower.is_some() && range.upper.is_some());
@@ -184,7 +187,7 @@ impl<'a> Lines<'a> {
         /// Bits of the margin.
         const BITS: u64 = 64;
         let problem = self.base.clone().set_all(values.iter().cloned()).within(self.region.clone()).problem()?;
-        match problem.level_at(level, self.at(), BITS, self.budget) {
+        match problem.level_at((level, self.asked.between()), self.at(), BITS, self.budget) {
             // A gain of zero opens the loop: it has no margins.
             Err(Error::Refused(_)) => Ok(None),
             found => found,

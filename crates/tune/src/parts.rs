@@ -149,7 +149,7 @@ impl<'l, 'a> Parts<'l, 'a> {
     /// What asks for a level over boxes.
     pub fn level(&self, level: Level, scale: &Rational) -> Result<RequirementBoxes, Error> {
         let problem = self.lines.problem()?;
-        Ok(match level.asked(scale)? {
+        Ok(match level.asked_between(scale, self.lines.asked.between())? {
             LevelAsked::Requirement(requirement) => self.test(&problem, &requirement)?,
             LevelAsked::Region(region) => {
                 let problem = self.lines.problem_within(region)?;

@@ -27,6 +27,7 @@ impl Reading {
     pub fn of(asked: &Asked) -> Reading {
         match &asked.objective {
             Objective::Level(level) => Reading::Level(*level),
+            Objective::Norm(_) => Reading::Level(Level::Norm),
             Objective::SettlingTime(_) => Reading::Settling { sample_time: asked.sample_time.clone() },
             Objective::Greatest(_) | Objective::Least(_) | Objective::Formula { .. } | Objective::Anything => {
                 Reading::Plain
@@ -61,7 +62,7 @@ impl Reading {
         match self {
             Reading::Plain => true,
             Reading::Level(level) => {
-                !matches!(level, Level::PhaseMargin | Level::ComplementaryPeak | Level::DiskMargin)
+                !matches!(level, Level::PhaseMargin | Level::ComplementaryPeak | Level::DiskMargin | Level::Norm)
             }
             Reading::Settling { .. } => false,
         }

@@ -61,6 +61,7 @@ impl<'l> Target<'l> {
             (Objective::Level(level) | Objective::SettlingTime(level), _) => {
                 Target::Level { level: *level, ends: scale(lines, *level) }
             }
+            (Objective::Norm(_), _) => Target::Level { level: Level::Norm, ends: scale(lines, Level::Norm) },
             (Objective::Formula { is_greatest, .. }, Some(formula)) => {
                 let [low, high] = formula.range_in_parts(whole, &lines.asked.gains)?;
                 let width = &high - &low;

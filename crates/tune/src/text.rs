@@ -139,7 +139,7 @@ impl TuneAnswer {
                 if let Some(value) = &typed.value {
                     let value = || enclosed(digits.min(MOST_OF_TYPED), |_| Some(value.clone())).unwrap_or_default();
                     match &asked.objective {
-                        Objective::Level(_) | Objective::SettlingTime(_) => {
+                        Objective::Level(_) | Objective::SettlingTime(_) | Objective::Norm(_) => {
                             line.push_str(&format!(": {} {}{}", reading.name(), value(), reading.unit()));
                         }
                         Objective::Formula { text, .. } => line.push_str(&format!(": {text} = {}", value())),

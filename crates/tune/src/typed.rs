@@ -63,8 +63,9 @@ pub(crate) fn typed(lines: &Lines<'_>, optimum: &Optimum) -> Result<Option<Typed
             let is_enough = |x: Rational| if *is_greatest { x >= given_up } else { x <= given_up };
             by_trial(lines, &optimum.found, None, |values| value(values).is_some_and(is_enough))?
         }
-        (Objective::Level(level) | Objective::SettlingTime(level), count) => {
-            let scale = given_up((*level, &Reading::of(lines.asked)), inside, &best, &loss);
+        (Objective::Level(_) | Objective::SettlingTime(_) | Objective::Norm(_), count) => {
+            let level = lines.asked.level().expect("one of these");
+            let scale = given_up((level, &Reading::of(lines.asked)), inside, &best, &loss);
             match count {
                 1 if matches!(optimum.value, Best::Exact(_)) => {
                     let set = lines.set(0, None, Some(&scale))?;
@@ -90,6 +91,7 @@ pub(crate) fn typed(lines: &Lines<'_>, optimum: &Optimum) -> Result<Option<Typed
             value.map(Enclosure::from_rational)
         }
         Objective::Level(level) => level_at(lines, level, &named)?,
+        Objective::Norm(_) => level_at(lines, Level::Norm, &named)?,
         Objective::SettlingTime(level) => {
             let found = level_at(lines, level, &named)?;
             found.and_then(|x| Reading::of(lines.asked).enclosure(&x, BITS))

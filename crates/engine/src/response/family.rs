@@ -5,7 +5,7 @@ use super::place::{modulus_squared, product};
 use super::requirement::{Circle, Requirement, Rule};
 use crate::coverage::refusals::MARGINS_IN_ONE;
 use crate::error::{Code, Diagnostic, Error};
-use crate::model::{ClosedLoop, Cut, Opened};
+use crate::model::{Cut, Opened};
 use crate::problem::{Problem, fixed_symbols};
 use crate::stability::Shape;
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -122,18 +122,22 @@ pub(crate) struct Boundaries<R> {
 
 impl<R: Parameters> Family<R> {
     pub fn of(problem: &Problem, at: Option<&str>, budget: &Budget) -> Result<Family<R>, Error> {
-        let cut = problem.model().cut(at)?;
+        Family::of_cut(problem, problem.model().cut(at)?, budget)
+    }
+
+    pub fn of_cut(problem: &Problem, cut: Cut, budget: &Budget) -> Result<Family<R>, Error> {
         if let Cut::Gain(name) = &cut {
             let message = format!("requirements on margins need a cut at a signal, and '{name}' is a parameter");
             return Err(Diagnostic::error(Code::Require, message).into());
         }
         let kept: Vec<String> = problem.free().iter().map(|f| f.name.clone()).collect();
-        let Opened { system, sample_time, symbols } = problem.model().opened(&cut, &kept, problem.set(), budget)?;
+        let opened = problem.model().opened(&cut, &kept, problem.set(), budget)?;
+        let (quotient, undefined) = Quotient::of(&opened, problem.shape(), R::lowered, budget)?;
+        let Opened { sample_time, symbols, .. } = opened;
         if !symbols.is_empty() && !R::HAS_SYMBOLS {
             return Err(MARGINS_IN_ONE.diagnostic(&[]).into());
         }
         let table = Arc::new(fixed_symbols(&symbols)?);
-        let (quotient, undefined) = Quotient::of(&system, problem.shape(), R::lowered, budget)?;
         if quotient.numerator.is_zero() {
             return Err(nothing_comes_back(&cut));
         }
@@ -172,17 +176,18 @@ impl<R: Parameters> Family<R> {
 }
 
 impl<R: Domain> Quotient<R> {
-    /// From the cut to the cut, and the common denominator of all coefficients.
+    /// From the cut to the cut, and the common denominator of all coefficients. A closed loop `N/D` is that of `N/(D - N)`.
     pub fn of(
-        system: &ClosedLoop,
+        Opened { system, is_closed, .. }: &Opened,
         shape: Shape,
         ring: impl Fn(&MultiPoly) -> R,
         budget: &Budget,
     ) -> Result<(Quotient<R>, R), Error> {
         let column = system.inputs.len().max(system.e.columns()) - 1;
         let transfer = system.between(0, column).transfer_function_at(0, column, budget)?;
+        let signed = |f: &RationalFunction| if *is_closed { f.clone() } else { -f };
         let all: Vec<RationalFunction> =
-            transfer.denominator.coefficients.iter().cloned().chain(transfer.numerator.iter().map(|f| -f)).collect();
+            transfer.denominator.coefficients.iter().cloned().chain(transfer.numerator.iter().map(signed)).collect();
         budget
             .enter(|| {
                 let common = all.iter().fold(R::one(), |l, f| {
@@ -194,8 +199,9 @@ impl<R: Domain> Quotient<R> {
                     ring(f.numerator()).times(&factor)
                 };
                 let split = transfer.denominator.coefficients.len();
-                let denominator = Poly::new(all[..split].iter().map(cleared).collect());
-                let numerator = Poly::new(all[split..].iter().map(cleared).collect());
+                let denominator: Poly<R> = Poly::new(all[..split].iter().map(cleared).collect());
+                let numerator: Poly<R> = Poly::new(all[split..].iter().map(cleared).collect());
+                let denominator = if *is_closed { denominator.minus(&numerator) } else { denominator };
                 (Quotient { denominator, numerator, shape }, common)
             })
             .map_err(Error::from)
@@ -355,7 +361,10 @@ impl Expanded {
 
 /// The refusal of a cut through which there is no loop.
 pub(super) fn nothing_comes_back(cut: &Cut) -> Error {
-    let message = format!("nothing comes back to '{}': there is no loop through it", cut.name());
+    let message = match cut {
+        Cut::Between(between) => format!("nothing comes from '{}' to '{}'", between.input, between.output),
+        _ => format!("nothing comes back to '{}': there is no loop through it", cut.name()),
+    };
     Diagnostic::error(Code::Cut, message).into()
 }
 

@@ -102,7 +102,7 @@ impl OverBox {
                 };
                 (parametric_symbols(algebra.symbols())?, asks)
             }
-            rule => open_loop(&whole, rule, at, budget)?,
+            rule => open_loop(&whole, rule, requirement.cut(problem, at)?, budget)?,
         };
         OverBox::new(symbols, shape, asks, near, budget).map(Some)
     }
@@ -357,20 +357,15 @@ fn bits_of(sides: &[[Rational; 2]]) -> u64 {
 }
 
 /// The open loop in the free parameters and symbols, and the number that a rule asks for as the last of them.
-fn open_loop(
-    problem: &Problem,
-    rule: &Rule,
-    at: Option<&str>,
-    budget: &Budget,
-) -> Result<(ParametricSymbols, Asks), Error> {
-    let cut = problem.model().cut(at)?;
+fn open_loop(problem: &Problem, rule: &Rule, cut: Cut, budget: &Budget) -> Result<(ParametricSymbols, Asks), Error> {
     if let Cut::Gain(name) = &cut {
         let message = format!("requirements on margins need a cut at a signal, and '{name}' is a parameter");
         return Err(Diagnostic::error(Code::Require, message).into());
     }
     let kept: Vec<String> = problem.free().iter().map(|free| free.name.clone()).collect();
-    let Opened { system, symbols, .. } = problem.model().opened(&cut, &kept, problem.set(), budget)?;
-    let (mut quotient, undefined) = Quotient::of(&system, problem.shape(), MultiPoly::clone, budget)?;
+    let opened = problem.model().opened(&cut, &kept, problem.set(), budget)?;
+    let (mut quotient, undefined) = Quotient::of(&opened, problem.shape(), MultiPoly::clone, budget)?;
+    let Opened { symbols, .. } = opened;
     if quotient.numerator.is_zero() {
         return Err(nothing_comes_back(&cut));
     }

@@ -24,7 +24,7 @@ use std::sync::Arc;
 pub(super) struct SymbolicFamily<'a> {
     /// With the whole region of stability, whatever smaller one is asked for.
     problem: &'a Problem,
-    at: Option<&'a str>,
+    cut: Cut,
     quotient: Quotient<MultiPoly>,
     undefined: MultiPoly,
     symbols: MovingSymbols,
@@ -90,21 +90,21 @@ struct Candidate {
 
 impl<'a> SymbolicFamily<'a> {
     /// Of a loop without dead time; `None` of one in which everything is rational.
-    pub fn of(problem: &'a Problem, at: Option<&'a str>, budget: &Budget) -> Result<Option<Self>, Error> {
-        let cut = problem.model().cut(at)?;
+    pub fn of(problem: &'a Problem, cut: Cut, budget: &Budget) -> Result<Option<Self>, Error> {
         if matches!(cut, Cut::Gain(_)) {
             return Ok(None);
         }
         let kept = [problem.parameter().name.clone()];
-        let Opened { system, symbols, .. } = problem.model().opened(&cut, &kept, problem.set(), budget)?;
+        let opened = problem.model().opened(&cut, &kept, problem.set(), budget)?;
+        let Opened { symbols, .. } = &opened;
         if symbols.is_empty() {
             return Ok(None);
         }
-        let (quotient, undefined) = Quotient::of(&system, problem.shape(), MultiPoly::clone, budget)?;
+        let (quotient, undefined) = Quotient::of(&opened, problem.shape(), MultiPoly::clone, budget)?;
         if quotient.numerator.is_zero() {
             return Err(nothing_comes_back(&cut));
         }
-        Ok(Some(SymbolicFamily { problem, at, quotient, undefined, symbols: moving_symbols(&symbols)? }))
+        Ok(Some(SymbolicFamily { problem, cut, quotient, undefined, symbols: moving_symbols(symbols)? }))
     }
 
     /// The parts of the stable set in which all requirements are met, and where that is not told.
@@ -335,7 +335,7 @@ impl<'a> SymbolicFamily<'a> {
         budget: &Budget,
     ) -> Result<Vec<&'static str>, Error> {
         let problem = self.problem.with_value(value);
-        let open_loop = OpenLoop::of_any(&problem, self.at, budget)?;
+        let open_loop = OpenLoop::of_cut(&problem, self.cut.clone(), budget)?;
         let mut here = AtPoint::new(&open_loop);
         let mut out = Vec::new();
         for requirement in requirements {

@@ -65,7 +65,7 @@ pub enum OverPoints {
 /// What is asked.
 enum Asked {
     Stability(LoopFamily),
-    Requirement { one: Requirement, at: Option<String> },
+    Requirement { one: Box<Requirement>, at: Option<String> },
 }
 
 /// A loop as the family that proves boxes of it.
@@ -108,7 +108,7 @@ impl RequirementBoxes {
         budget: &Budget,
     ) -> Result<Option<RequirementBoxes>, Error> {
         let over = OverBox::of(problem, requirement, at, near, budget)?;
-        let asked = Asked::Requirement { one: requirement.clone(), at: at.map(str::to_owned) };
+        let asked = Asked::Requirement { one: Box::new(requirement.clone()), at: at.map(str::to_owned) };
         Ok(over.map(|over| RequirementBoxes { problem: Arc::clone(problem), over: Some(over), asked }))
     }
 
