@@ -11,6 +11,7 @@ use jurist_engine::model::Model;
 use jurist_engine::response::{Requirement, Requirements};
 use jurist_tune::answer::{Best, Optimum, Outcome, TuneAnswer};
 use jurist_tune::asked::{Asked, Gain};
+use proptest::prelude::*;
 use serde_json::Value;
 
 /// The closed loop is s^4 + s^3 + kd s^2 + kp s + ki: stable where kp (kd - kp) > ki > 0.
@@ -271,4 +272,33 @@ fn coinciding_roots_behind_a_hold() {
     let point = ["k", "ki"].map(|name| number(found["found"]["point"][name].as_str().unwrap()));
     assert!(is_within(&(most + number("1e-9")), &point));
     case.sample(100, |point| assert!(!is_within(&proved, point), "{point:?}"));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(10))]
+
+    /// `c <= r^3` of `s^3 + a s^2 + b s + c`: the largest decay is `r`, at a triple root, wherever `3 r` and `3 r^2` are within the other bounds.
+    #[test]
+    fn a_triple_root_that_is_known(r in 1_i64..12, low in 1_i64..9, high in 11_i64..20) {
+        let r = ratio(r, 4);
+        let [b, c] = [&r * &r, &(&r * &r) * &r];
+        let cubic = "time = 'continuous'\nparameters = { a = 1, b = 1, c = 1 }\nloop.characteristic = 's^3 + a*s^2 + b*s + c'\n";
+        let around = |x: &Rational| [x * &ratio(3 * low, 10), x * &ratio(3 * high, 10)];
+        let gains = vec![("a", around(&r)), ("b", around(&b)), ("c", [Rational::ZERO, c])];
+        let case = Case { model: read(cubic), gains, list: Vec::new() };
+        let [found, proved] = bracket(&case.answer("max decay", ratio(5, 100)));
+        prop_assert!(found <= r && r <= proved && proved <= &found * &ratio(106, 100), "{} {} {}", found, r, proved);
+    }
+
+    /// `b >= r^2` of `z^2 - a z + b`: the smallest radius is `r`, where the roots have no more.
+    #[test]
+    fn a_radius_that_is_known(r in 1_i64..9, low in -8_i64..9, high in 10_i64..20) {
+        let r = ratio(r, 10);
+        let square = "time = 'discrete'\nparameters = { a = 1, b = 1 }\nloop.characteristic = 'z^2 - a*z + b'\n";
+        let gains = vec![("a", [&r * &ratio(low, 5), &r * &ratio(high, 5)]), ("b", [&r * &r, Rational::ONE])];
+        let case = Case { model: read(square), gains, list: Vec::new() };
+        let [proved, found] = bracket(&case.answer("min radius", ratio(2, 100)));
+        prop_assert!(proved <= r && r <= found, "{} {} {}", proved, r, found);
+        prop_assert!(&found - &proved <= (Rational::ONE - &proved) * ratio(3, 100), "{} {}", proved, found);
+    }
 }

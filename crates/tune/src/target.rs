@@ -6,7 +6,6 @@ use crate::lines::Lines;
 use crate::one_gain::{is_without_end, scale};
 use crate::parts::{Beside, Part, Parts};
 use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::simplest_between;
 use jurist_engine::error::Error;
 use jurist_engine::response::Level;
 
@@ -125,8 +124,7 @@ impl<'l> Target<'l> {
         };
         let by = size * gap;
         let (goal, near) = (self.farther(value, &by), &by * &Rational::dyadic(&Integer::ONE, NEAR));
-        // Of few digits: it is gone on from there.
-        simplest_between(&(&goal - &near), &(&goal + &near)).unwrap_or(goal)
+        odd_near(&goal, &near)
     }
 
     /// A value that no point has since it is beyond the bound.
@@ -247,4 +245,23 @@ impl<'l> Target<'l> {
         }
         Ok(None)
     }
+}
+
+/// A number of few digits near to another one: an odd multiple of a power of two.
+///
+/// Short numbers are avoided: a best value is often one, and no box that holds its gains shows that they have not just this value.
+fn odd_near(x: &Rational, distance: &Rational) -> Rational {
+    let (two, half) = (Rational::from(2), Rational::dyadic(&Integer::ONE, 1));
+    let mut unit = Rational::ONE;
+    if !distance.sign().is_gt() {
+        return x.clone();
+    }
+    while unit > *distance {
+        unit = &unit * &half;
+    }
+    while &unit * &two <= *distance {
+        unit = &unit * &two;
+    }
+    let steps = Rational::from(x.checked_div(&unit).expect("a power is not zero").floor());
+    (steps + half) * unit
 }
