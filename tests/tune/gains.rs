@@ -275,7 +275,7 @@ fn coinciding_roots_behind_a_hold() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10))]
+    #![proptest_config(ProptestConfig::with_cases(4))]
 
     /// `c <= r^3` of `s^3 + a s^2 + b s + c`: the largest decay is `r`, at a triple root, wherever `3 r` and `3 r^2` are within the other bounds.
     #[test]
@@ -286,8 +286,8 @@ proptest! {
         let around = |x: &Rational| [x * &ratio(3 * low, 10), x * &ratio(3 * high, 10)];
         let gains = vec![("a", around(&r)), ("b", around(&b)), ("c", [Rational::ZERO, c])];
         let case = Case { model: read(cubic), gains, list: Vec::new() };
-        let [found, proved] = bracket(&case.answer("max decay", ratio(5, 100)));
-        prop_assert!(found <= r && r <= proved && proved <= &found * &ratio(106, 100), "{} {} {}", found, r, proved);
+        let [found, proved] = bracket(&case.answer("max decay", ratio(10, 100)));
+        prop_assert!(found <= r && r <= proved && proved <= &found * &ratio(111, 100), "{} {} {}", found, r, proved);
     }
 
     /// `b >= r^2` of `z^2 - a z + b`: the smallest radius is `r`, where the roots have no more.
