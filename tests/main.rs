@@ -164,8 +164,11 @@ mod ship {
 /// The best gains within what is required.
 mod tune {
     mod cases;
+    mod formulas;
     mod gains;
     mod laws;
+    mod norms;
+    mod settling;
 }
 
 /// Responses and root loci in floating point, against exact answers.

@@ -245,10 +245,10 @@ class ResponseQuestions(Asker):
         Parameters
         ----------
         objective : str, optional
-            ``"max NAME"`` or ``"min NAME"``: a free gain, or ``decay``, ``radius``, ``damping``, ``gain_margin``, ``phase_margin``,
-            ``modulus_margin``, ``complementary_peak``, ``disk_margin``; ``"none"`` asks whether there are any gains.
+            ``"max NAME"`` or ``"min NAME"``: a free gain, a rational expression of free gains, or ``decay``, ``radius``, ``settling_time``, ``damping``, ``gain_margin``, ``phase_margin``,
+            ``modulus_margin``, ``complementary_peak``, ``disk_margin``, ``norm INPUT OUTPUT``; ``"none"`` asks whether there are any gains.
         free : sequence of str, optional
-            One gain or two.
+            Up to five gains.
         values : mapping, optional
             Of parameters and constants.
         bounds : mapping, optional

@@ -50,6 +50,15 @@ def test_a_bracket(loop):
     assert float(held.proved) < float(held.found_value)
 
 
+def test_expressions_settling_times_and_peak_gains(loop):
+    cubic = jurist.Loop.from_line("K/(s*(s+1)*(s+2))")
+    best = cubic.tune("max K*(3 - K)", ["K"])
+    assert (best.value.exact, best.at["K"].exact, best.objective) == (Fraction(9, 4), Fraction(3, 2), "max K*(3 - K)")
+    settled = cubic.tune("min settling_time", ["K"])
+    assert (settled.value, settled.decimal) == (None, "9.46410161514")
+    assert cubic.tune("min norm r y", ["K"]).decimal == "1.00000000000"
+
+
 def test_what_cannot_be_asked(loop):
     with pytest.raises(jurist.QuestionError, match="asks for the worst decay"):
         loop.tune("min decay", "k")

@@ -92,7 +92,7 @@ fn points_of_decided_boxes_agree_with_the_set_of_the_third_name() {
         seen = [seen[0] + bad, seen[1] + good];
     }
     println!("{cases} loops, {seen:?} points");
-    assert!(seen.iter().all(|n| *n > cases), "{seen:?}");
+    assert!(seen.iter().all(|n| 2 * *n > cases), "{seen:?}");
 }
 
 /// A constant of the plant, inside of functions, varies while a gain and the sample time are looked for.

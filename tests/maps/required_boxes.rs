@@ -6,9 +6,10 @@ use crate::helpers::random::Random;
 use crate::helpers::required::{Known, is_met};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
-use jurist_engine::answer::{Answer, BoxRequest, MapBoxes, MapMethod, MapOrBoxes};
+use jurist_engine::answer::{Answer, BoxRequest, MapBoxes, MapMethod, MapOrBoxes, Verdict};
 use jurist_engine::error::Error;
 use jurist_engine::model::Model;
+use jurist_engine::problem::Region;
 use jurist_engine::response::{OverPoints, RequiredBox, Requirement, RequirementBoxes};
 use jurist_engine::stability::Range;
 
@@ -216,4 +217,53 @@ fn a_box_with_a_pole_of_the_model_is_not_stable_everywhere() {
     };
     assert_eq!(look("2", "4"), OverPoints::All);
     assert_eq!(look("0", "4"), OverPoints::Open { middle: Some(true) });
+}
+
+/// Boxes of random loops, rational and behind a hold, within a smaller region too: where a look says that no point is stable, or all are, so it is.
+#[test]
+fn looks_at_stability_agree_with_points() {
+    let mut random = Random::new(11);
+    let mut seen = [0, 0];
+    for case in 0..24 {
+        let mut number = |bound: usize| Rational::from(random.below(2 * bound + 1) as i64 - bound as i64);
+        let half = ratio(1, 2);
+        let (time, plant) = match case % 3 {
+            0 => ("continuous", format!("1/((s + {})*(s + {})*(s + 4))", number(3), number(3))),
+            1 => ("discrete", format!("1/10/((z - {})*(z + {}))", number(2) * &half, number(2) * &half)),
+            _ => ("discrete", "2/(s^2 + s + 1/5)".to_owned()),
+        };
+        let controller = if time == "continuous" { "(K*s + L)/s" } else { "K + L/(z - 1)" };
+        let model = diagram(time, ["K", "L"], controller, &plant, case % 3 == 2);
+        let bound = number(3).abs() * ratio(1, 8);
+        let region =
+            if time == "continuous" { Region::half_plane(bound) } else { Region::disc(ratio(1, 1) - bound).unwrap() };
+        let budget = Budget::unlimited();
+        let question = model.ask().free("K").free("L").within(region.clone());
+        let problem = question.problem().unwrap();
+        let near = [ratio(1, 1), ratio(1, 1)];
+        let stable = RequirementBoxes::of_stability(&problem, &near, &budget).unwrap().unwrap();
+        for _ in 0..6 {
+            let sides = [(); 2].map(|()| {
+                let low = ratio(random.below(64) as i64 - 32, 8);
+                [low.clone(), low + ratio(1 + random.below(24) as i64, 8)]
+            });
+            let expected = match stable.look(&sides, &budget).unwrap() {
+                OverPoints::All => Verdict::Stable,
+                OverPoints::None => Verdict::Unstable,
+                OverPoints::Open { .. } => continue,
+            };
+            for _ in 0..4 {
+                let point =
+                    sides.each_ref().map(|[low, high]| low + &((high - low) * ratio(random.below(1001) as i64, 1000)));
+                let question = model.ask().set("K", point[0].clone()).set("L", point[1].clone()).within(region.clone());
+                let verdict = question.verdict(&budget).unwrap().value().verdict;
+                assert!(
+                    (verdict == Verdict::Stable) == (expected == Verdict::Stable),
+                    "{point:?} in {sides:?}: {verdict:?}"
+                );
+                seen[usize::from(expected == Verdict::Stable)] += 1;
+            }
+        }
+    }
+    assert!(seen[0] > 100 && seen[1] > 3, "{seen:?}");
 }

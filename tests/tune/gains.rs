@@ -11,6 +11,7 @@ use jurist_engine::model::Model;
 use jurist_engine::response::{Requirement, Requirements};
 use jurist_tune::answer::{Best, Optimum, Outcome, TuneAnswer};
 use jurist_tune::asked::{Asked, Gain};
+use proptest::prelude::*;
 use serde_json::Value;
 
 /// The closed loop is s^4 + s^3 + kd s^2 + kp s + ki: stable where kp (kd - kp) > ki > 0.
@@ -229,4 +230,75 @@ fn what_boxes_cannot_be_asked() {
     let run = folder.jurist(&["tune", "loop.toml"]);
     assert!(run.status == 2 && run.stderr.contains("E-tune-bounds"), "{}", run.stderr);
     assert!(run.stderr.contains("--bound kd=LO..HI"), "{}", run.stderr);
+}
+
+/// Where roots coincide at the best value: the bracket closes, and holds the closed form.
+#[test]
+fn coinciding_roots_of_many_gains() {
+    // All three coefficients are free, the last one up to 2: a triple root at -2^(1/3).
+    let cubic =
+        "time = 'continuous'\nparameters = { a = 3, b = 3, c = 1 }\nloop.characteristic = 's^3 + a*s^2 + b*s + c'\n";
+    let case = Case::new(cubic, &[("a", "3", "4"), ("b", "2", "6"), ("c", "0", "2")], Vec::new());
+    let answer = case.answer("max decay", ratio(1, 100));
+    let [found, proved] = bracket(&answer);
+    let exact = number("1.25992104989487316477");
+    assert!(found < exact && exact < proved && proved <= &found * &ratio(102, 100), "{found} {proved}");
+    // The sum of the four roots is -1: a fourfold root at -1/4.
+    let [found, proved] = bracket(&three(Vec::new()).answer("max decay", ratio(2, 100)));
+    assert!(found < ratio(1, 4) && ratio(1, 4) <= proved && proved <= &found * &ratio(104, 100), "{found} {proved}");
+    // The heavy ball on the eigenvalues 1 and 10: double roots on both sides.
+    let ball = "time = 'discrete'\nparameters = { alpha = 0.1, beta = 0.1 }\n\
+        loop.characteristic = '(z^2 - (1 + beta - alpha)*z + beta)*(z^2 - (1 + beta - 10*alpha)*z + beta)'\n";
+    let case = Case::new(ball, &[("alpha", "0", "1"), ("beta", "0", "1")], Vec::new());
+    let [proved, found] = bracket(&case.answer("min radius", ratio(1, 1000)));
+    let exact = number("0.51949385329591570400");
+    assert!(proved < exact && exact < found && &found - &proved < ratio(1, 1000), "{found} {proved}");
+}
+
+/// Behind a hold too.
+#[test]
+fn coinciding_roots_behind_a_hold() {
+    let options = ["--free", "k", "--free", "ki", "--bound", "k=0..1", "--bound", "ki=0..1", "--gap", "2e-2"];
+    let (status, found) = tune(HELD, &[&options[..], &["--objective", "min radius"]].concat());
+    let [most, proved] = [&found["found"]["value"], &found["proved"]].map(|text| number(text.as_str().unwrap()));
+    assert!(status == 0 && proved < most, "{found}");
+    let case = Case::new(HELD, &[("k", "0", "1"), ("ki", "0", "1")], Vec::new());
+    let is_within = |radius: &Rational, point: &[Rational]| {
+        let set = case.gains.iter().map(|(name, _)| (*name).to_owned()).zip(point.iter().cloned());
+        let region = jurist_engine::problem::Region::disc(radius.clone()).unwrap();
+        let problem = case.model.ask().set_all(set).within(region).problem().unwrap();
+        problem.verdict(&Budget::unlimited()).unwrap().value().verdict == Verdict::Stable
+    };
+    let point = ["k", "ki"].map(|name| number(found["found"]["point"][name].as_str().unwrap()));
+    assert!(is_within(&(most + number("1e-9")), &point));
+    case.sample(100, |point| assert!(!is_within(&proved, point), "{point:?}"));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(4))]
+
+    /// `c <= r^3` of `s^3 + a s^2 + b s + c`: the largest decay is `r`, at a triple root, wherever `3 r` and `3 r^2` are within the other bounds.
+    #[test]
+    fn a_triple_root_that_is_known(r in 1_i64..12, low in 1_i64..9, high in 11_i64..20) {
+        let r = ratio(r, 4);
+        let [b, c] = [&r * &r, &(&r * &r) * &r];
+        let cubic = "time = 'continuous'\nparameters = { a = 1, b = 1, c = 1 }\nloop.characteristic = 's^3 + a*s^2 + b*s + c'\n";
+        let around = |x: &Rational| [x * &ratio(3 * low, 10), x * &ratio(3 * high, 10)];
+        let gains = vec![("a", around(&r)), ("b", around(&b)), ("c", [Rational::ZERO, c])];
+        let case = Case { model: read(cubic), gains, list: Vec::new() };
+        let [found, proved] = bracket(&case.answer("max decay", ratio(10, 100)));
+        prop_assert!(found <= r && r <= proved && proved <= &found * &ratio(111, 100), "{} {} {}", found, r, proved);
+    }
+
+    /// `b >= r^2` of `z^2 - a z + b`: the smallest radius is `r`, where the roots have no more.
+    #[test]
+    fn a_radius_that_is_known(r in 1_i64..9, low in -8_i64..9, high in 10_i64..20) {
+        let r = ratio(r, 10);
+        let square = "time = 'discrete'\nparameters = { a = 1, b = 1 }\nloop.characteristic = 'z^2 - a*z + b'\n";
+        let gains = vec![("a", [&r * &ratio(low, 5), &r * &ratio(high, 5)]), ("b", [&r * &r, Rational::ONE])];
+        let case = Case { model: read(square), gains, list: Vec::new() };
+        let [proved, found] = bracket(&case.answer("min radius", ratio(2, 100)));
+        prop_assert!(proved <= r && r <= found, "{} {} {}", proved, r, found);
+        prop_assert!(&found - &proved <= (Rational::ONE - &proved) * ratio(3, 100), "{} {}", proved, found);
+    }
 }

@@ -8,8 +8,9 @@ use crate::{many_gains, one_gain, two_gains};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use jurist_algebra::real::Real;
-use jurist_engine::error::Error;
+use jurist_engine::error::{Code, Diagnostic, Error};
 use jurist_engine::problem::{Problem, Question};
+use jurist_engine::response::Level;
 use std::sync::Arc;
 
 /// The best gains of a loop, or that there are none.
@@ -133,6 +134,9 @@ impl TuneAnswer {
         let mut asked = asked;
         let own = Lines::new(question, &asked, budget)?.own_region();
         asked.requirements.region = asked.requirements.region.or(own);
+        if asked.objective == Objective::SettlingTime(Level::Radius) {
+            asked.sample_time = Some(sample_time(question, &asked, budget)?);
+        }
         let lines = Lines::new(question, &asked, budget)?;
         let problem = lines.problem()?;
         problem.refuse_written_complex()?;
@@ -140,6 +144,10 @@ impl TuneAnswer {
         let outcome = match found {
             Outcome::Infeasible { cells, .. } => Outcome::Infeasible { conflict: conflict(&lines, cells)?, cells },
             Outcome::Optimum(mut optimum) => {
+                // A decay without bound.
+                if matches!((&asked.objective, &optimum.value), (Objective::SettlingTime(_), Best::Unbounded)) {
+                    optimum.value = Best::Zero;
+                }
                 if asked.objective != Objective::Anything {
                     optimum.typed = match typed(&lines, &optimum) {
                         // The bracket so far is an answer without them.
@@ -179,6 +187,20 @@ impl TuneAnswer {
             Outcome::Open(stopped) => Some(stopped),
             Outcome::Infeasible { .. } => None,
         }
+    }
+}
+
+/// The sample time that a settling time is counted in.
+fn sample_time(question: &Question, asked: &Asked, budget: &Budget) -> Result<Rational, Error> {
+    let problem = Lines::new(question, asked, budget)?.problem()?;
+    let refused = |message: &str, help: &str| Diagnostic::error(Code::TuneObjective, message).help(help);
+    let help = "make the radius small: 'min radius'";
+    match problem.algebra_over_symbols(budget)?.sample_time() {
+        None => Err(refused("a settling time needs the loop's sample time", help).into()),
+        Some(time) => time.as_constant().ok_or_else(|| {
+            refused("a settling time needs a number as the sample time; this sample time depends on a gain", help)
+                .into()
+        }),
     }
 }
 

@@ -1,8 +1,9 @@
 //! What is asked: which gains are free, within which bounds, and what is to be best.
 
+use crate::reading::SETTLING_TIME;
 use jurist_algebra::number::Rational;
-use jurist_engine::error::{Code, Diagnostic, Error};
-use jurist_engine::model::{Model, Time, nearest_name};
+use jurist_engine::error::{Code, Diagnostic, Diagnostics, Error, Source, Span};
+use jurist_engine::model::{Between, Expression, Model, Time, nearest_name};
 use jurist_engine::response::{Level, Requirements};
 
 /// A gain that is free.
@@ -30,13 +31,25 @@ impl Gain {
 
 /// What is to be best.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Objective {
     /// A gain, by its number, as great as possible.
     Greatest(usize),
     /// A gain as small as possible.
     Least(usize),
+    /// An expression of the gains.
+    Formula {
+        /// As it is written.
+        text: String,
+        /// Whether more of it is better.
+        is_greatest: bool,
+    },
     /// A number of the loop.
     Level(Level),
+    /// The peak gain of the closed loop from an input to an output.
+    Norm(Between),
+    /// The settling time, by the decay in continuous time, by the radius in discrete time.
+    SettlingTime(Level),
     /// Nothing: whether any gains meet the requirements.
     Anything,
 }
@@ -57,6 +70,8 @@ pub struct Asked {
     pub loss: Option<Rational>,
     /// Whether boxes are searched where the answer of two gains would be exact.
     pub by_boxes: bool,
+    /// The sample time, of a settling time in discrete time; it is found out when the question is answered.
+    pub sample_time: Option<Rational>,
 }
 
 /// The most gains.
@@ -86,13 +101,22 @@ impl Asked {
         check_gains(&gains)?;
         let objective = self::objective(model, &gains, objective)?;
         let gap = Rational::new(GAP.0.into(), GAP.1.into());
-        Ok(Asked { gains, objective, requirements, gap, loss: None, by_boxes: false })
+        Ok(Asked { gains, objective, requirements, gap, loss: None, by_boxes: false, sample_time: None })
     }
 
     /// The level that is to be best, if it is one.
     pub fn level(&self) -> Option<Level> {
         match self.objective {
-            Objective::Level(level) => Some(level),
+            Objective::Level(level) | Objective::SettlingTime(level) => Some(level),
+            Objective::Norm(_) => Some(Level::Norm),
+            _ => None,
+        }
+    }
+
+    /// The signals between which the level is, if it is a peak gain.
+    pub fn between(&self) -> Option<&Between> {
+        match &self.objective {
+            Objective::Norm(between) => Some(between),
             _ => None,
         }
     }
@@ -102,8 +126,12 @@ impl Asked {
         match &self.objective {
             Objective::Greatest(i) => format!("largest {}", self.gains[*i].name),
             Objective::Least(i) => format!("smallest {}", self.gains[*i].name),
+            Objective::Formula { text, is_greatest: true } => format!("largest {text}"),
+            Objective::Formula { text, is_greatest: false } => format!("smallest {text}"),
             Objective::Level(level) if level.is_greatest_best() => format!("largest {}", level.name()),
             Objective::Level(level) => format!("smallest {}", level.name()),
+            Objective::SettlingTime(_) => format!("smallest {SETTLING_TIME}"),
+            Objective::Norm(between) => format!("smallest norm {}", between.name()),
             Objective::Anything => "any gains".into(),
         }
     }
@@ -113,8 +141,12 @@ impl Asked {
         match &self.objective {
             Objective::Greatest(i) => format!("max {}", self.gains[*i].name),
             Objective::Least(i) => format!("min {}", self.gains[*i].name),
+            Objective::Formula { text, is_greatest: true } => format!("max {text}"),
+            Objective::Formula { text, is_greatest: false } => format!("min {text}"),
             Objective::Level(level) if level.is_greatest_best() => format!("max {}", level.name()),
             Objective::Level(level) => format!("min {}", level.name()),
+            Objective::SettlingTime(_) => format!("min {SETTLING_TIME}"),
+            Objective::Norm(between) => format!("min norm {}", between.name()),
             Objective::Anything => "none".into(),
         }
     }
@@ -153,16 +185,16 @@ fn check_gains(gains: &[Gain]) -> Result<(), Error> {
 fn objective(model: &Model, gains: &[Gain], text: &str) -> Result<Objective, Error> {
     let refused =
         |message: String, help: String| -> Error { Diagnostic::error(Code::TuneObjective, message).help(help).into() };
-    let words: Vec<&str> = text.split_whitespace().collect();
-    let (is_greatest, name) = match words[..] {
-        ["none"] => return Ok(Objective::Anything),
-        ["max", name] => (true, name),
-        ["min", name] => (false, name),
+    let (word, name) = text.trim().split_once(char::is_whitespace).unwrap_or((text.trim(), ""));
+    let name = name.trim();
+    let is_greatest = match (word, name) {
+        ("none", "") => return Ok(Objective::Anything),
+        ("max" | "min", name) if !name.is_empty() => word == "max",
         _ => {
             return Err(refused(
                 format!("the objective '{text}' is not understood"),
-                "write 'max NAME' or 'min NAME', NAME a free gain or one of decay, radius, damping, gain_margin, phase_margin, modulus_margin, \
-                 complementary_peak, disk_margin; or 'none'"
+                "write 'max NAME' or 'min NAME', NAME a free gain, an expression of free gains or one of decay, radius, damping, settling_time, \
+                 gain_margin, phase_margin, modulus_margin, complementary_peak, disk_margin; 'min norm INPUT OUTPUT'; or 'none'"
                     .into(),
             ));
         }
@@ -170,8 +202,28 @@ fn objective(model: &Model, gains: &[Gain], text: &str) -> Result<Objective, Err
     if let Some(i) = gains.iter().position(|gain| gain.name == name) {
         return Ok(if is_greatest { Objective::Greatest(i) } else { Objective::Least(i) });
     }
+    if let Some(between) = norm(model, name)? {
+        return match is_greatest {
+            false => Ok(Objective::Norm(between)),
+            true => Err(refused(format!("'{text}' asks for the worst norm"), format!("write 'min {name}'"))),
+        };
+    }
+    if name == SETTLING_TIME && !is_greatest {
+        return Ok(Objective::SettlingTime(match model.time() {
+            Time::Continuous => Level::Decay,
+            Time::Discrete => Level::Radius,
+        }));
+    }
     let Some(level) = Level::named(name) else {
-        let known = gains.iter().map(|gain| gain.name.as_str()).chain(Level::ALL.map(Level::name));
+        if !name.chars().all(|c| c.is_alphanumeric() || c == '_') {
+            check_names(model, gains, name)?;
+            return Ok(Objective::Formula { text: name.to_owned(), is_greatest });
+        }
+        if name == SETTLING_TIME {
+            return Err(refused(format!("'{text}' asks for the worst {name}"), format!("write 'min {name}'")));
+        }
+        let levels = Level::ALL.map(Level::name).into_iter().chain([SETTLING_TIME]);
+        let known = gains.iter().map(|gain| gain.name.as_str()).chain(levels);
         let known: Vec<&str> = known.collect();
         let help = match nearest_name(name, known.iter().copied()) {
             Some(near) => format!("did you mean '{near}'?"),
@@ -192,4 +244,60 @@ fn objective(model: &Model, gains: &[Gain], text: &str) -> Result<Objective, Err
         return Err(refused(format!("'{text}' asks for the worst {name}"), format!("write '{word} {name}'")));
     }
     Ok(Objective::Level(level))
+}
+
+/// The signals of `norm INPUT OUTPUT`; `None` of another text.
+fn norm(model: &Model, text: &str) -> Result<Option<Between>, Error> {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let (input, output) = match words[..] {
+        ["norm", input, output] => (input, output),
+        ["norm"] => {
+            let error = Diagnostic::error(Code::TuneObjective, "a norm is from an input to an output");
+            return Err(error.help("write 'min norm INPUT OUTPUT'").into());
+        }
+        _ => return Ok(None),
+    };
+    let inputs: Vec<&str> = model.inputs().iter().map(|name| name.name.as_str()).collect();
+    let outputs: Vec<&str> = model.outputs().iter().map(|output| output.name.name.as_str()).collect();
+    for (known, name, what) in [(inputs, input, "input"), (outputs, output, "output")] {
+        if !known.contains(&name) {
+            let error = Diagnostic::error(Code::TuneObjective, format!("the loop has no {what} '{name}'"));
+            return Err(error.help(format!("known here: {}", known.join(", "))).into());
+        }
+    }
+    Ok(Some(Between::new(input, output)))
+}
+
+/// An error where an expression has a name that is no gain and none of the model's, or no gain at all.
+fn check_names(model: &Model, gains: &[Gain], text: &str) -> Result<(), Error> {
+    let expression = Expression::parse(text)?;
+    let is_gain = |name: &str| gains.iter().any(|gain| gain.name == name);
+    let mut unknown: Option<(&str, Span)> = None;
+    expression.each_name(&mut |name, span| {
+        let is_known = is_gain(name) || model.parameter(name).is_some() || model.constant(name).is_some();
+        if !is_known && unknown.is_none() {
+            unknown = Some((name, span));
+        }
+    });
+    let error = match unknown {
+        Some((name, span)) => {
+            let parameters = model.parameters().iter().map(|parameter| parameter.name.as_str());
+            let constants = model.constants().iter().map(|constant| constant.name.as_str());
+            let known: Vec<&str> =
+                gains.iter().map(|gain| gain.name.as_str()).chain(parameters).chain(constants).collect();
+            let message = format!("'{name}' is no free gain, no parameter and no constant");
+            let help = match nearest_name(name, known.iter().copied()) {
+                Some(near) => format!("did you mean '{near}'?"),
+                None => "a number of the loop stands alone: 'max decay'".to_owned(),
+            };
+            Diagnostic::error(Code::TuneObjective, message).at(span, "unknown").help(help)
+        }
+        None if !expression.names().iter().any(|name| is_gain(name)) => {
+            let message = "the objective has no free gain";
+            Diagnostic::error(Code::TuneObjective, message)
+                .help("write an expression of the free gains, as in 'max k*ki'")
+        }
+        None => return Ok(()),
+    };
+    Err(Diagnostics::new(Some(Source::new("<objective>", text)), vec![error]).into())
 }

@@ -1,10 +1,9 @@
 //! The document `jurist/tune/1`.
 
 use crate::answer::{Best, Optimum, Outcome, Place, TuneAnswer};
-use crate::text::{is_its_own_scale, shown};
+use crate::reading::Reading;
 use jurist_algebra::number::Rational;
 use jurist_algebra::real::Real;
-use jurist_engine::response::Level;
 use jurist_engine::show::documents::{Enclosure, Exact, Named, Number, PointQuestion, RequirementFound, Undecided};
 use serde::{Deserialize, Serialize};
 
@@ -104,7 +103,7 @@ impl TuneAnswer {
             pairs.collect::<Vec<_>>().as_slice().into()
         };
         let typed = optimum.and_then(|optimum| optimum.typed.as_ref());
-        let level = asked.level();
+        let reading = Reading::of(asked);
         Tune {
             schema: TuneName::V1,
             question: PointQuestion::new(&self.problem),
@@ -115,10 +114,10 @@ impl TuneAnswer {
             optimum: optimum.filter(|o| !matches!(o.value, Best::Nothing)).map(|o| self.optimum(o, digits)),
             found: optimum.map(|optimum| PointFound {
                 point: named(&optimum.found),
-                value: optimum.found_value.as_ref().map(|x| level_text(level, x, digits)),
+                value: optimum.found_value.as_ref().map(|x| number_text(&reading, x, digits)),
             }),
             proved: optimum.and_then(|optimum| match &optimum.value {
-                Best::Between([_, proved]) => Some(level_text(level, proved, digits)),
+                Best::Between([_, proved]) => Some(number_text(&reading, proved, digits)),
                 _ => None,
             }),
             cells: self.cells().map(|cells| cells as u64),
@@ -136,7 +135,7 @@ impl TuneAnswer {
     }
 
     fn optimum(&self, optimum: &Optimum, digits: usize) -> OptimumFound {
-        let level = self.asked.level();
+        let reading = Reading::of(&self.asked);
         let value = match &optimum.value {
             Best::Exact(value) => Some(value),
             _ => None,
@@ -154,10 +153,10 @@ impl TuneAnswer {
         };
         let names = self.asked.gains.iter().map(|gain| gain.name.clone());
         OptimumFound {
-            value: value.filter(|_| level.is_none_or(is_its_own_scale)).map(|value| Number::new(value, digits)),
+            value: value.filter(|_| reading.is_its_own_scale()).map(|value| Number::new(value, digits)),
             decimal: match &optimum.value {
                 Best::Zero => Some("0".to_owned()),
-                _ => value.map(|value| shown(level, value, digits)),
+                _ => value.map(|value| reading.shown(value, digits)),
             },
             at: names.zip(optimum.at.iter().map(place)).collect(),
             attained: optimum.attained,
@@ -166,8 +165,8 @@ impl TuneAnswer {
     }
 }
 
-fn level_text(level: Option<Level>, x: &Rational, digits: usize) -> String {
-    shown(level, &Real::from(x.clone()), digits)
+fn number_text(reading: &Reading, x: &Rational, digits: usize) -> String {
+    reading.shown(&Real::from(x.clone()), digits)
 }
 
 /// JSON Schemas of these documents: kind with version, and schema.

@@ -1,7 +1,8 @@
 //! The questions that the search asks the engine: along one gain, in the plane of two, at a point. Each answer says where the loop is stable and meets
 //! its requirements.
 
-use crate::asked::Asked;
+use crate::asked::{Asked, Objective};
+use crate::formula::Formula;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::real::Real;
@@ -22,6 +23,8 @@ pub(crate) struct Lines<'a> {
     /// The domains of the gains.
     ranges: Vec<Range>,
     region: Region,
+    /// What is to be best, where that is an expression.
+    pub formula: Option<Formula>,
     pub budget: &'a Budget,
 }
 
@@ -36,7 +39,11 @@ impl<'a> Lines<'a> {
         };
         let ranges = asked.gains.iter().zip(whole.free()).map(|(gain, free)| within(gain, &free.domain)).collect();
         let region = asked.requirements.region.clone().unwrap_or_else(|| whole.region().clone());
-        Ok(Lines { asked, base, ranges, region, budget })
+        let formula = match &asked.objective {
+            Objective::Formula { text, .. } => Some(Formula::of(text, &asked.gains, &base)?),
+            _ => None,
+        };
+        Ok(Lines { asked, base, ranges, region, formula, budget })
     }
 
     /// The same with other requirements and bounds.
@@ -71,7 +78,7 @@ impl<'a> Lines<'a> {
         let mut list = self.asked.requirements.list.clone();
         let mut region = self.region.clone();
         if let (Some(level), Some(scale)) = (self.asked.level(), scale) {
-            match level.asked(scale)? {
+            match level.asked_between(scale, self.asked.between())? {
                 LevelAsked::Region(asked) => region = asked,
                 LevelAsked::Requirement(requirement) => list.push(requirement),
             }
@@ -153,10 +160,13 @@ impl<'a> Lines<'a> {
     }
 
     /// Whether boxes of gains are searched: of three gains or more, and of two behind a hold where the map takes minutes, and of
-    /// two with dead time, where there is none.
+    /// two with dead time, where there is none; of an expression, and of a peak gain.
     pub fn are_boxes_asked(&self) -> Result<bool, Error> {
-        if self.asked.gains.len() != 2 || self.asked.by_boxes {
+        if self.asked.gains.len() != 2 || self.asked.by_boxes || self.formula.is_some() {
             return Ok(self.asked.gains.len() > 1);
+        }
+        if self.asked.between().is_some() {
+            return Ok(true);
         }
         let is_simple = self.asked.requirements.list.is_empty() && self.asked.level().is_none();
         let is_bounded = self.ranges.iter().all(|range| range.lower.is_some() && range.upper.is_some());
@@ -177,7 +187,7 @@ impl<'a> Lines<'a> {
         /// Bits of the margin.
         const BITS: u64 = 64;
         let problem = self.base.clone().set_all(values.iter().cloned()).within(self.region.clone()).problem()?;
-        match problem.level_at(level, self.at(), BITS, self.budget) {
+        match problem.level_at((level, self.asked.between()), self.at(), BITS, self.budget) {
             // A gain of zero opens the loop: it has no margins.
             Err(Error::Refused(_)) => Ok(None),
             found => found,

@@ -1,7 +1,6 @@
 //! The best value over a box of many gains, between one that some gains have and one that none have.
 
 use crate::answer::{Best, Optimum, Outcome, Place};
-use crate::asked::Objective;
 use crate::climb::climb;
 use crate::lines::Lines;
 use crate::one_gain::{bracketed, not_found};
@@ -26,17 +25,16 @@ pub(crate) fn best(lines: &Lines<'_>) -> Result<Outcome, Error> {
     let mut parts = Parts::new(lines, MOST_PARTS)?;
     lines.budget.step("gains that meet all requirements");
     let whole = vec![parts.all()];
-    let (point, rest) = match parts.sweep(whole, None, None)? {
+    let target = Target::of(lines, &parts.whole)?;
+    let asked = target.as_ref().map(|target| target.beside(&parts, None)).transpose()?.flatten();
+    let (point, rest) = match parts.sweep(whole, None, asked.as_ref())? {
         Sweep::Refuted(_) => {
             return Ok(Outcome::Infeasible { conflict: Vec::new(), cells: Some(parts.cells) });
         }
         Sweep::Stopped(stopped, _) => return Ok(Outcome::Open(stopped)),
         Sweep::Found(point, rest) => (point, rest),
     };
-    if lines.asked.objective == Objective::Anything {
-        return Ok(Optimum::some(point).into());
-    }
-    let target = Target::of(lines);
+    let Some(target) = target else { return Ok(Optimum::some(point).into()) };
     let mut search = Search { parts, target, point, value: None, proved: None };
     let stopped = match search.narrow(rest) {
         Ok(stopped) => stopped,
@@ -63,7 +61,7 @@ pub(crate) fn is_infeasible(lines: &Lines<'_>, most: usize) -> Result<bool, Erro
 /// A search for the best value.
 struct Search<'l, 'a> {
     parts: Parts<'l, 'a>,
-    target: Target,
+    target: Target<'l>,
     /// The best point that is known, and a value that it has at least.
     point: Vec<Rational>,
     value: Option<Value>,
@@ -113,9 +111,8 @@ impl Search<'_, '_> {
             };
             let (asked, below) = self.target.split(open, &goal);
             aside.extend(below);
-            let scale = self.target.scale(&goal);
-            let level = scale.map(|scale| self.parts.level(scale)).transpose()?.flatten();
-            match self.parts.sweep(asked, scale, level.as_ref())? {
+            let beside = self.target.beside(&self.parts, Some(&goal))?;
+            match self.parts.sweep(asked, self.target.scale(&goal), beside.as_ref())? {
                 Sweep::Refuted(beside) => {
                     self.proved = Some(goal);
                     aside.extend(beside);
@@ -129,16 +126,18 @@ impl Search<'_, '_> {
                     open.append(&mut aside);
                 }
                 Sweep::Stopped(stopped, rest) => {
-                    self.seen_so_far(&rest);
+                    self.seen_so_far(&rest, &goal);
                     return Ok(Err(stopped));
                 }
             }
         }
     }
 
-    /// Where a gain is to be best, no better value than that of the best part that is left.
-    fn seen_so_far(&mut self, rest: &[Part]) {
-        if let Some(value) = self.target.best_of(rest)
+    /// Where a gain or an expression is to be best, no better value than that of the best part that is left; other parts have none beyond the goal.
+    fn seen_so_far(&mut self, rest: &[Part], goal: &Value) {
+        let best = self.target.best_of(rest);
+        let best = best.map(|value| if self.target.is_better(&value, goal) { value } else { goal.clone() });
+        if let Some(value) = best
             && self.proved.as_ref().is_none_or(|known| self.target.is_better(known, &value))
         {
             self.proved = Some(value);
@@ -176,7 +175,10 @@ impl Search<'_, '_> {
                 let bound = format!("bound of {}", parts.lines.asked.gains[*gain].name);
                 (Best::Exact(end.clone().into()), None, vec![bound], Some(true))
             }
-            Target::Gain { .. } => {
+            Target::Formula { end, .. } if found == *end => {
+                (Best::Exact(end.clone().into()), None, vec!["bounds".to_owned()], Some(true))
+            }
+            Target::Gain { .. } | Target::Formula { .. } => {
                 let proved = proved.unwrap_or_else(|| target.beyond_end());
                 (Best::Between([found.clone(), proved]), stopped, Vec::new(), None)
             }

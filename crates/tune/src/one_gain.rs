@@ -3,6 +3,7 @@
 use crate::answer::{Best, Optimum, Outcome, Place};
 use crate::asked::Objective;
 use crate::critical::Curves;
+use crate::formula_of_one;
 use crate::lines::Lines;
 use crate::near::{approach, is_attained};
 use crate::search::Search;
@@ -24,11 +25,13 @@ pub(crate) const GAIN: usize = 0;
 /// # Errors
 /// As `Lines::set`.
 pub(crate) fn best(lines: &Lines<'_>) -> Result<Outcome, Error> {
-    match lines.asked.objective {
-        Objective::Greatest(_) => best_gain(lines, true),
-        Objective::Least(_) => best_gain(lines, false),
-        Objective::Level(level) => best_level(lines, level),
-        Objective::Anything => anything(lines),
+    match (&lines.asked.objective, &lines.formula) {
+        (Objective::Greatest(_), _) => best_gain(lines, true),
+        (Objective::Least(_), _) => best_gain(lines, false),
+        (Objective::Level(level) | Objective::SettlingTime(level), _) => best_level(lines, *level),
+        (Objective::Norm(_), _) => best_level(lines, Level::Norm),
+        (Objective::Formula { .. }, Some(formula)) => formula_of_one::best(lines, formula),
+        (Objective::Formula { .. } | Objective::Anything, _) => anything(lines),
     }
 }
 
@@ -113,7 +116,12 @@ fn best_level(lines: &Lines<'_>, level: Level) -> Result<Outcome, Error> {
         return Ok(nothing);
     }
     let ends = scale(lines, level);
-    let curves = lines.problem()?.boundary_in_level(level, &lines.asked.requirements.list, lines.at(), lines.budget)?;
+    let curves = lines.problem()?.boundary_in_level(
+        (level, lines.asked.between()),
+        &lines.asked.requirements.list,
+        lines.at(),
+        lines.budget,
+    )?;
     let Some(curves) = curves else { return bracket(lines, level, &plain, &ends) };
     lines.budget.step("critical values");
     let curves = Curves::new(&curves, lines.budget)?;
@@ -239,7 +247,7 @@ fn place_far(
 /// The best value at the end of a scale: a peak of zero, or none.
 fn best_at_end(level: Level) -> Best {
     match level {
-        Level::ComplementaryPeak => Best::Zero,
+        Level::ComplementaryPeak | Level::Norm => Best::Zero,
         _ if is_without_end(level) || level == Level::PhaseMargin => Best::Unbounded,
         _ => {
             Best::Exact(Real::from(if level.is_rising() { level.scale()[1].clone() } else { level.scale()[0].clone() }))

@@ -1,11 +1,12 @@
 //! Whether any gains of a box meet what is asked: the box is cut into parts until no point of any part meets it, or a point is found that does.
 
+use crate::formula::Formula;
 use crate::lines::Lines;
-use jurist_algebra::limits::{Exhausted, checkpoint};
+use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
 use jurist_algebra::number::Rational;
 use jurist_engine::error::{Code, Diagnostic, Error};
 use jurist_engine::problem::Problem;
-use jurist_engine::response::{Certain, LevelAsked, OverPoints, Requirement, RequirementBoxes};
+use jurist_engine::response::{Certain, Level, LevelAsked, OverPoints, Requirement, RequirementBoxes};
 use std::collections::VecDeque;
 use std::sync::Arc;
 
@@ -82,6 +83,31 @@ enum Seen {
     },
 }
 
+/// What is asked beside the requirements.
+pub(crate) enum Beside<'l> {
+    /// A number of the loop.
+    Level(Box<RequirementBoxes>),
+    /// At least a value of an expression, or at most one; any value where there is none.
+    Formula { formula: &'l Formula, goal: Option<Rational>, is_greatest: bool },
+}
+
+impl Beside<'_> {
+    fn look(&self, sides: &[[Rational; 2]], budget: &Budget) -> Result<OverPoints, Exhausted> {
+        let (formula, goal, is_greatest) = match self {
+            Beside::Level(boxes) => return boxes.look(sides, budget),
+            Beside::Formula { formula, goal, is_greatest } => (formula, goal, *is_greatest),
+        };
+        let middle: Vec<Rational> = sides.iter().map(|[low, high]| low.midpoint(high)).collect();
+        let value = formula.at(&middle);
+        let Some(goal) = goal else { return Ok(OverPoints::Open { middle: Some(value.is_some()) }) };
+        Ok(match budget.enter(|| formula.is_above(sides, goal))? {
+            Some(is_above) if is_above == is_greatest => OverPoints::All,
+            Some(_) => OverPoints::None,
+            None => OverPoints::Open { middle: value.map(|x| if is_greatest { x >= *goal } else { x <= *goal }) },
+        })
+    }
+}
+
 /// Stability and the requirements of a question over boxes of its gains.
 pub(crate) struct Parts<'l, 'a> {
     pub lines: &'l Lines<'a>,
@@ -121,17 +147,16 @@ impl<'l, 'a> Parts<'l, 'a> {
     }
 
     /// What asks for a level over boxes.
-    pub fn level(&self, scale: &Rational) -> Result<Option<RequirementBoxes>, Error> {
-        let Some(level) = self.lines.asked.level() else { return Ok(None) };
+    pub fn level(&self, level: Level, scale: &Rational) -> Result<RequirementBoxes, Error> {
         let problem = self.lines.problem()?;
-        Ok(Some(match level.asked(scale)? {
+        Ok(match level.asked_between(scale, self.lines.asked.between())? {
             LevelAsked::Requirement(requirement) => self.test(&problem, &requirement)?,
             LevelAsked::Region(region) => {
                 let problem = self.lines.problem_within(region)?;
                 let test = RequirementBoxes::of_stability(&problem, &self.near, self.lines.budget)?;
                 test.ok_or_else(|| not_in_boxes(level.name()))?
             }
-        }))
+        })
     }
 
     /// All gains within their bounds.
@@ -167,7 +192,7 @@ impl<'l, 'a> Parts<'l, 'a> {
         &mut self,
         parts: Vec<Part>,
         scale: Option<&Rational>,
-        level: Option<&RequirementBoxes>,
+        asked: Option<&Beside<'_>>,
     ) -> Result<Sweep, Error> {
         let mut queue = Queue { near: VecDeque::new(), far: parts.into(), turn: 0 };
         let mut beside = Vec::new();
@@ -182,7 +207,7 @@ impl<'l, 'a> Parts<'l, 'a> {
             }
             self.looked += 1;
             self.lines.budget.advance(self.cells as u64, (self.cells + queue.near.len() + queue.far.len()) as u64);
-            let seen = match self.look(&mut part, level) {
+            let seen = match self.look(&mut part, asked) {
                 Ok(seen) => seen,
                 Err(stopped) => return Ok(Sweep::Stopped(stopped, rest(beside, part, queue))),
             };
@@ -219,7 +244,7 @@ impl<'l, 'a> Parts<'l, 'a> {
     }
 
     /// What is met everywhere leaves the list of the part.
-    fn look(&self, part: &mut Part, level: Option<&RequirementBoxes>) -> Result<Seen, Exhausted> {
+    fn look(&self, part: &mut Part, asked: Option<&Beside<'_>>) -> Result<Seen, Exhausted> {
         self.lines.budget.check()?;
         let (mut open, mut is_middle) = (Vec::new(), true);
         for &k in &part.open {
@@ -233,8 +258,8 @@ impl<'l, 'a> Parts<'l, 'a> {
             }
         }
         part.open = open;
-        if let Some(level) = level {
-            match level.look(&part.sides, self.lines.budget)? {
+        if let Some(asked) = asked {
+            match asked.look(&part.sides, self.lines.budget)? {
                 OverPoints::None => return Ok(Seen::Beside),
                 OverPoints::All => {}
                 OverPoints::Open { middle } => is_middle &= middle != Some(false),

@@ -1,11 +1,11 @@
-//! What is to be best over many gains: one of them, or a level. Both are a number that is compared, and from which one goes on by a share.
+//! What is to be best over many gains: one of them, an expression, or a level. Each is a number that is compared, and from which one goes on by a share.
 
 use crate::asked::Objective;
+use crate::formula::Formula;
 use crate::lines::Lines;
 use crate::one_gain::{is_without_end, scale};
-use crate::parts::{Part, Parts};
+use crate::parts::{Beside, Part, Parts};
 use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::simplest_between;
 use jurist_engine::error::Error;
 use jurist_engine::response::Level;
 
@@ -13,9 +13,24 @@ use jurist_engine::response::Level;
 pub(crate) type Value = Rational;
 
 /// What is to be best.
-pub(crate) enum Target {
-    Gain { gain: usize, is_greatest: bool, end: Rational, width: Rational },
-    Level { level: Level, ends: [Rational; 2] },
+pub(crate) enum Target<'l> {
+    Gain {
+        gain: usize,
+        is_greatest: bool,
+        end: Rational,
+        width: Rational,
+    },
+    /// No gains have a better value than the end.
+    Formula {
+        formula: &'l Formula,
+        is_greatest: bool,
+        end: Rational,
+        width: Rational,
+    },
+    Level {
+        level: Level,
+        ends: [Rational; 2],
+    },
 }
 
 /// The first distance of a level from its worst end is halved, or grows, so often.
@@ -27,26 +42,52 @@ const SMALL: u64 = 20;
 /// A step is as long as it is asked for within this power of one half.
 const NEAR: u64 = 5;
 
-impl Target {
-    /// Of a question that asks for something.
-    pub fn of(lines: &Lines<'_>) -> Target {
+impl<'l> Target<'l> {
+    /// Of a question; `None` where nothing is to be best.
+    ///
+    /// # Errors
+    /// `E-tune-objective` for an expression that divides by zero within the bounds.
+    pub fn of(lines: &'l Lines<'_>, whole: &[[Rational; 2]]) -> Result<Option<Target<'l>>, Error> {
         let gain = |gain: usize, is_greatest: bool| {
             let range = lines.range(gain);
             let [low, high] = [&range.lower, &range.upper].map(|end| end.clone().expect("the bounds were looked at"));
             let width = &high - &low;
             Target::Gain { gain, is_greatest, end: if is_greatest { high } else { low }, width }
         };
-        match lines.asked.objective {
-            Objective::Greatest(k) => gain(k, true),
-            Objective::Least(k) => gain(k, false),
-            Objective::Level(level) => Target::Level { level, ends: scale(lines, level) },
-            Objective::Anything => unreachable!("nothing is to be best"),
-        }
+        Ok(Some(match (&lines.asked.objective, &lines.formula) {
+            (Objective::Greatest(k), _) => gain(*k, true),
+            (Objective::Least(k), _) => gain(*k, false),
+            (Objective::Level(level) | Objective::SettlingTime(level), _) => {
+                Target::Level { level: *level, ends: scale(lines, *level) }
+            }
+            (Objective::Norm(_), _) => Target::Level { level: Level::Norm, ends: scale(lines, Level::Norm) },
+            (Objective::Formula { is_greatest, .. }, Some(formula)) => {
+                let [low, high] = formula.range_in_parts(whole, &lines.asked.gains)?;
+                let width = &high - &low;
+                let (is_greatest, end) = (*is_greatest, if *is_greatest { high } else { low });
+                Target::Formula { formula, is_greatest, end, width }
+            }
+            (Objective::Formula { .. } | Objective::Anything, _) => return Ok(None),
+        }))
+    }
+
+    /// What asks boxes for a value, or for any.
+    ///
+    /// # Errors
+    /// As [`Parts::level`].
+    pub fn beside(&self, parts: &Parts<'_, '_>, goal: Option<&Value>) -> Result<Option<Beside<'l>>, Error> {
+        Ok(match (self, goal) {
+            (Target::Level { level, .. }, Some(scale)) => Some(Beside::Level(Box::new(parts.level(*level, scale)?))),
+            (Target::Formula { formula, is_greatest, .. }, goal) => {
+                Some(Beside::Formula { formula, goal: goal.cloned(), is_greatest: *is_greatest })
+            }
+            (Target::Gain { .. }, _) | (Target::Level { .. }, None) => None,
+        })
     }
 
     fn is_rising(&self) -> bool {
         match self {
-            Target::Gain { is_greatest, .. } => *is_greatest,
+            Target::Gain { is_greatest, .. } | Target::Formula { is_greatest, .. } => *is_greatest,
             Target::Level { level, .. } => level.is_rising(),
         }
     }
@@ -63,7 +104,7 @@ impl Target {
     /// A value that is better by a share; `None` where no point can have it.
     pub fn beyond(&self, value: &Value, gap: &Rational) -> Option<Value> {
         match self {
-            Target::Gain { end, .. } => {
+            Target::Gain { end, .. } | Target::Formula { end, .. } => {
                 let goal = self.step(value, gap);
                 (!self.is_better(&goal, end)).then_some(goal)
             }
@@ -76,19 +117,22 @@ impl Target {
 
     fn step(&self, value: &Value, gap: &Rational) -> Value {
         let size = match self {
-            Target::Gain { width, .. } => value.abs().max(width * &Rational::dyadic(&Integer::ONE, SMALL)),
+            Target::Gain { width, .. } | Target::Formula { width, .. } => {
+                value.abs().max(width * &Rational::dyadic(&Integer::ONE, SMALL))
+            }
             Target::Level { ends, .. } => (value - if self.is_rising() { &ends[0] } else { &ends[1] }).abs(),
         };
         let by = size * gap;
         let (goal, near) = (self.farther(value, &by), &by * &Rational::dyadic(&Integer::ONE, NEAR));
-        // Of few digits: it is gone on from there.
-        simplest_between(&(&goal - &near), &(&goal + &near)).unwrap_or(goal)
+        odd_near(&goal, &near)
     }
 
-    /// A value of a gain that no point has since it is beyond the bound.
+    /// A value that no point has since it is beyond the bound.
     pub fn beyond_end(&self) -> Value {
         match self {
-            Target::Gain { end, .. } => self.step(end, &Rational::dyadic(&Integer::ONE, SMALL)),
+            Target::Gain { end, .. } | Target::Formula { end, .. } => {
+                self.step(end, &Rational::dyadic(&Integer::ONE, SMALL))
+            }
             Target::Level { ends, .. } => ends[usize::from(self.is_rising())].clone(),
         }
     }
@@ -109,20 +153,34 @@ impl Target {
         (beyond, below)
     }
 
-    /// A value beyond all of some parts.
+    /// A value beyond all of some parts; `None` of a level.
     pub fn best_of(&self, parts: &[Part]) -> Option<Value> {
-        let Target::Gain { gain, is_greatest, .. } = self else { return None };
-        let ends = parts.iter().map(|part| &part.sides[*gain][usize::from(*is_greatest)]);
-        let best = if *is_greatest { ends.max() } else { ends.min() }?;
+        let ends: Vec<Rational> = match self {
+            Target::Gain { gain, is_greatest, .. } => {
+                parts.iter().map(|part| part.sides[*gain][usize::from(*is_greatest)].clone()).collect()
+            }
+            Target::Formula { formula, is_greatest, .. } => {
+                let end = |part: &Part| Some(formula.range(&part.sides)?[usize::from(*is_greatest)].clone());
+                parts.iter().map(end).collect::<Option<_>>()?
+            }
+            Target::Level { .. } => return None,
+        };
+        let best = if self.is_rising() { ends.iter().max() } else { ends.iter().min() }?;
         Some(self.step(best, &Rational::dyadic(&Integer::ONE, SMALL)))
+    }
+
+    /// The value of a point; `None` of a level, and where there is none.
+    fn own_value(&self, point: &[Rational]) -> Option<Value> {
+        match self {
+            Target::Gain { gain, .. } => Some(point[*gain].clone()),
+            Target::Formula { formula, .. } => formula.at(point),
+            Target::Level { .. } => None,
+        }
     }
 
     /// A value of a point that was found to have another one at least.
     pub fn value_at(&self, point: &[Rational], least: &Value) -> Value {
-        match self {
-            Target::Gain { gain, .. } => point[*gain].clone(),
-            Target::Level { .. } => least.clone(),
-        }
+        self.own_value(point).unwrap_or_else(|| least.clone())
     }
 
     /// A value that a point has, if it meets all and is better than another one.
@@ -137,9 +195,10 @@ impl Target {
         gap: &Rational,
     ) -> Result<Option<Value>, Error> {
         match self {
-            Target::Gain { gain, .. } => {
-                let is_good = self.is_better(&point[*gain], known) && parts.is_met(point, None)?;
-                Ok(is_good.then(|| point[*gain].clone()))
+            Target::Gain { .. } | Target::Formula { .. } => {
+                let Some(own) = self.own_value(point) else { return Ok(None) };
+                let is_good = self.is_better(&own, known) && parts.is_met(point, None)?;
+                Ok(is_good.then_some(own))
             }
             Target::Level { .. } => {
                 let quarter = gap * &Rational::dyadic(&Integer::ONE, 2);
@@ -171,10 +230,7 @@ impl Target {
     /// # Errors
     /// When the budget runs out.
     pub fn first_value(&self, parts: &Parts<'_, '_>, point: &[Rational]) -> Result<Option<Value>, Error> {
-        let Target::Level { level, ends } = self else {
-            let Target::Gain { gain, .. } = self else { return Ok(None) };
-            return Ok(Some(point[*gain].clone()));
-        };
+        let Target::Level { level, ends } = self else { return Ok(self.own_value(point)) };
         let worst = if level.is_rising() { &ends[0] } else { &ends[1] };
         let whole = &ends[1] - &ends[0];
         let half = Rational::dyadic(&Integer::ONE, 1);
@@ -189,4 +245,23 @@ impl Target {
         }
         Ok(None)
     }
+}
+
+/// A number of few digits near to another one: an odd multiple of a power of two.
+///
+/// Short numbers are avoided: a best value is often one, and no box that holds its gains shows that they have not just this value.
+fn odd_near(x: &Rational, distance: &Rational) -> Rational {
+    let (two, half) = (Rational::from(2), Rational::dyadic(&Integer::ONE, 1));
+    let mut unit = Rational::ONE;
+    if !distance.sign().is_gt() {
+        return x.clone();
+    }
+    while unit > *distance {
+        unit = &unit * &half;
+    }
+    while &unit * &two <= *distance {
+        unit = &unit * &two;
+    }
+    let steps = Rational::from(x.checked_div(&unit).expect("a power is not zero").floor());
+    (steps + half) * unit
 }

@@ -2,6 +2,7 @@
 
 use crate::answer::{Best, Optimum, Outcome, Place, TuneAnswer};
 use crate::asked::Objective;
+use crate::reading::Reading;
 use jurist_algebra::number::{Enclosure, Rational, to_decimal};
 use jurist_algebra::poly::{MultiPoly, RealAlgebraic};
 use jurist_algebra::real::Real;
@@ -74,13 +75,13 @@ impl TuneAnswer {
     fn optimum_text(&self, out: &mut String, optimum: &Optimum, digits: usize) {
         let asked = &self.asked;
         let wanted = asked.wanted();
-        let level = asked.level();
+        let reading = Reading::of(asked);
         match &optimum.value {
             Best::Nothing if asked.objective == Objective::Anything => {
                 writeln!(out, "there are gains that meet all of this")
             }
             Best::Nothing => writeln!(out, "{wanted}: not decided; there are gains that meet all of this"),
-            Best::Unbounded if level == Some(Level::PhaseMargin) => {
+            Best::Unbounded if asked.level() == Some(Level::PhaseMargin) => {
                 writeln!(
                     out,
                     "{wanted}: no phase limits the loop, since the open loop is smaller than 1 at all frequencies"
@@ -90,17 +91,17 @@ impl TuneAnswer {
             Best::Zero => writeln!(out, "{wanted}: 0"),
             Best::Exact(value) => {
                 let reached = if optimum.attained == Some(false) { ", which is not reached" } else { "" };
-                writeln!(out, "{wanted}: {}{}{reached}", shown(level, value, digits), unit(level))
+                writeln!(out, "{wanted}: {}{}{reached}", reading.shown(value, digits), reading.unit())
             }
             Best::Between([found, proved]) => {
-                let [low, high] = bracket(level, found, proved);
+                let [low, high] = bracket(&reading, found, proved);
                 let proof = optimum.cells.map(|cells| format!(" (a bracket, proof: {})", counted(cells)));
-                writeln!(out, "{wanted}: between {low} and {high}{}{}", unit(level), proof.unwrap_or_default())
+                writeln!(out, "{wanted}: between {low} and {high}{}{}", reading.unit(), proof.unwrap_or_default())
             }
         }
         .expect(TAKES);
         if let Best::Exact(value) = &optimum.value
-            && let Some(polynomial) = level.is_none_or(is_its_own_scale).then(|| root_of(value)).flatten()
+            && let Some(polynomial) = reading.is_its_own_scale().then(|| root_of(value)).flatten()
         {
             writeln!(out, "    exactly a root of {polynomial}").expect(TAKES);
         }
@@ -136,10 +137,13 @@ impl TuneAnswer {
             Some(typed) => {
                 let mut line = format!("type in {}", values(&typed.values));
                 if let Some(value) = &typed.value {
-                    let is_gain = !matches!(asked.objective, Objective::Level(_));
-                    if !is_gain {
-                        let value = enclosed(digits.min(MOST_OF_TYPED), |_| Some(value.clone())).unwrap_or_default();
-                        line.push_str(&format!(": {} {value}{}", level.map_or("", Level::name), unit(level)));
+                    let value = || enclosed(digits.min(MOST_OF_TYPED), |_| Some(value.clone())).unwrap_or_default();
+                    match &asked.objective {
+                        Objective::Level(_) | Objective::SettlingTime(_) | Objective::Norm(_) => {
+                            line.push_str(&format!(": {} {}{}", reading.name(), value(), reading.unit()));
+                        }
+                        Objective::Formula { text, .. } => line.push_str(&format!(": {text} = {}", value())),
+                        Objective::Greatest(_) | Objective::Least(_) | Objective::Anything => {}
                     }
                 }
                 match self.lost(optimum) {
@@ -152,11 +156,11 @@ impl TuneAnswer {
                 }
             }
             None => {
-                let least = optimum.found_value.as_ref().filter(|_| level.is_some());
+                let least = optimum.found_value.as_ref().filter(|_| asked.level().is_some());
                 let least = least.map(|scale| {
-                    let word = if level.is_some_and(Level::is_greatest_best) { "at least" } else { "at most" };
-                    let value = shown(level, &Real::from(scale.clone()), FEW);
-                    format!(", which has {word} {value}{}", unit(level))
+                    let word = if reading.is_greatest_best() { "at least" } else { "at most" };
+                    let value = reading.shown(&Real::from(scale.clone()), FEW);
+                    format!(", which has {word} {value}{}", reading.unit())
                 });
                 writeln!(out, "for example {}{}", values(&optimum.found), least.unwrap_or_default()).expect(TAKES);
             }
@@ -168,10 +172,7 @@ impl TuneAnswer {
         let value = optimum.typed.as_ref()?.value.as_ref()?.lower().clone();
         let Best::Exact(best) = &optimum.value else { return None };
         let (low, high) = best.refined_to_digits(20).enclosure();
-        let best = match self.asked.level() {
-            Some(level) => level.enclosure(&Enclosure::new(low, high), 64)?.lower().clone(),
-            None => low,
-        };
+        let best = Reading::of(&self.asked).enclosure(&Enclosure::new(low, high), 64)?.lower().clone();
         let lost = (&best - value).abs().checked_div(&best.abs())?;
         Some(percent(&lost))
     }
@@ -192,34 +193,14 @@ fn percent(share: &Rational) -> String {
     to_decimal(&(share * &Rational::from(100)), FEW)
 }
 
-fn unit(level: Option<Level>) -> &'static str {
-    if level == Some(Level::PhaseMargin) { " degrees" } else { "" }
-}
-
-/// Whether a level is the same as its scale.
-pub(crate) fn is_its_own_scale(level: Level) -> bool {
-    !matches!(level, Level::PhaseMargin | Level::ComplementaryPeak | Level::DiskMargin)
-}
-
-/// A value of a level's scale, or a gain, as a decimal.
-pub(crate) fn shown(level: Option<Level>, value: &Real, digits: usize) -> String {
-    let Some(level) = level.filter(|level| !is_its_own_scale(*level)) else { return rounded(value, digits).decimal };
-    let enclose = |bits: u64| {
-        let (low, high) = value.refined_to_digits(bits as usize * 3 / 10 + 8).enclosure();
-        level.enclosure(&Enclosure::new(low, high), bits)
-    };
-    enclosed(digits, enclose).unwrap_or_else(|| "without end".to_owned())
-}
-
 /// A bracket, ascending, in so many digits that its ends differ.
-fn bracket(level: Option<Level>, found: &Rational, proved: &Rational) -> [String; 2] {
-    let text = |x: &Rational, digits: usize| shown(level, &Real::from(x.clone()), digits);
+fn bracket(reading: &Reading, found: &Rational, proved: &Rational) -> [String; 2] {
+    let text = |x: &Rational, digits: usize| reading.shown(&Real::from(x.clone()), digits);
     let digits = (4..20).find(|digits| text(found, *digits) != text(proved, *digits)).unwrap_or(20) + 1;
     let mut ends = [text(found, digits), text(proved, digits)];
-    let is_rising = level.is_none_or(|level| level.is_greatest_best());
-    let is_sorted = match level {
-        Some(_) => is_rising,
-        None => found <= proved,
+    let is_sorted = match reading {
+        Reading::Plain => found <= proved,
+        _ => reading.is_greatest_best(),
     };
     if !is_sorted {
         ends.reverse();

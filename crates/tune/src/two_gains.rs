@@ -20,8 +20,9 @@ pub(crate) fn best(lines: &Lines<'_>) -> Result<Outcome, Error> {
     match lines.asked.objective {
         Objective::Greatest(gain) => best_gain(lines, gain, true),
         Objective::Least(gain) => best_gain(lines, gain, false),
-        Objective::Level(level) => best_level(lines, level),
-        Objective::Anything => anything(lines),
+        Objective::Level(level) | Objective::SettlingTime(level) => best_level(lines, level),
+        // Of an expression and of a peak gain boxes are searched.
+        Objective::Norm(_) | Objective::Formula { .. } | Objective::Anything => anything(lines),
     }
 }
 

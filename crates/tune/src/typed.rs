@@ -4,6 +4,7 @@ use crate::answer::{Best, Optimum, Place};
 use crate::asked::Objective;
 use crate::decimals::{first_power, power, shortest};
 use crate::lines::Lines;
+use crate::reading::Reading;
 use crate::sets::{outer, widest};
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::real::Real;
@@ -23,6 +24,9 @@ pub struct Typed {
     /// The requirements there.
     pub requirements: Vec<RequirementMet>,
 }
+
+/// Bits of enclosures.
+const BITS: u64 = 64;
 
 /// What is given up where nothing else is said: a hundredth.
 const LOSS: (i64, i64) = (1, 100);
@@ -53,8 +57,15 @@ pub(crate) fn typed(lines: &Lines<'_>, optimum: &Optimum) -> Result<Option<Typed
                 _ => beside(lines, *gain, &height, optimum)?,
             }
         }
-        (Objective::Level(level), count) => {
-            let scale = given_up(*level, inside, &best, &loss);
+        (Objective::Formula { is_greatest, .. }, _) => {
+            let given_up = &best - best.abs() * signed(&lines.asked.objective, &loss);
+            let value = |values: &[Rational]| lines.formula.as_ref().and_then(|formula| formula.at(values));
+            let is_enough = |x: Rational| if *is_greatest { x >= given_up } else { x <= given_up };
+            by_trial(lines, &optimum.found, None, |values| value(values).is_some_and(is_enough))?
+        }
+        (Objective::Level(_) | Objective::SettlingTime(_) | Objective::Norm(_), count) => {
+            let level = lines.asked.level().expect("one of these");
+            let scale = given_up((level, &Reading::of(lines.asked)), inside, &best, &loss);
             match count {
                 1 if matches!(optimum.value, Best::Exact(_)) => {
                     let set = lines.set(0, None, Some(&scale))?;
@@ -75,7 +86,16 @@ pub(crate) fn typed(lines: &Lines<'_>, optimum: &Optimum) -> Result<Option<Typed
     let (_, requirements) = lines.point(&named, None)?;
     let value = match lines.asked.objective {
         Objective::Greatest(gain) | Objective::Least(gain) => Some(Enclosure::from_rational(values[gain].clone())),
+        Objective::Formula { .. } => {
+            let value = lines.formula.as_ref().and_then(|formula| formula.at(&values));
+            value.map(Enclosure::from_rational)
+        }
         Objective::Level(level) => level_at(lines, level, &named)?,
+        Objective::Norm(_) => level_at(lines, Level::Norm, &named)?,
+        Objective::SettlingTime(level) => {
+            let found = level_at(lines, level, &named)?;
+            found.and_then(|x| Reading::of(lines.asked).enclosure(&x, BITS))
+        }
         Objective::Anything => None,
     };
     Ok(Some(Typed { values, value, most_lost: loss, requirements }))
@@ -98,7 +118,11 @@ fn best_of(optimum: &Optimum) -> Option<Rational> {
 }
 
 fn signed(objective: &Objective, loss: &Rational) -> Rational {
-    if matches!(objective, Objective::Least(_)) { -loss } else { loss.clone() }
+    if matches!(objective, Objective::Least(_) | Objective::Formula { is_greatest: false, .. }) {
+        -loss
+    } else {
+        loss.clone()
+    }
 }
 
 fn sorted(a: Rational, b: Rational) -> (Rational, Rational) {
@@ -106,16 +130,15 @@ fn sorted(a: Rational, b: Rational) -> (Rational, Rational) {
 }
 
 /// A value of the scale at which a share of the level is given up, or less; between one that is found and the worst end.
-fn given_up(level: Level, found: &Rational, best: &Rational, loss: &Rational) -> Rational {
-    /// Halvings, and bits of what is compared.
+fn given_up((level, reading): (Level, &Reading), found: &Rational, best: &Rational, loss: &Rational) -> Rational {
+    /// Halvings.
     const HALVINGS: usize = 24;
-    const BITS: u64 = 64;
-    let shown = |scale: &Rational| level.enclosure(&Enclosure::from_rational(scale.clone()), BITS);
+    let shown = |scale: &Rational| reading.enclosure(&Enclosure::from_rational(scale.clone()), BITS);
     let Some(best) = shown(best) else { return found.clone() };
-    let share = if level.is_greatest_best() { Rational::ONE - loss } else { Rational::ONE + loss };
+    let share = if reading.is_greatest_best() { Rational::ONE - loss } else { Rational::ONE + loss };
     let wanted = best.mul(&Enclosure::from_rational(share), BITS);
     let is_enough = |scale: &Rational| {
-        shown(scale).is_some_and(|x| match level.is_greatest_best() {
+        shown(scale).is_some_and(|x| match reading.is_greatest_best() {
             true => x.lower() >= wanted.upper(),
             false => x.upper() <= wanted.lower(),
         })

@@ -28,8 +28,9 @@ pub(in crate::cli) struct Options {
     /// A gain whose best value is asked for, up to five; three and more need bounds [default: those of [tune]] [repeatable]
     #[arg(long, value_name = "NAME")]
     pub free: Vec<String>,
-    /// What is to be best: 'max NAME' or 'min NAME' of a free gain, 'max decay', 'min radius', 'max damping', 'max gain_margin',
-    /// 'max phase_margin', 'max modulus_margin', 'min complementary_peak', 'max disk_margin'; 'none': are there any gains?
+    /// What is to be best: 'max' or 'min' with a free gain or an expression of free gains; 'max decay', 'min radius',
+    /// 'min settling_time', 'max damping', 'max gain_margin', 'max phase_margin', 'max modulus_margin',
+    /// 'min complementary_peak', 'max disk_margin', 'min norm INPUT OUTPUT'; 'none': are there any gains?
     /// [default: that of [tune], else none]
     #[arg(long, value_name = "TEXT")]
     pub objective: Option<String>,

@@ -8,6 +8,7 @@
 //! of the characteristic polynomial, and the points where some expression divides by zero, do not
 //! depend on the values.
 
+mod between;
 mod builder;
 mod closed_loop;
 pub(crate) mod complex;
@@ -35,6 +36,8 @@ pub(crate) mod tolerance;
 mod tuning;
 mod written;
 
+pub use between::Between;
+pub(crate) use between::no_transfer_of_several_rates;
 pub use builder::{BlockBuilder, ModelBuilder, ParameterBuilder};
 pub use closed_loop::{ClosedLoop, Evaluated, TransferFunction};
 pub use complex::ComplexPolynomial;

@@ -1,5 +1,6 @@
 //! The loop cut open at one scalar signal.
 
+use super::between::Between;
 use super::closed_loop::{Answer, ClosedLoop};
 use super::connect::state_space::product;
 use super::definition::{Block, Diagram, Form, Model};
@@ -39,6 +40,8 @@ pub enum Cut {
     PlantInput,
     /// At a parameter that multiplies the loop's gain.
     Gain(String),
+    /// Nowhere: the transfer function of the closed loop between two signals, which is that of a loop closed around it.
+    Between(Between),
 }
 
 impl Cut {
@@ -47,6 +50,7 @@ impl Cut {
         match self {
             Cut::Signal(name) | Cut::Input(name) | Cut::Gain(name) => name,
             Cut::PlantInput => PLANT_INPUT,
+            Cut::Between(between) => between.name(),
         }
     }
 }
@@ -63,6 +67,8 @@ pub(crate) struct Opened {
     pub sample_time: Option<RationalFunction>,
     /// What the variables beyond the kept names stand for.
     pub symbols: Symbols,
+    /// Whether the system is the closed loop `L/(1 + L)` and not what comes back.
+    pub is_closed: bool,
 }
 
 /// The only hold, or the only modulator, of a diagram.
@@ -226,6 +232,9 @@ impl Model {
     }
 
     fn opened_in(&self, mut answer: Answer<'_>, cut: &Cut, budget: &Budget) -> Result<Opened, Error> {
+        if let Cut::Between(between) = cut {
+            return self.closed_between(answer, between, budget);
+        }
         if let Values::Feedback { a, b, c, k, .. } = &answer.values {
             let (a, b, returned) = (a.clone(), b.clone(), product(k, c));
             let row = |i: usize| -> Row { (0..a.rows()).map(|j| (j, -&returned[(i, j)])).collect() };
@@ -341,7 +350,7 @@ impl Model {
 
     fn opened_with(&self, answer: Answer<'_>, output: &str, budget: &Budget) -> Result<Opened, Error> {
         let (system, sample_time, symbols) = self.connected_with(answer, vec![output.to_owned()], budget)?;
-        Ok(Opened { system, sample_time, symbols })
+        Ok(Opened { system, sample_time, symbols, is_closed: false })
     }
 }
 

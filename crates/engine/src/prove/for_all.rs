@@ -113,6 +113,9 @@ impl Problem {
 
     fn requirement(&self, requirement: &Requirement, at: Option<&str>, budget: &Budget) -> Result<Value, Error> {
         let refused = || Err(no_certificate(format!("no certificate: nothing proves '{}'", requirement.text())));
+        if requirement.signals().is_some() {
+            return refused();
+        }
         let mut bound = match requirement.rule() {
             Rule::Factors(factor) => vec![("bound", number(&above(factor)))],
             Rule::Turned { twice_cosine } => {
@@ -127,7 +130,7 @@ impl Problem {
             Cut::Signal(name) => object([("signal", name.into())]),
             Cut::Input(name) => object([("input", name.into())]),
             Cut::Gain(name) => object([("parameter", name.into())]),
-            Cut::PlantInput => return refused(),
+            Cut::PlantInput | Cut::Between(_) => return refused(),
         };
         let mut all = vec![("kind", requirement.name().into()), ("at", cut)];
         all.append(&mut bound);

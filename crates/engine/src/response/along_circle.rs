@@ -175,6 +175,14 @@ impl<A: Along> Asked<A> {
                 }
             }
         }
+        // The steady state is often the same for all gains, and pieces near to it are small.
+        let whole = A::pieces();
+        let mut ends = whole.first().map(|ends| &ends[0]).into_iter().chain(whole.last().map(|ends| &ends[1]));
+        let is_forbidden =
+            |end: &Rational| self.told(&self.cell(&[end.clone(), end.clone()], 0)) == Crossing::Forbidden;
+        if self.crossing.is_none() && ends.any(is_forbidden) {
+            return Some(false);
+        }
         let mut pieces: Vec<Piece> = Vec::new();
         // The number of the look that showed that not all points of the box meet the requirement, or that this is not seen.
         let mut hopeless = None;
@@ -200,7 +208,7 @@ impl<A: Along> Asked<A> {
             pieces.push(Piece { lower, upper, crossing: here });
             Ok(Look::Decided(()))
         };
-        let whole: Vec<_> = A::pieces().iter().map(|ends| self.cell(ends, 0)).collect();
+        let whole: Vec<_> = whole.iter().map(|ends| self.cell(ends, 0)).collect();
         let all = subdivide(whole, Order::Breadth, &Budget::unlimited(), look);
         if let Ok(Err(Some(is_met))) = all {
             return Some(is_met);

@@ -5,7 +5,7 @@ use super::opened::OpenedLoop;
 use super::place::{modulus_squared, product};
 use super::requirement::{Circle, Requirement, Rule};
 use crate::error::{Code, Diagnostic, Error};
-use crate::model::{ClosedLoop, Cut};
+use crate::model::{Cut, Opened};
 use crate::problem::{Problem, fixed_symbols};
 use crate::stability::Shape;
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -122,7 +122,11 @@ pub(crate) struct Boundaries<R> {
 
 impl<R: Parameters> Family<R> {
     pub fn of(problem: &Problem, at: Option<&str>, budget: &Budget) -> Result<Family<R>, Error> {
-        let mut opened = OpenedLoop::of(problem, at, budget)?;
+        Family::of_cut(problem, problem.model().cut(at)?, budget)
+    }
+
+    pub fn of_cut(problem: &Problem, cut: Cut, budget: &Budget) -> Result<Family<R>, Error> {
+        let mut opened = OpenedLoop::of(problem, cut, budget)?;
         if !R::HAS_SYMBOLS {
             opened = opened.without_symbols()?;
         }
@@ -163,17 +167,18 @@ impl<R: Parameters> Family<R> {
 }
 
 impl<R: Domain> Quotient<R> {
-    /// From the cut to the cut, and the common denominator of all coefficients.
+    /// From the cut to the cut, and the common denominator of all coefficients. A closed loop `N/D` is that of `N/(D - N)`.
     pub fn of(
-        system: &ClosedLoop,
+        Opened { system, is_closed, .. }: &Opened,
         shape: Shape,
         ring: impl Fn(&MultiPoly) -> R,
         budget: &Budget,
     ) -> Result<(Quotient<R>, R), Error> {
         let column = system.inputs.len().max(system.e.columns()) - 1;
         let transfer = system.between(0, column).transfer_function_at(0, column, budget)?;
+        let signed = |f: &RationalFunction| if *is_closed { f.clone() } else { -f };
         let all: Vec<RationalFunction> =
-            transfer.denominator.coefficients.iter().cloned().chain(transfer.numerator.iter().map(|f| -f)).collect();
+            transfer.denominator.coefficients.iter().cloned().chain(transfer.numerator.iter().map(signed)).collect();
         budget
             .enter(|| {
                 let common = all.iter().fold(R::one(), |l, f| {
@@ -185,8 +190,9 @@ impl<R: Domain> Quotient<R> {
                     ring(f.numerator()).times(&factor)
                 };
                 let split = transfer.denominator.coefficients.len();
-                let denominator = Poly::new(all[..split].iter().map(cleared).collect());
-                let numerator = Poly::new(all[split..].iter().map(cleared).collect());
+                let denominator: Poly<R> = Poly::new(all[..split].iter().map(cleared).collect());
+                let numerator: Poly<R> = Poly::new(all[split..].iter().map(cleared).collect());
+                let denominator = if *is_closed { denominator.minus(&numerator) } else { denominator };
                 (Quotient { denominator, numerator, shape }, common)
             })
             .map_err(Error::from)
@@ -346,7 +352,10 @@ impl Expanded {
 
 /// The refusal of a cut through which there is no loop.
 pub(super) fn nothing_comes_back(cut: &Cut) -> Error {
-    let message = format!("nothing comes back to '{}': there is no loop through it", cut.name());
+    let message = match cut {
+        Cut::Between(between) => format!("nothing comes from '{}' to '{}'", between.input, between.output),
+        _ => format!("nothing comes back to '{}': there is no loop through it", cut.name()),
+    };
     Diagnostic::error(Code::Cut, message).into()
 }
 

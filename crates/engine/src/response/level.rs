@@ -5,7 +5,7 @@ use super::family::{Elimination, Family};
 use super::required_set::not_decided;
 use super::requirement::{Circle, Found, Requirement, Rule};
 use crate::error::Error;
-use crate::model::Time;
+use crate::model::{Between, Time};
 use crate::problem::{DECAY, Problem, RADIUS, Region};
 use crate::stability::Shape;
 use crate::stability::plane::{PlanePolynomial, boundary_curves};
@@ -13,6 +13,7 @@ use crate::stability::sector::on_edge_of;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RealAlgebraic, resultant};
+use jurist_algebra::real::Real;
 use std::cmp::Ordering;
 use std::sync::Arc;
 
@@ -44,6 +45,8 @@ pub enum Level {
     ComplementaryPeak,
     /// The balanced disk margin; its scale is half of it.
     DiskMargin,
+    /// The peak gain of a transfer function of the closed loop; its scale is the inverse.
+    Norm,
 }
 
 /// A level with its number: a smaller region, or a requirement.
@@ -56,7 +59,7 @@ pub enum LevelAsked {
 }
 
 impl Level {
-    /// All levels.
+    /// All levels that are asked for by their names alone.
     pub const ALL: [Level; 8] = [
         Level::Decay,
         Level::Radius,
@@ -79,6 +82,7 @@ impl Level {
             Level::ModulusMargin => "modulus_margin",
             Level::ComplementaryPeak => "complementary_peak",
             Level::DiskMargin => "disk_margin",
+            Level::Norm => "norm",
         }
     }
 
@@ -89,7 +93,7 @@ impl Level {
 
     /// Whether more of it is better.
     pub fn is_greatest_best(self) -> bool {
-        !matches!(self, Level::Radius | Level::ComplementaryPeak)
+        !matches!(self, Level::Radius | Level::ComplementaryPeak | Level::Norm)
     }
 
     /// Whether it is better where its scale is greater.
@@ -116,7 +120,9 @@ impl Level {
             Level::Radius | Level::Damping => [Rational::ZERO, Rational::ONE],
             Level::GainMargin => [Rational::ONE, far()],
             Level::PhaseMargin => [Rational::from(-2), Rational::from(2)],
-            Level::ModulusMargin | Level::ComplementaryPeak | Level::DiskMargin => [Rational::ZERO, far()],
+            Level::ModulusMargin | Level::ComplementaryPeak | Level::DiskMargin | Level::Norm => {
+                [Rational::ZERO, far()]
+            }
         }
     }
 
@@ -125,6 +131,15 @@ impl Level {
     /// # Errors
     /// `E-require` for a value that is not strictly between them.
     pub fn asked(self, scale: &Rational) -> Result<LevelAsked, Error> {
+        self.asked_between(scale, None)
+    }
+
+    /// The same of a level that is between two signals.
+    ///
+    /// # Errors
+    /// As [`Level::asked`], and of a peak gain without signals.
+    pub fn asked_between(self, scale: &Rational, between: Option<&Between>) -> Result<LevelAsked, Error> {
+        let not_above_zero = || super::requirement::not_understood(self.name(), "above 0");
         Ok(match self {
             Level::Decay => LevelAsked::Region(Region::half_plane(scale.clone())),
             Level::Radius => LevelAsked::Region(Region::disc(scale.clone())?),
@@ -133,8 +148,13 @@ impl Level {
             Level::PhaseMargin => LevelAsked::Requirement(Requirement::phase_margin_by_cosine(scale)?),
             Level::ModulusMargin => LevelAsked::Requirement(Requirement::modulus_margin(scale.clone())?),
             Level::ComplementaryPeak => {
-                let peak = scale.recip().ok_or_else(|| super::requirement::not_understood(self.name(), "above 0"))?;
-                LevelAsked::Requirement(Requirement::complementary_peak(peak)?)
+                LevelAsked::Requirement(Requirement::complementary_peak(scale.recip().ok_or_else(not_above_zero)?)?)
+            }
+            Level::Norm => {
+                let needs = || super::requirement::not_understood(self.name(), "needs an input and an output");
+                let between = between.ok_or_else(needs)?;
+                let peak = scale.recip().ok_or_else(not_above_zero)?;
+                LevelAsked::Requirement(Requirement::norm(between.clone(), peak)?)
             }
             Level::DiskMargin => LevelAsked::Requirement(Requirement::disk_margin(scale + scale)?),
         })
@@ -145,7 +165,7 @@ impl Level {
         let half = || Enclosure::from_rational(Rational::new(1.into(), 2.into()));
         match self {
             Level::PhaseMargin => Some(degrees(&scale.mul(&half(), bits + 8).acos(bits + 8), bits)),
-            Level::ComplementaryPeak => Enclosure::from_rational(Rational::ONE).div(scale, bits),
+            Level::ComplementaryPeak | Level::Norm => Enclosure::from_rational(Rational::ONE).div(scale, bits),
             Level::DiskMargin => Some(scale.mul(&Enclosure::from_rational(Rational::from(2)), bits)),
             _ => Some(scale.clone()),
         }
@@ -204,7 +224,7 @@ impl Problem {
     /// Unless one parameter is free.
     pub fn boundary_in_level(
         self: &Arc<Self>,
-        level: Level,
+        (level, between): (Level, Option<&Between>),
         requirements: &[Requirement],
         at: Option<&str>,
         budget: &Budget,
@@ -219,15 +239,18 @@ impl Problem {
                 false => self.boundary_of_stability(budget)?.map(|list| list.iter().map(beside).collect()),
             };
             let Some(all) = &mut found else { return Ok(None) };
-            let asked = match level.asked(&level.inside())? {
+            let asked = match level.asked_between(&level.inside(), between)? {
                 LevelAsked::Requirement(requirement) => Some(requirement),
                 LevelAsked::Region(_) => None,
             };
-            let needs_cut = requirements.iter().chain(&asked).any(Requirement::needs_cut);
-            let family: Option<Family<MultiPoly>> = match needs_cut {
-                true => Some(Family::of(&self.without_region(), at, budget)?),
-                false => None,
+            let whole = self.without_region();
+            let family_of = |mut list: Vec<&Requirement>| -> Result<Option<Family<MultiPoly>>, Error> {
+                list.retain(|requirement| requirement.needs_cut());
+                let Some(first) = list.first() else { return Ok(None) };
+                Family::of_cut(&whole, first.cut(self, at)?, budget).map(Some)
             };
+            Requirement::refuse_signals(requirements)?;
+            let family = family_of(requirements.iter().collect())?;
             let closed = || -> Result<Option<Poly<MultiPoly>>, Error> {
                 let plain = self.without_region();
                 let polynomial = plain.algebra(budget)?.polynomial().map(PlanePolynomial::new);
@@ -248,7 +271,7 @@ impl Problem {
                 }
             }
             if let Some(asked) = &asked {
-                match (asked.rule(), &family) {
+                match (asked.rule(), &family_of(vec![asked])?) {
                     (Rule::Sector(_), _) if self.shape() == Shape::LeftHalfPlane => {
                         let Some(closed) = closed()? else { return Ok(None) };
                         let [first, second] = on_edge_of(&closed, [&MultiPoly::variable(0), &MultiPoly::one()]);
@@ -284,11 +307,19 @@ impl Problem {
     /// When a parameter is free.
     pub fn level_at(
         self: &Arc<Self>,
-        level: Level,
+        (level, between): (Level, Option<&Between>),
         at: Option<&str>,
         bits: u64,
         budget: &Budget,
     ) -> Result<Option<Enclosure>, Error> {
+        let enclosed = |number: &Real| {
+            let (low, high) = number.refined_to_digits(bits as usize * 3 / 10 + 2).enclosure();
+            Enclosure::new(low, high)
+        };
+        if let (Level::Norm, Some(between)) = (level, between) {
+            let norm = self.norm(&between.input, &between.output, budget)?.into_value();
+            return Ok(budget.enter(|| norm.peak.map(|peak| enclosed(&peak.value)))?);
+        }
         let LevelAsked::Requirement(requirement) = level.asked(&level.inside())? else { return Ok(None) };
         if !requirement.needs_cut() {
             return Ok(None);
@@ -297,10 +328,7 @@ impl Problem {
         let all = margins.value();
         let found = all.stable.as_ref().and_then(|stable| requirement.found(all, stable));
         Ok(budget.enter(|| match found? {
-            Found::Number(number) => {
-                let (low, high) = number.refined_to_digits(bits as usize * 3 / 10 + 2).enclosure();
-                Some(Enclosure::new(low, high))
-            }
+            Found::Number(number) => Some(enclosed(&number)),
             Found::Enclosed(enclose) => enclose(bits),
         })?)
     }

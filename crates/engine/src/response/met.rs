@@ -7,8 +7,11 @@ use super::open_loop::OpenLoop;
 use super::parts::with_parts;
 use super::requirement::{Circle, Found, Requirement, Rule};
 use super::value::{Value, square_root};
+use super::{DelayMargin, HeldDelay};
+use crate::error::{Code, Diagnostic, Error};
+use crate::precisions::REQUIRED_DELAY;
 use jurist_algebra::limits::{Budget, Exhausted};
-use jurist_algebra::number::Integer;
+use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{Domain, RealAlgebraic, UniPoly};
 use jurist_algebra::real::Real;
 use std::cmp::Ordering;
@@ -131,5 +134,47 @@ fn circle_extreme(open_loop: &OpenLoop, circle: &Circle, budget: &Budget) -> Res
             return Ok(None);
         }
         extreme_over(&parts.ground, &r.sum_squared, &below, r.frequencies, Ordering::Less, budget).map(Some)
+    })
+}
+
+/// Whether a stable loop bears all dead times less than one.
+pub(super) fn bears(margins: &Margins, least: &Rational, budget: &Budget) -> Result<bool, Error> {
+    let Some(stable) = &margins.stable else { return Ok(false) };
+    match (&stable.delay, &margins.held_delay) {
+        (DelayMargin::Unbounded, _) => Ok(true),
+        (DelayMargin::Zero, _) => Ok(false),
+        (DelayMargin::DeadTime(i), _) => {
+            let crossing = &margins.crossings.gain[*i];
+            let enclose = |bits| crossing.delay(margins.open_loop.frequencies(), bits);
+            Ok(is_at_least(enclose, least, budget)?)
+        }
+        (_, Some(HeldDelay { samples, period, .. })) => {
+            let needed = least.checked_div(period).expect("a sample time is positive");
+            Ok(match samples {
+                Some(samples) => budget.enter(|| samples.compare_rational(&needed).is_ge())?,
+                None => needed <= Rational::from(HeldDelay::LOOKED_AT),
+            })
+        }
+        (DelayMargin::Samples(m) | DelayMargin::SamplesAtLeast(m), None) => {
+            let Some(step) = margins.open_loop.sample_time() else {
+                let message = "a delay margin of a discrete loop needs its sample time";
+                return Err(Diagnostic::error(Code::Require, message).into());
+            };
+            Ok(&Rational::from(*m) * step >= *least)
+        }
+    }
+}
+
+fn is_at_least(
+    enclose: impl Fn(u64) -> Option<Enclosure>,
+    least: &Rational,
+    budget: &Budget,
+) -> Result<bool, Exhausted> {
+    REQUIRED_DELAY.decide("comparing a delay with the required one", |bits| {
+        Ok(match budget.enter(|| enclose(bits))? {
+            Some(e) if e.lower() >= least => Some(true),
+            Some(e) if e.upper() < least => Some(false),
+            _ => None,
+        })
     })
 }

@@ -2,13 +2,16 @@
 
 use super::extreme::extreme_over;
 use super::ground::Ground;
-use super::open_loop::Over;
+use super::met::AtPoint;
+use super::open_loop::{OpenLoop, Over};
 use super::parts::Parts;
+use super::requirement::Requirement;
 use super::value::square_root;
 use super::{Extreme, Frequencies};
 use crate::answer::{Answer, Frequency, PointVerdict, Verdict};
 use crate::coverage::refusals::FEEDBACK;
-use crate::error::{Code, Diagnostic, Error};
+use crate::error::Error;
+use crate::model::no_transfer_of_several_rates;
 use crate::problem::{Problem, Question};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
@@ -82,12 +85,10 @@ fn dead_time_in_the_feedback() -> Error {
 
 /// Refuses a loop of several rates.
 pub(super) fn of_one_rate(problem: &Problem) -> Result<(), Error> {
-    if problem.model().hyperperiod() == 1 {
-        return Ok(());
+    match problem.model().hyperperiod() {
+        1 => Ok(()),
+        _ => Err(no_transfer_of_several_rates()),
     }
-    let message = "a loop of several rates has no transfer function from sample to sample, so no peak gain";
-    let error = Diagnostic::error(Code::RateMargin, message);
-    Err(error.help("'margins' has the loop at a signal that is used once in a hyperperiod").into())
 }
 
 impl Question {
@@ -145,5 +146,11 @@ impl Problem {
             let frequencies = over.frequencies();
             Ok(Answer::new(Arc::clone(self), Norm { input, output, verdict, peak, frequencies, sample_time }))
         })?
+    }
+
+    /// Whether the transfer function of a stable loop between two signals has at most a peak gain.
+    pub(super) fn is_norm_met(self: &Arc<Self>, requirement: &Requirement, budget: &Budget) -> Result<bool, Error> {
+        let open_loop = OpenLoop::of_cut(self, requirement.cut(self, None)?, budget)?;
+        Ok(AtPoint::new(&open_loop).meets(requirement, budget)?)
     }
 }

@@ -98,7 +98,18 @@ impl OpenLoop {
             },
             (Err(refused), _) => return Err(refused.into()),
         };
+        OpenLoop::cut_at(problem, cut, or_enclosed, budget)
+    }
+
+    /// The loop of a problem without free parameters at a cut, also where nothing comes back.
+    pub(super) fn of_cut(problem: &Problem, cut: Cut, budget: &Budget) -> Result<OpenLoop, Error> {
+        OpenLoop::cut_at(problem, cut, true, budget)
+    }
+
+    fn cut_at(problem: &Problem, cut: Cut, or_enclosed: bool, budget: &Budget) -> Result<OpenLoop, Error> {
+        let model = problem.model();
         let shape = problem.shape();
+        let or_enclosed = or_enclosed && !matches!(cut, Cut::Between(_));
         let ((over, dead_time), sample_time) = match &cut {
             Cut::Gain(name) => by_gain(problem, name, budget)?,
             _ if or_enclosed && model.has_holds() => exact_or_enclosed(
@@ -390,14 +401,19 @@ fn split_delay(
 
 /// The loop opened at a signal, with polynomials over the constants of holds, and the sample time.
 fn opened_exactly(problem: &Problem, cut: &Cut, budget: &Budget) -> Result<WithTimes, Error> {
-    let Opened { system, sample_time, symbols } = problem.model().opened(cut, &[], problem.set(), budget)?;
+    let Opened { system, sample_time, symbols, is_closed } = problem.model().opened(cut, &[], problem.set(), budget)?;
     let shape = problem.shape();
     let over = if system.is_complex {
         let [denominator, numerator] = system.complex_transfer(0, system.inputs.len() / 2 - 1, budget)?;
         let lists = [denominator.re, denominator.im, negated(&numerator.re), negated(&numerator.im)];
         budget.enter(|| Over::of_complex(lists, Vec::new(), &symbols, shape))??
     } else {
-        let (denominator, numerator) = returned(&system, budget)?;
+        let (mut denominator, mut numerator) = returned(&system, budget)?;
+        if is_closed {
+            // L = T/(1 - T)
+            numerator = negated(&numerator);
+            denominator = differences(&denominator, &numerator);
+        }
         budget.enter(|| Over::new(denominator, numerator, Vec::new(), &symbols, shape))??
     };
     Ok((over, sample_time.and_then(|t| t.as_constant())))
@@ -408,6 +424,12 @@ fn returned(system: &ClosedLoop, budget: &Budget) -> Result<(Vec<RationalFunctio
     let column = system.inputs.len().max(system.e.columns()) - 1;
     let transfer = system.transfer_function_at(0, column, budget)?;
     Ok((transfer.denominator.coefficients, negated(&transfer.numerator)))
+}
+
+/// The coefficients of the difference of two polynomials.
+fn differences(a: &[RationalFunction], b: &[RationalFunction]) -> Vec<RationalFunction> {
+    let coefficient = |list: &[RationalFunction], k: usize| list.get(k).cloned().unwrap_or_default();
+    (0..a.len().max(b.len())).map(|k| &coefficient(a, k) - &coefficient(b, k)).collect()
 }
 
 fn negated(list: &[RationalFunction]) -> Vec<RationalFunction> {

@@ -3,7 +3,7 @@
 use super::family::{Quotient, nothing_comes_back};
 use crate::coverage::refusals::MARGINS_IN_ONE;
 use crate::error::{Code, Diagnostic, Error};
-use crate::model::{ClosedLoop, Cut, Evaluated, Opened, Symbols};
+use crate::model::{Cut, Evaluated, Opened, Symbols};
 use crate::problem::Problem;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
@@ -21,7 +21,7 @@ pub(super) struct OpenedLoop<'p> {
 
 enum Of {
     /// The system from the cut to the cut.
-    System(Box<ClosedLoop>),
+    System(Box<Opened>),
     /// The characteristic polynomial without the gain, what the gain adds to it, and where they are undefined.
     Gain { open: Poly<MultiPoly>, back: Poly<MultiPoly>, undefined: MultiPoly },
 }
@@ -31,15 +31,14 @@ impl<'p> OpenedLoop<'p> {
     ///
     /// # Errors
     /// As [`Model::cut`](crate::model::Model::cut); `E-cut` where a parameter does not enter as a gain.
-    pub fn of(problem: &'p Problem, at: Option<&str>, budget: &Budget) -> Result<OpenedLoop<'p>, Error> {
-        let cut = problem.model().cut(at)?;
+    pub fn of(problem: &'p Problem, cut: Cut, budget: &Budget) -> Result<OpenedLoop<'p>, Error> {
         let kept: Vec<String> = problem.free().iter().map(|free| free.name.clone()).collect();
         let (of, sample_time, symbols) = match &cut {
             Cut::Gain(name) => with_gain(problem, name, &kept, budget)?,
             _ => {
-                let Opened { system, sample_time, symbols } =
-                    problem.model().opened(&cut, &kept, problem.set(), budget)?;
-                (Of::System(Box::new(system)), sample_time, symbols)
+                let opened = problem.model().opened(&cut, &kept, problem.set(), budget)?;
+                let (sample_time, symbols) = (opened.sample_time.clone(), opened.symbols.clone());
+                (Of::System(Box::new(opened)), sample_time, symbols)
             }
         };
         Ok(OpenedLoop { problem, cut, sample_time, symbols, of })
@@ -61,7 +60,7 @@ impl<'p> OpenedLoop<'p> {
     ) -> Result<(Quotient<R>, R), Error> {
         let shape = self.problem.shape();
         let (quotient, undefined) = match &self.of {
-            Of::System(system) => Quotient::of(system, shape, ring, budget)?,
+            Of::System(opened) => Quotient::of(opened, shape, ring, budget)?,
             Of::Gain { open, back, undefined } => {
                 let over = |p: &Poly<MultiPoly>| Poly::new(p.coeffs().iter().map(&ring).collect());
                 (Quotient { denominator: over(open), numerator: over(back), shape }, ring(undefined))

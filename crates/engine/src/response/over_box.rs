@@ -10,8 +10,11 @@ use super::loop_functions::{LoopFunctions, dead_time, number_asked};
 use super::on_circle::twice_real;
 use super::opened::OpenedLoop;
 use super::requirement::{Requirement, Rule};
-use super::taylor_along::{beyond_axis, binomial, combined, combined_to, of_octave, on_ray, on_wider_disc};
+use super::taylor_along::{
+    beyond_axis, binomial, combined, combined_to, of_octave, on_ray, on_wider_disc, to_half_plane,
+};
 use crate::error::Error;
+use crate::model::Cut;
 use crate::problem::{Problem, parametric_symbols};
 use crate::stability::Shape;
 use jurist_algebra::ball::{Ball, Elementary, MultiTaylorModel, exp};
@@ -20,6 +23,7 @@ use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly};
 use jurist_algebra::real::Real;
 use jurist_algebra::symbols::{Definition, ParametricSymbols};
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 /// Bits of coefficients, beside those that the box's size takes away.
@@ -98,7 +102,7 @@ impl OverBox {
                 };
                 (parametric_symbols(algebra.symbols())?, asks)
             }
-            rule => open_loop(&whole, rule, at, budget)?,
+            rule => open_loop(&whole, rule, requirement.cut(problem, at)?, budget)?,
         };
         OverBox::new(symbols, shape, asks, near, budget).map(Some)
     }
@@ -256,6 +260,17 @@ impl OverBox {
         divisors.iter().all(is_clear)
     }
 
+    /// Whether it is seen from signs that no point of a closed box is stable: brought to the half plane, the coefficients of a stable polynomial have
+    /// one sign.
+    pub fn is_unstable_by_signs(&self, sides: &[[Rational; 2]]) -> bool {
+        let Asks::Stable { coefficients, .. } = &self.asks else { return false };
+        let Some(values) = self.values(sides, bits_of(sides)) else { return false };
+        let d: Vec<MultiTaylorModel> = coefficients.iter().map(|p| self.symbols.value(p, &values)).collect();
+        let d = if self.shape == Shape::UnitDisc { to_half_plane(&d) } else { d };
+        let signs: Vec<_> = d.iter().filter_map(|c| Elementary::range(c).sign()).collect();
+        signs.contains(&Ordering::Less) && signs.contains(&Ordering::Greater)
+    }
+
     /// The parameters and symbols in a box.
     fn values(&self, sides: &[[Rational; 2]], bits: u64) -> Option<Vec<MultiTaylorModel>> {
         let line = |[low, high]: &[Rational; 2]| {
@@ -342,13 +357,8 @@ fn bits_of(sides: &[[Rational; 2]]) -> u64 {
 }
 
 /// The open loop in the free parameters and symbols, and the number that a rule asks for as the last of them.
-fn open_loop(
-    problem: &Problem,
-    rule: &Rule,
-    at: Option<&str>,
-    budget: &Budget,
-) -> Result<(ParametricSymbols, Asks), Error> {
-    let opened = OpenedLoop::of(problem, at, budget)?;
+fn open_loop(problem: &Problem, rule: &Rule, cut: Cut, budget: &Budget) -> Result<(ParametricSymbols, Asks), Error> {
+    let opened = OpenedLoop::of(problem, cut, budget)?;
     let (mut quotient, undefined) = opened.quotient(MultiPoly::clone, budget)?;
     let dead_time = dead_time(&mut quotient, &undefined, &opened.symbols)?;
     let table = match &dead_time {

@@ -11,6 +11,7 @@ use super::requirement::{Requirement, Rule};
 use super::{RequiredEnd, RequiredInterval, RequiredSet};
 use crate::coverage::refusals::DELAY_AT_POINTS;
 use crate::error::{Code, Diagnostic, Error};
+use crate::model::Cut;
 use crate::problem::{Problem, moving_symbols};
 use crate::stability::{Bracket, Range, StableInterval, StableSet, UndecidedBracket, told_apart, zeros_of_functions};
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -24,7 +25,7 @@ use std::sync::Arc;
 pub(super) struct SymbolicFamily<'a> {
     /// With the whole region of stability, whatever smaller one is asked for.
     problem: &'a Problem,
-    at: Option<&'a str>,
+    cut: Cut,
     quotient: Quotient<MultiPoly>,
     undefined: MultiPoly,
     symbols: MovingSymbols,
@@ -90,14 +91,14 @@ struct Candidate {
 
 impl<'a> SymbolicFamily<'a> {
     /// Of a loop without dead time; `None` of one in which everything is rational.
-    pub fn of(problem: &'a Problem, at: Option<&'a str>, budget: &Budget) -> Result<Option<Self>, Error> {
-        let opened = OpenedLoop::of(problem, at, budget)?;
+    pub fn of(problem: &'a Problem, cut: Cut, budget: &Budget) -> Result<Option<Self>, Error> {
+        let opened = OpenedLoop::of(problem, cut.clone(), budget)?;
         if opened.symbols.is_empty() {
             return Ok(None);
         }
         let (quotient, undefined) = opened.quotient(MultiPoly::clone, budget)?;
         let symbols = moving_symbols(&opened.symbols)?;
-        Ok(Some(SymbolicFamily { problem, at, quotient, undefined, symbols }))
+        Ok(Some(SymbolicFamily { problem, cut, quotient, undefined, symbols }))
     }
 
     /// The parts of the stable set in which all requirements are met, and where that is not told.
@@ -328,7 +329,7 @@ impl<'a> SymbolicFamily<'a> {
         budget: &Budget,
     ) -> Result<Vec<&'static str>, Error> {
         let problem = self.problem.with_value(value);
-        let open_loop = OpenLoop::of_any(&problem, self.at, budget)?;
+        let open_loop = OpenLoop::of_cut(&problem, self.cut.clone(), budget)?;
         let mut here = AtPoint::new(&open_loop);
         let mut out = Vec::new();
         for requirement in requirements {

@@ -111,6 +111,7 @@ impl Problem {
                 .map(|(requirements, map)| RequiredRegions { requirements, map })
                 .collect(),
         };
+        Requirement::refuse_signals(requirements)?;
         let whole = self.without_region();
         let (Some(p), Some(plain)) = (self.plane_over_symbols(budget)?, whole.plane_over_symbols(budget)?) else {
             return Ok(found(sets.iter().map(|_| StabilityMap::never_stable()).collect()));

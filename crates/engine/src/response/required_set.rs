@@ -4,20 +4,18 @@ use super::cells::Cells;
 use super::family::{Boundaries, Family};
 use super::for_all::AllOf;
 use super::margins::Margins;
-use super::met::AtPoint;
+use super::met::{AtPoint, bears};
 use super::on_roots::OnRoots;
 use super::open_loop::OpenLoop;
 use super::over_symbols::SymbolicFamily;
 use super::requirement::{Requirement, Rule};
-use super::{DelayMargin, HeldDelay};
 use crate::answer::{Answer, Verdict};
 use crate::coverage::refusals::DELAY_AT_POINTS;
 use crate::error::{Code, Diagnostic, Error};
-use crate::precisions::REQUIRED_DELAY;
 use crate::problem::Problem;
 use crate::stability::{End, Shape, StableInterval, StableSet, UndecidedBracket};
 use jurist_algebra::limits::{Budget, Exhausted};
-use jurist_algebra::number::{Enclosure, Rational};
+use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, UniPoly};
 use jurist_algebra::real::Real;
 use std::cmp::Ordering;
@@ -208,10 +206,16 @@ impl Problem {
             let stable = self.stable_set(budget)?.into_value();
             let (on_margins, on_roots): (Vec<Requirement>, Vec<Requirement>) =
                 requirements.iter().cloned().partition(Requirement::needs_cut);
+            let (between, on_margins): (Vec<Requirement>, Vec<Requirement>) =
+                on_margins.into_iter().partition(|requirement| requirement.signals().is_some());
             let mut found = match on_margins.is_empty() {
                 true => RequiredSet::from(&stable),
                 false => self.with_margins(&on_margins, &stable, at, budget)?,
             };
+            for requirement in &between {
+                let own = self.with_margins(std::slice::from_ref(requirement), &stable, at, budget)?;
+                found = found.intersection(&own, budget)?;
+            }
             for requirement in &on_roots {
                 budget.step(requirement.name());
                 let own = self.on_roots(requirement, budget)?.required_set(requirement, &stable, budget)?;
@@ -221,7 +225,7 @@ impl Problem {
         })?
     }
 
-    /// The parts of the stable set in which requirements on margins are met.
+    /// The parts of the stable set in which requirements on margins are met, all of them at one cut.
     pub(super) fn with_margins(
         self: &Arc<Self>,
         requirements: &[Requirement],
@@ -234,12 +238,13 @@ impl Problem {
             budget.step("boundaries of the requirements");
             return whole.required_with_dead_time(requirements, stable, at, budget);
         }
-        let over_symbols = SymbolicFamily::of(&whole, at, budget)?;
+        let cut = requirements[0].cut(self, at)?;
+        let over_symbols = SymbolicFamily::of(&whole, cut.clone(), budget)?;
         budget.step("boundaries of the requirements");
         if let Some(family) = over_symbols {
             return family.required_set(requirements, stable, budget);
         }
-        let family = Family::of(self, at, budget)?;
+        let family = Family::of_cut(self, cut, budget)?;
         let boundaries: Vec<_> =
             requirements.iter().map(|r| boundaries(r, &family, budget)).collect::<Result<_, Error>>()?;
         if !stable.undecided().is_empty() {
@@ -288,7 +293,8 @@ impl Problem {
         }
         budget.enter(|| {
             let stable = self.verdict(budget)?.value().verdict == Verdict::Stable;
-            let (margins, zero_loop) = match requirements.iter().any(Requirement::needs_cut) {
+            let is_at_cut = |r: &Requirement| r.needs_cut() && r.signals().is_none();
+            let (margins, zero_loop) = match requirements.iter().any(is_at_cut) {
                 true => {
                     let is_delay = requirements.iter().any(|r| matches!(r.rule(), Rule::DeadTime(_)));
                     match self.margins_with(at, &Rational::ZERO, is_delay, budget) {
@@ -304,6 +310,11 @@ impl Problem {
             };
             let mut out = Vec::with_capacity(requirements.len());
             for requirement in requirements {
+                if requirement.signals().is_some() {
+                    let met = stable && self.is_norm_met(requirement, budget)?;
+                    out.push(RequirementMet { requirement: requirement.clone(), margins: None, met });
+                    continue;
+                }
                 let open_loop = margins.as_ref().map(|m| &m.open_loop).or(zero_loop.as_ref());
                 let known = match margins.as_ref().and_then(|m| Some((m, m.stable.as_ref()?))) {
                     Some((all, stable)) => requirement.is_met_by(all, stable, budget)?,
@@ -352,46 +363,4 @@ fn boundaries(
 pub(super) fn not_decided(requirement: &Requirement) -> Error {
     let message = format!("the requirement {} is not decided for this loop", requirement.name());
     Diagnostic::error(Code::Require, message).help("a polynomial of its boundary vanishes for every value").into()
-}
-
-/// Whether a stable loop bears all dead times less than one.
-fn bears(margins: &Margins, least: &Rational, budget: &Budget) -> Result<bool, Error> {
-    let Some(stable) = &margins.stable else { return Ok(false) };
-    match (&stable.delay, &margins.held_delay) {
-        (DelayMargin::Unbounded, _) => Ok(true),
-        (DelayMargin::Zero, _) => Ok(false),
-        (DelayMargin::DeadTime(i), _) => {
-            let crossing = &margins.crossings.gain[*i];
-            let enclose = |bits| crossing.delay(margins.open_loop.frequencies(), bits);
-            Ok(is_at_least(enclose, least, budget)?)
-        }
-        (_, Some(HeldDelay { samples, period, .. })) => {
-            let needed = least.checked_div(period).expect("a sample time is positive");
-            Ok(match samples {
-                Some(samples) => budget.enter(|| samples.compare_rational(&needed).is_ge())?,
-                None => needed <= Rational::from(HeldDelay::LOOKED_AT),
-            })
-        }
-        (DelayMargin::Samples(m) | DelayMargin::SamplesAtLeast(m), None) => {
-            let Some(step) = margins.open_loop.sample_time() else {
-                let message = "a delay margin of a discrete loop needs its sample time";
-                return Err(Diagnostic::error(Code::Require, message).into());
-            };
-            Ok(&Rational::from(*m) * step >= *least)
-        }
-    }
-}
-
-fn is_at_least(
-    enclose: impl Fn(u64) -> Option<Enclosure>,
-    least: &Rational,
-    budget: &Budget,
-) -> Result<bool, Exhausted> {
-    REQUIRED_DELAY.decide("comparing a delay with the required one", |bits| {
-        Ok(match budget.enter(|| enclose(bits))? {
-            Some(e) if e.lower() >= least => Some(true),
-            Some(e) if e.upper() < least => Some(false),
-            _ => None,
-        })
-    })
 }

@@ -65,7 +65,7 @@ pub enum OverPoints {
 /// What is asked.
 enum Asked {
     Stability(LoopFamily),
-    Requirement { one: Requirement, at: Option<String> },
+    Requirement { one: Box<Requirement>, at: Option<String> },
 }
 
 /// A loop as the family that proves boxes of it.
@@ -108,7 +108,7 @@ impl RequirementBoxes {
         budget: &Budget,
     ) -> Result<Option<RequirementBoxes>, Error> {
         let over = OverBox::of(problem, requirement, at, near, budget)?;
-        let asked = Asked::Requirement { one: requirement.clone(), at: at.map(str::to_owned) };
+        let asked = Asked::Requirement { one: Box::new(requirement.clone()), at: at.map(str::to_owned) };
         Ok(over.map(|over| RequirementBoxes { problem: Arc::clone(problem), over: Some(over), asked }))
     }
 
@@ -211,6 +211,13 @@ impl RequirementBoxes {
     /// What the family of loops proves of the stability of a box; `None` where there is none, or a requirement is asked.
     fn by_family(&self, sides: &[[Rational; 2]], budget: &Budget) -> Result<Option<OverPoints>, Exhausted> {
         let Asked::Stability(family) = &self.asked else { return Ok(None) };
+        let is_unstable_by_signs = || match (family, &self.over) {
+            (LoopFamily::Rational(family), _) => family.is_unstable_by_signs(sides),
+            (_, over) => over.as_ref().is_some_and(|over| over.is_unstable_by_signs(sides)),
+        };
+        if budget.enter(is_unstable_by_signs)? {
+            return Ok(Some(OverPoints::None));
+        }
         Ok(Some(match family {
             LoopFamily::Rational(family) => self.same_count(family.as_ref(), sides, budget)?,
             LoopFamily::Moving(family) => self.same_count(family.as_ref(), sides, budget)?,

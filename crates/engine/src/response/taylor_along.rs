@@ -61,6 +61,19 @@ pub(super) fn beyond_axis(p: &[MultiTaylorModel], halvings: u64) -> Vec<MultiTay
     })
 }
 
+/// Of `p` in `w = z - 1` the polynomial `(1 - s)^n p` at `w = 2 s/(1 - s)`, whose roots are in the left half plane where those of `p` are in the disc.
+pub(super) fn to_half_plane(p: &[MultiTaylorModel]) -> Vec<MultiTaylorModel> {
+    let n = p.len() - 1;
+    // (2 s)^k (1 - s)^(n - k)
+    combined(p, |j, k| match j.checked_sub(k) {
+        Some(i) if i <= n - k => {
+            let size = binomial(n - k, i) << k as u64;
+            if i % 2 == 0 { size } else { -size }
+        }
+        _ => Integer::ZERO,
+    })
+}
+
 /// Sums of multiples, as many as there are terms.
 pub(super) fn combined(p: &[MultiTaylorModel], share: impl Fn(usize, usize) -> Integer) -> Vec<MultiTaylorModel> {
     combined_to(p, p.len(), share)

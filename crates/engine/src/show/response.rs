@@ -62,6 +62,7 @@ fn cut_text(cut: &Cut) -> String {
         Cut::Input(_) => format!("at the input of '{name}'"),
         Cut::PlantInput => format!("at the plant's input {name} = -K y"),
         Cut::Gain(_) => format!("at the gain '{name}'"),
+        Cut::Between(_) => format!("between '{name}'"),
     }
 }
 

@@ -1,5 +1,6 @@
 //! A characteristic polynomial in any number of parameters, in the form that boxes of parameters are decided by.
 
+use super::tensor::expand;
 use crate::{AtPoint, Cause, Shape, count_roots};
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Integer, Rational};
@@ -237,6 +238,36 @@ impl BoxPolynomial {
     /// Whether the loop is stable at a point: defined, of full degree, all roots inside.
     pub fn is_stable_at(&self, point: &[Rational]) -> bool {
         self.at(point).is_stable(self.formal_degree)
+    }
+
+    /// Whether it is seen from signs that no point of a closed box is stable: the coefficients in the half plane of a stable polynomial have one sign.
+    ///
+    /// Where roots coincide at the boundary of the region, counts of roots tell in small boxes only, and signs in wide ones.
+    ///
+    /// Cost: the Bernstein coefficients of all coefficients.
+    ///
+    /// ```
+    /// use jurist_algebra::number::Rational;
+    /// use jurist_algebra::poly::{Domain, MultiPoly, Poly};
+    /// use jurist_stability::Shape;
+    /// use jurist_stability::boxes::BoxPolynomial;
+    /// // s^2 + (a - 3) s + b
+    /// let [a, b] = [0, 1].map(MultiPoly::variable);
+    /// let p = Poly::new(vec![b, a.minus(&MultiPoly::constant(3.into())), MultiPoly::one()]);
+    /// let p = BoxPolynomial::of_parts(p, 2, [], 2, Shape::LeftHalfPlane);
+    /// let side = |low: i64, high: i64| [low, high].map(Rational::from);
+    /// assert!(p.is_unstable_by_signs(&[side(0, 2), side(-9, 9)]));
+    /// assert!(!p.is_unstable_by_signs(&[side(0, 4), side(-9, 9)]));
+    /// ```
+    pub fn is_unstable_by_signs(&self, sides: &[[Rational; 2]]) -> bool {
+        let all = expand(&self.coefficients, sides);
+        let (mut is_positive, mut is_negative) = (false, false);
+        for k in 0..self.coefficients.width {
+            let mut of_one = all.iter().skip(k).step_by(self.coefficients.width);
+            is_positive |= of_one.clone().all(|c| c.sign().is_gt());
+            is_negative |= of_one.all(Integer::is_negative);
+        }
+        is_positive && is_negative
     }
 
     /// `E_0, ..., E_k, O_0, ..., O_k` with `P(i w) = E(w^2) + i w O(w^2)`.

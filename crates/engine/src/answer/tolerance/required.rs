@@ -44,6 +44,7 @@ impl Problem {
         budget: &Budget,
     ) -> Result<RequiredBox, Error> {
         self.refuse_complex(budget)?;
+        Requirement::refuse_signals(std::slice::from_ref(requirement))?;
         let breaks =
             |point: &[Rational]| self.breaks(requirement, &point[..sides.len()], request, (base, truth), budget);
         let mut asked =

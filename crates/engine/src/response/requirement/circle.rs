@@ -1,5 +1,6 @@
 //! A circle that the open loop keeps to one side of.
 
+use crate::model::Between;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, Poly};
 
@@ -13,11 +14,18 @@ pub(crate) struct Circle {
     least: Rational,
     /// The number that the user wrote; `least` is computed from it.
     asked: Rational,
+    /// The signals between which it is, where it is not about the loop at a cut.
+    between: Option<Between>,
 }
 
 impl Circle {
     pub fn new(combined: [i64; 2], least: Rational, asked: Rational) -> Circle {
-        Circle { combined, least, asked }
+        Circle { combined, least, asked, between: None }
+    }
+
+    /// The same of the transfer function between two signals in the place of `L/(1 + L)`.
+    pub fn between(self, between: Between) -> Circle {
+        Circle { between: Some(between), ..self }
     }
 
     /// The number that the user wrote.
@@ -33,6 +41,11 @@ impl Circle {
     /// The least `|1 + L|/|u + v L|`.
     pub fn least(&self) -> &Rational {
         &self.least
+    }
+
+    /// The signals between which it is.
+    pub fn signals(&self) -> Option<&Between> {
+        self.between.as_ref()
     }
 
     /// `u D0 + v N`.

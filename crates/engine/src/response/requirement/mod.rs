@@ -14,6 +14,7 @@ mod gain_margin;
 #[cfg(test)]
 mod lists;
 mod modulus_margin;
+mod norm;
 mod phase_margin;
 mod radius;
 mod settling_time;
@@ -24,8 +25,8 @@ pub(crate) use settling_time::radius_below;
 
 use super::{Margins, StableMargins};
 use crate::error::{Code, Diagnostic, Error};
-use crate::model::Time;
-use crate::problem::Region;
+use crate::model::{Between, Cut, Time};
+use crate::problem::{Problem, Region};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Enclosure, Rational, parse_number};
 use jurist_algebra::poly::RealAlgebraic;
@@ -207,6 +208,28 @@ impl Requirement {
     /// Whether the loop's number is to be at least the required one, not at most.
     pub(crate) fn is_least(&self) -> bool {
         self.kind.sense.starts_with('>')
+    }
+
+    /// The signals between which it is, where it is not about the loop at a cut.
+    pub(crate) fn signals(&self) -> Option<&Between> {
+        let Rule::Circle(circle) = &self.rule else { return None };
+        circle.signals()
+    }
+
+    /// Where the loop is cut for it.
+    pub(crate) fn cut(&self, problem: &Problem, at: Option<&str>) -> Result<Cut, Error> {
+        Ok(match self.signals() {
+            Some(between) => Cut::Between(between.clone()),
+            None => problem.model().cut(at)?,
+        })
+    }
+
+    /// A refusal of requirements that are not about the loop at a cut.
+    pub(crate) fn refuse_signals(list: &[Requirement]) -> Result<(), Error> {
+        match list.iter().find(|requirement| requirement.signals().is_some()) {
+            Some(requirement) => Err(super::required_set::not_decided(requirement)),
+            None => Ok(()),
+        }
     }
 
     /// Whether it is about the open loop at a cut.
