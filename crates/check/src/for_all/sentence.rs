@@ -50,7 +50,7 @@ impl Statement {
                     format!("the loop is {yes}{joint}for {more}, and not so for any value in {less}.")
                 }
                 (false, true) => format!("the loop is {yes}{joint}for {more}."),
-                (true, false) => format!("the loop is not {} for any value in {less}.", good(" with ")),
+                (true, false) => format!("the loop is not {}{}for any value in {less}.", good(" with "), joint),
                 (true, true) => "nothing is said of the loop.".into(),
             }
         };
