@@ -140,7 +140,8 @@ fn refuted(
     }
     let names = problem.free().iter().map(|free| free.name.clone());
     let question = problem.model().ask().within(problem.region().clone()).set_all(problem.set().to_vec());
-    let here = question.set_all(names.zip(point.iter().cloned())).problem()?;
+    // A value may be none that the model allows.
+    let Some(here) = seen(question.set_all(names.zip(point.iter().cloned())).problem())? else { return Ok(None) };
     let Some((steps, _)) = seen(leaf(&here, claim, false, budget))? else { return Ok(None) };
     // In the statement the letters of the names of the box come before those of the factor, each of which follows the letter of a step.
     let behind = |letter: char| char::from_u32(letter as u32 + point.len() as u32).unwrap_or(letter);
