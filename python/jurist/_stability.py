@@ -34,6 +34,7 @@ class StabilityQuestions(Asker):
         values: Mapping[str, Exact] | None = None,
         *,
         domain: Bounds | Mapping[str, Bounds] | None = None,
+        for_all: Mapping[str, Bounds] | None = None,
         **question: Unpack[Asking],
     ) -> StableSet:
         """The exact stable set of a parameter.
@@ -46,6 +47,8 @@ class StabilityQuestions(Asker):
             Of other parameters and constants; the rest is nominal.
         domain : pair of exact numbers or None, or mapping from names to pairs
             Replaces the domain of the parameter by an open one.
+        for_all : mapping from names to pairs of exact numbers, optional
+            The values that are good for every value of these names in their closed ranges; the ends are enclosed then.
         **question
             What every question takes:
 
@@ -86,11 +89,14 @@ class StabilityQuestions(Asker):
         >>> b = b.block("controller", "-y", "u", K).block("plant", "u", "y", "1/(s + 1)^3")
         >>> b.build().intervals("K", gain_margin=2, at="u")
         <StableSet K: (0, 4)>
+        >>> servo = jurist.Loop.characteristic("z - 1 + K*c", time="discrete", parameters={"K": 1, "c": 1})
+        >>> float(servo.intervals("K", domain=(0, 3), for_all={"c": ("1/2", 4)})[0].upper) < 1 / 2
+        True
         """
         asked = self._asked(values, parameter=parameter, domain=domain, **question)
         kept = {**asked, "timeout": None, "progress": None}
-        if self._has_requirements(asked):
-            words = [*self._words("intervals", asked), "--param", parameter]
+        if for_all or self._has_requirements(asked):
+            words = [*self._words("intervals", asked), "--param", parameter, *_for_all(for_all)]
             text = self._document(words, asked)
             return StableSet(json.loads(text), text=text, loop=self._loop, asked=kept, words=tuple(words))
         answer, text, remarks = self._core.intervals(asked, parameter)
@@ -157,6 +163,7 @@ class StabilityQuestions(Asker):
         method: Literal["exact", "boxes", "auto"] = "auto",
         window: Mapping[str, Bounds] | None = None,
         undecided: Exact | None = None,
+        for_all: Mapping[str, Bounds] | None = None,
         **question: Unpack[AskingWithin],
     ) -> Map:
         """The stable region in the plane of two parameters.
@@ -172,9 +179,11 @@ class StabilityQuestions(Asker):
             What boxes are to cover.
         undecided : exact number, optional
             The share of the window that boxes may leave undecided.
+        for_all : mapping from names to pairs of exact numbers, optional
+            The points that are good for every value of these names in their closed ranges, by boxes.
         """
         asked = self._asked(values, **question)
-        words = self._words("map", asked)
+        words = [*self._words("map", asked), *_for_all(for_all)]
         for option, name in (("-x", x), ("-y", y)):
             low, high = (window or {}).get(name, (None, None))
             bounds = ["" if b is None else text_of(b) for b in (low, high)]
@@ -274,6 +283,11 @@ class StabilityQuestions(Asker):
         more = ["--digits", str(asked["digits"])] if "digits" in question else []
         text, _, _ = self._command([*words, "--json", *more], asked)
         return Tolerance(text, self._loop, tuple(words))
+
+
+def _for_all(ranges: Mapping[str, Bounds] | None) -> list[str]:
+    """The options of names for all of whose values something is asked."""
+    return [f"--for-all={name}={_tolerance(range)}" for name, range in (ranges or {}).items()]
 
 
 def _tolerance(value: Exact | Bounds) -> str:
