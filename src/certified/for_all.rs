@@ -24,6 +24,9 @@ const ORDER_WITH_DEAD_TIME: usize = 1;
 const MOST_PARTS: usize = 96;
 const MOST_PARTS_OF_ONE: usize = 100_000;
 
+/// The same at a point of the axes.
+const MOST_PARTS_AT_POINT: usize = 1000;
+
 /// No part is halved more often.
 const MOST_HALVINGS: usize = 80;
 
@@ -49,9 +52,9 @@ pub(super) struct ForAll {
 /// The number of a loop, and what of the ranges is taken.
 type Refutation = (usize, Vec<(Part, usize)>);
 
-/// A box of the axes, together with all values of the other names: for each loop as it is proved, and as it is refuted.
+/// A box of the axes, together with all values of the other names: for each loop the boxes that are to be proved, and that one of which a part is refuted.
 pub(super) struct Cell {
-    proofs: Vec<JudgedBox>,
+    proofs: Vec<Vec<JudgedBox>>,
     refuted: Vec<JudgedBox>,
     halvings: [usize; 2],
 }
@@ -83,6 +86,13 @@ impl ForAll {
         Ok((ForAll { judge, axes, recent, counted }, precision))
     }
 
+    /// Over axes that have the sides that they have in a box.
+    fn cell(&self, axes: &JudgedBox, halvings: [usize; 2]) -> Cell {
+        let loops = 0..self.judge.loops();
+        let proofs = loops.clone().map(|k| self.judge.proofs(axes, k)).collect();
+        Cell { proofs, refuted: loops.map(|k| self.judge.over(axes, k)).collect(), halvings }
+    }
+
     /// Asks the budget for what was done since.
     fn may_go_on(&self, budget: &Budget) -> bool {
         let done = self.judge.work() - self.counted.replace(self.judge.work());
@@ -91,21 +101,35 @@ impl ForAll {
 
     /// How it is written that all loops are stable in all parts of a cell.
     fn proved(&self, of: &Cell, budget: &Budget) -> Option<String> {
-        let (mut out, mut left) = (String::new(), if self.axes == 0 { MOST_PARTS_OF_ONE } else { MOST_PARTS });
-        for (k, whole) in of.proofs.iter().enumerate() {
-            let mut open = vec![(whole.clone(), 0)];
-            while let Some((mut part, halvings)) = open.pop() {
-                left = left.checked_sub(1).filter(|_| halvings <= MOST_HALVINGS && self.may_go_on(budget))?;
-                if self.judge.shows(k, &mut part, true) {
-                    out.push('.');
-                    continue;
-                }
-                // Where the loop changes most along the axes the box is halved.
-                let axis = Some(self.judge.axis(k, &part)).filter(|axis| *axis >= self.axes)?;
-                out.push(letter(axis));
-                let [low, high] = self.judge.halves(k, &mut part, axis);
-                open.extend([(high, halvings + 1), (low, halvings + 1)]);
+        let mut out = String::new();
+        let mut left = if self.axes == 0 { MOST_PARTS_OF_ONE } else { MOST_PARTS };
+        for (k, boxes) in of.proofs.iter().enumerate() {
+            // The last of several is a point of the axes, and costs little.
+            let (over_axes, at_point) = boxes.split_at(boxes.len().min(2));
+            for whole in over_axes {
+                out += &self.proof(k, whole, &mut left, budget)?;
             }
+            for whole in at_point {
+                out += &self.proof(k, whole, &mut { MOST_PARTS_AT_POINT }, budget)?;
+            }
+        }
+        Some(out)
+    }
+
+    /// How it is written that a loop is stable in all parts of a box.
+    fn proof(&self, k: usize, whole: &JudgedBox, left: &mut usize, budget: &Budget) -> Option<String> {
+        let (mut out, mut open) = (String::new(), vec![(whole.clone(), 0)]);
+        while let Some((mut part, halvings)) = open.pop() {
+            *left = left.checked_sub(1).filter(|_| halvings <= MOST_HALVINGS && self.may_go_on(budget))?;
+            if self.judge.shows(k, &mut part, true) {
+                out.push('.');
+                continue;
+            }
+            // Where the loop changes most along the axes the box is halved.
+            let axis = Some(self.judge.axis(k, &part)).filter(|axis| *axis >= self.axes)?;
+            out.push(letter(axis));
+            let [low, high] = self.judge.halves(k, &mut part, axis);
+            open.extend([(high, halvings + 1), (low, halvings + 1)]);
         }
         Some(out)
     }
@@ -274,24 +298,22 @@ impl Judge for ForAll {
     const AXES: [char; 2] = ['a', 'b'];
 
     fn whole(&self) -> Cell {
-        let all = |refute: bool| (0..self.judge.loops()).map(|k| self.judge.whole(k, refute)).collect();
-        Cell { proofs: all(false), refuted: all(true), halvings: [0; 2] }
+        self.cell(&self.judge.whole(0), [0; 2])
     }
 
     fn halves(&self, of: &mut Cell, axis: usize) -> [Cell; 2] {
         let mut halvings = of.halvings;
         halvings[axis] += 1;
         [Part::Lower, Part::Upper].map(|half| {
-            let axes = self.judge.part(&of.proofs[0], half, axis);
-            let over = |refute: bool| (0..self.judge.loops()).map(|k| self.judge.over(&axes, k, refute)).collect();
-            Cell { proofs: over(false), refuted: over(true), halvings }
+            let axes = self.judge.part(&of.refuted[0], half, axis);
+            self.cell(&axes, halvings)
         })
     }
 
     fn axis(&self, of: &Cell) -> usize {
         // Where the ranges change it most, that tells nothing of the axes.
         let widest = usize::from(self.axes == 2 && of.halvings[1] < of.halvings[0]);
-        Some(self.judge.axis(0, &of.proofs[0])).filter(|axis| *axis < self.axes).unwrap_or(widest)
+        Some(self.judge.axis(0, &of.proofs[0][0])).filter(|axis| *axis < self.axes).unwrap_or(widest)
     }
 
     fn leaf(&self, of: &mut Cell, good: bool, budget: &Budget) -> Option<String> {

@@ -99,7 +99,7 @@ def sides_of(cut, refuting=False):
 def good(model, of):
     """The tree of one leaf `+`, or None."""
     loops, sides = loops_of(model, of)
-    proofs = [proof_of(judge, sides + sides_of(cut)) for cut, judge in loops]
+    proofs = [proof_of(judge, box) for cut, judge in loops for box in (cut.boxes(sides, judge) if cut else [sides])]
     return None if None in proofs else "+" + "".join(proofs)
 
 def step_to(axis, share):
