@@ -44,6 +44,8 @@ const UNITS_OF_JUDGE: u64 = 32;
 pub(super) struct ForAll {
     judge: ForAllJudge,
     axes: usize,
+    /// The number of axes and names for all; own ones of requirements follow.
+    names: usize,
     /// How boxes were refuted, latest first.
     recent: RefCell<Vec<Refutation>>,
     counted: RefCell<u64>,
@@ -81,9 +83,9 @@ impl ForAll {
             Diagnostic::error(Code::NoCertificate, format!("no certificate: {}", rejection.reason))
                 .help("the checkers read the model themselves; the answer is printed without '--certificate'")
         })?;
-        let (axes, recent) = (claim.axes.len(), RefCell::default());
+        let (axes, names, recent) = (claim.axes.len(), claim.axes.len() + claim.all.len(), RefCell::default());
         let counted = RefCell::new(judge.work());
-        Ok((ForAll { judge, axes, recent, counted }, precision))
+        Ok((ForAll { judge, axes, names, recent, counted }, precision))
     }
 
     /// Over axes that have the sides that they have in a box.
@@ -160,7 +162,8 @@ impl ForAll {
 impl ForAll {
     /// Sides are halved so often for the points that are tried: ends and middles of all sides come first, then points between them.
     fn levels(&self) -> usize {
-        let sides = (0..self.judge.loops()).map(|k| self.judge.names(k) - self.axes).max().unwrap_or(0);
+        let sides = |k: usize| self.judge.names(k) - self.axes - usize::from(self.is_disc(k));
+        let sides = (0..self.judge.loops()).map(sides).max().unwrap_or(0);
         match sides {
             0 => 0,
             1 => 8,
@@ -168,6 +171,11 @@ impl ForAll {
             3 => 2,
             _ => 1,
         }
+    }
+
+    /// Whether the factors of a loop are those of a disc.
+    fn is_disc(&self, k: usize) -> bool {
+        self.judge.names(k) == self.names + 2
     }
 
     /// Points of the ranges of all loops that come up at one level: each side is taken at an end, at its middle, or in the middle of a part that was halved
@@ -190,8 +198,14 @@ impl ForAll {
                     sides.clone().zip(places).flat_map(|(name, parts)| parts.into_iter().map(move |part| (part, name)));
                 (k, named.collect())
             };
+            // What some number inside of a disc shows one on its edge shows as well, or a real one.
+            let is_disc = self.is_disc(k);
+            let is_tried = move |places: &[Vec<Part>]| match places {
+                [.., radius, turn] if is_disc => radius.len() == 1 || *turn == [Part::Low],
+                _ => true,
+            };
             all.into_iter()
-                .filter(move |(_, highest)| *highest == level)
+                .filter(move |(places, highest)| *highest == level && is_tried(places))
                 .map(move |(places, _)| steps(places))
                 .collect::<Vec<_>>()
         };

@@ -61,7 +61,7 @@ fn letter(axis: usize) -> char {
 }
 
 /// The proof of a loop over a box, with so many parts at most.
-fn proof(judge: &ForAllJudge, k: usize, part: JudgedBox, most: &mut usize) -> Option<String> {
+pub fn proof(judge: &ForAllJudge, k: usize, part: JudgedBox, most: &mut usize) -> Option<String> {
     let (mut out, mut stack) = (String::new(), vec![part]);
     while let Some(mut part) = stack.pop() {
         *most = most.checked_sub(1)?;
