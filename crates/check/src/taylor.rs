@@ -48,6 +48,14 @@ impl Precision {
         self.monomials.len()
     }
 
+    /// Refuses more functions at once than memory is for. Those of two parameters are short.
+    pub fn hold(&self, functions: usize, clock: &Clock) -> Result<(), String> {
+        match self.parameters() {
+            0..=2 => Ok(()),
+            _ => clock.hold(functions.saturating_mul(self.terms()), self.bits as u64),
+        }
+    }
+
     fn one_unit(&self) -> Z {
         Z::one() << self.bits
     }
@@ -187,19 +195,18 @@ impl Taylor {
             counts
         };
         let (own, others) = (of_degrees(self), of_degrees(other));
-        own.iter()
-            .enumerate()
-            .map(|(d, count)| count * others[..=p.order - d].iter().sum::<usize>())
-            .sum::<usize>()
-            .max(1)
+        let pairs = own.iter().enumerate().map(|(d, count)| count * others[..=p.order - d].iter().sum::<usize>());
+        // Each coefficient is looked at, too.
+        pairs.sum::<usize>() + (self.c.len() + other.c.len()) / 16 + 1
     }
 
     pub fn times(&self, other: &Self, p: &Precision, clock: &Clock) -> Result<Self, String> {
         clock.spend(self.products(other, p), self.longest(p), other.longest(p))?;
         let mut full: Vec<Z> = Vec::new();
+        let others: Vec<(usize, &Z)> = other.c.iter().enumerate().filter(|(_, b)| !b.is_zero()).collect();
         for (i, a) in self.c.iter().enumerate().filter(|(_, a)| !a.is_zero()) {
             let most = p.order - p.monomials.degree(i);
-            for (k, b) in other.c.iter().enumerate().filter(|(_, b)| !b.is_zero()) {
+            for &(k, b) in &others {
                 if p.monomials.degree(k) > most {
                     break;
                 }

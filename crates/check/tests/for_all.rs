@@ -375,3 +375,26 @@ fn cuts_beside_the_loop_and_factors_of_zero() {
     let small = loop_of("continuous", "1/(s + 1)", "");
     told(&small, &asked, both("complementary_peak", INPUT, ["6/10", "4/10"]));
 }
+
+/// A short text asks for little work and memory, however many names it has.
+#[test]
+fn what_is_too_much_is_refused() {
+    let names: Vec<String> = (1..=7).map(|k| format!("k{k}")).collect();
+    let declared = names.iter().map(|name| format!("{name} = {{}}")).collect::<Vec<_>>().join(", ");
+    let model = format!(
+        "time = 'continuous'\nparameters = {{ {declared} }}\nloop.characteristic = '(s + {})^5 + s + 1'",
+        names.join(" + ")
+    );
+    let ranges = names
+        .iter()
+        .map(|name| format!(r#"{{"name": "{name}", "between": ["1", "2"]}}"#))
+        .collect::<Vec<_>>()
+        .join(", ");
+    let require = other("gain_margin", r#"{"parameter": "k1"}"#, "2");
+    let asked = Asked { for_all: ranges.leak(), order: 8, ..Asked::of("continuous") }.require(require);
+    for tree in ["+.".to_owned(), format!("+{}", "abcdefgh".repeat(16)), "-0mambmcmd.".to_owned()] {
+        let rejected = check(&model, &asked.certificate(&tree), &LIMITS).unwrap_err();
+        println!("{rejected}");
+        assert!(matches!(rejected.step, Step::Work), "{rejected}");
+    }
+}

@@ -189,8 +189,8 @@ mod tests {
         let disc = of("disk_margin", "1").unwrap();
         assert_eq!(disc.ranges(false, true), [[q(-1, 1), q(1, 1)], [q(0, 1), q(1, 1)]]);
         assert_eq!(disc.ranges(true, true), [[q(-1, 1), q(1, 1)], [q(-1, 1), q(1, 1)]]);
-        let [all, half, one, zero] = [[q(-1, 1), q(1, 1)], [q(0, 1), q(1, 1)], [q(1, 1); 2], [q(0, 1); 2]];
-        let minus = [q(-1, 1); 2];
+        let [all, half, one, zero] = [[-1, 1], [0, 1], [1, 1], [0, 0]].map(|side| side.map(|n| q(n, 1)));
+        let minus = [-1, -1].map(|n| q(n, 1));
         let parts = |of: [&[Q; 2]; 6]| [0, 2, 4].map(|i| vec![of[i].clone(), of[i + 1].clone()]);
         assert_eq!(disc.parts_of_disc(false), Some(parts([&one, &half, &minus, &half, &all, &zero])));
         assert_eq!(disc.parts_of_disc(true), Some(parts([&one, &all, &minus, &all, &all, &all])));

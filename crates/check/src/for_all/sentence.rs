@@ -71,7 +71,7 @@ impl Statement {
             match letter {
                 '+' => format!("{begin} loop is {yes}."),
                 '-' => format!("{begin} loop is not {no}."),
-                _ => format!("{begin} loop may be stable or not: nothing is said of it."),
+                _ => format!("{begin} loop is stable or not: nothing is said of it."),
             }
         };
         if let Some(beyond) = &self.beyond {

@@ -84,6 +84,7 @@ impl ForAllJudge {
                         axis.ok_or_else(|| line(format!("'{}' is no part of a proof", letter.escape_debug())))?;
                     deeper(depth)?;
                     has_width(&part, axis)?;
+                    Step::Line.of(self.of_number(k).keep(stack.len() + 3, self.clock()))?;
                     let [low, high] = Step::Line.of(self.halved(k, &mut part, axis))?;
                     stack.extend([(high, depth + 1), (low, depth + 1)]);
                 }

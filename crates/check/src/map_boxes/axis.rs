@@ -99,6 +99,7 @@ pub(super) fn right(p: &[Taylor], precision: &Precision, clock: &Clock) -> Resul
     let mut looked_at = 0;
     while let Some(part) = parts.pop() {
         looked_at += 1;
+        precision.hold((parts.len() + 3) * (n + 1), clock)?;
         clock.spend(operations(&part, n, precision), precision.bits as u64, 0)?;
         let [e, o] = &part.pair;
         if let Some(next) = half_plane(Some(direction), precision.parameters(), e, o)

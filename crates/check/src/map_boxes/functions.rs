@@ -44,6 +44,7 @@ impl Functions {
 
     /// At the values of all variables from [`FIRST`] on.
     pub fn at(&self, values: &[Taylor], p: &Precision, clock: &Clock) -> Result<Vec<Taylor>, String> {
+        p.hold(2 * values.len() + self.powers.len() + self.monomials.len() + self.rows.len(), clock)?;
         let mut tables: Vec<Vec<Taylor>> = vec![vec![Taylor::number(&Q::one(), p)]; values.len()];
         let mut product = |exponents: &[u32], first: usize| -> Result<Taylor, String> {
             let mut product: Option<Taylor> = None;

@@ -116,6 +116,14 @@ impl OneLoop {
         JudgedBox { sides, known }
     }
 
+    /// Refuses to keep what is known of so many boxes, where that is too much.
+    pub fn keep(&self, boxes: usize, clock: &Clock) -> Result<(), String> {
+        match &self.of {
+            Kind::Polynomial(judge) => judge.keep(boxes, clock),
+            Kind::Delayed(_) => Ok(()),
+        }
+    }
+
     /// The lower and the upper half along an axis.
     pub fn halved(&self, of: &mut JudgedBox, axis: usize, clock: &Clock) -> Result<[JudgedBox; 2], String> {
         match (&self.of, &mut of.known) {

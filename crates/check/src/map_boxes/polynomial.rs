@@ -87,10 +87,19 @@ impl Polynomial {
 
     /// Makes sure that the halves have something to begin with.
     pub fn prepare(&self, sides: &Sides, known: &mut Known, clock: &Clock) -> Result<(), String> {
-        match &known.functions {
-            Some((known, is_own)) if *is_own || self.is_precise(known, self.share) => Ok(()),
-            _ => self.compute(sides, known, clock),
+        let is_enough = |(known, is_own): &(Vec<Taylor>, bool)| *is_own || self.is_precise(known, self.share);
+        if !known.functions.as_ref().is_some_and(is_enough) {
+            self.compute(sides, known, clock)?;
         }
+        // Halves of functions of two parameters take less than all else.
+        let terms = if sides.len() > 2 { self.precision.terms() * self.precision.order } else { 0 };
+        clock.spend(terms * known.functions.as_ref().map_or(0, |(own, _)| own.len()), self.precision.bits as u64, 0)
+    }
+
+    /// Refuses to keep what is known of so many boxes, where that is too much.
+    pub fn keep(&self, boxes: usize, clock: &Clock) -> Result<(), String> {
+        let last = self.divisors.last().map_or(self.coefficients, |list| list.end);
+        self.precision.hold(boxes.saturating_mul(last), clock)
     }
 
     pub fn halves(&self, known: &Known, axis: usize) -> [Known; 2] {

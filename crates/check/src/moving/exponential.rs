@@ -62,6 +62,7 @@ fn by_number(a: &Matrix, q: &Q) -> Matrix {
 /// `sum M^k/k!`, `sum M^k/(k + 1)!` and `sum M^k/(k + 2)!`: of `M/2^s`, with rows that add up to at most `2^-8`, then doubled `s` times.
 pub(super) fn exponential(m: &Matrix, p: &Precision, clock: &Clock) -> Result<[Matrix; 3], String> {
     let n = m.len();
+    p.hold(12 * n * n, clock)?;
     let norm = m.iter().map(|row| row.iter().map(Taylor::magnitude).sum::<Z>()).max().unwrap_or_default();
     let eighth = Z::one() << (p.bits - 8);
     let mut doublings = 0_usize;
