@@ -3640,6 +3640,7 @@ def judge_of(text, names, values, sides, region, precision, cut=None):
     discrete, extent = region
     sources, sides = Moving(), sides + (cut.sides(True) if cut else [])
     enclosed = (sides, precision[1]) if has_several_rates(text) else None
+    need(not enclosed or not cut or not cut.is_complex, "a requirement of a loop with several rates has no certificate")
     is_discrete, own, divisors, is_complex = over_box(text, names, values, sources, enclosed, cut)
     need(is_discrete == discrete, "the model's time is another")
     if cut:
@@ -3801,7 +3802,8 @@ class Cut:
             return minus, plus
         x = 1 / x if self.requirement == "complementary_peak" else x
         disc, whole = P({1 << FIELD * first: x.numerator}) * plus, minus * number(x.denominator)
-        return {"modulus_margin": (whole, whole + -disc), "disk_margin": (whole + disc, whole + -disc), "complementary_peak": (whole + disc, whole)}[self.requirement]
+        top = whole if self.requirement == "modulus_margin" else whole + disc
+        return top, whole if self.requirement == "complementary_peak" else whole + -disc
 
     def in_parts(self, own, divisors, first):
         """The real and the imaginary parts of coefficients with the factor in the place of variable 1, times a number that is never zero; and the
@@ -3927,7 +3929,6 @@ def check_for_all(model, document, statement, values, discrete, extent):
     need(len(axes) + len(for_all) + max((cut.names for cut in require), default=0) <= 8, "there are too many names")
     need(not require or extent == (1 if discrete else 0), "a region of its own has no requirements beside")
     several = has_several_rates(model)
-    need(not several or not any(cut.is_complex for cut in require), "a requirement of a loop with several rates has no certificate")
     need(isinstance(tree, str), "there is no tree")
     global most
     most += WORK_OF_PART * len(tree)
@@ -3958,21 +3959,18 @@ def of_for_all(axes, for_all, values, inside, require, leaves, beyond):
     ways = {"phase_margin": "a phase margin of at least {} degrees", "gain_margin": "a gain margin of at least {} both ways",
             "modulus_margin": "a modulus margin of at least {}", "disk_margin": "a disk margin of at least {}",
             "complementary_peak": "a peak of the complementary sensitivity of at most {}"}
-    wishes = [f"{ways[cut.requirement].format(exact(cut.bound))} {cut.where()}" for cut in require]
-    good = f"stable{inside}" + (f", with {' and '.join(wishes)}" if wishes else "")
+    wishes = " and ".join(f"{ways[cut.requirement].format(exact(cut.bound))} {cut.where()}" for cut in require)
+    good, not_good = (f"{word}stable{inside}{f'{comma} with {wishes}' if wishes else ''}" for word, comma in (("", ","), ("not ", "")))
+    so = ", " if wishes else " "
     values = {name: low for name, (low, high) in for_all.items() if low == high} | values
     every = " and ".join(f"{name} from {exact(low)} to {exact(high)}" for name, (low, high) in for_all.items() if low < high)
     if not axes:
         [(letter, _, _)] = leaves
-        begin = f"or all {every}" if every else ""
-        if letter == "-" and every:
-            sentence = f"Not f{begin}{and_with(values)}, the loop is {good}."
-        else:
-            begin = f"F{begin}{and_with(values)}, the" if every else f"At {at_values(values)}, the" if values else "The"
-            sentence = {"+": f"{begin} loop is {good}.", "-": f"{begin} loop is not {good.replace(', with', ' with', 1)}.", "?": f"{begin} loop may be stable or not: nothing is said of it."}[letter]
+        begin = f"For all {every}{and_with(values)}, the" if every else f"At {at_values(values)}, the" if values else "The"
+        sentence = (f"{begin} loop is {good}." if letter == "+" else f"{begin} loop is stable or not: nothing is said of it." if letter == "?" else
+                    f"Not f{begin[1:]} loop is {good}." if every else f"{begin} loop is {not_good}.")
         if beyond is not None:
-            at = f"At {at_values(beyond)}, it" if beyond else "It"
-            sentence += f" {at} is not."
+            sentence += f" At {at_values(beyond)}, it is not." if beyond else " It is not."
         return sentence
     where = " and ".join("{} from {} to {}".format(name, *inward(*side)) for name, side in axes.items())
     where = f"For {where}{f', for all {every}' if every else ''}{and_with(values)}, "
@@ -3988,16 +3986,14 @@ def of_for_all(axes, for_all, values, inside, require, leaves, beyond):
             own = (inward(low, high) for kind, low, high in pieces if kind == letter)
             return " and ".join(f"{low} <= {name} <= {high}" for low, high in own)
 
-        stable, not_stable = ranges("+"), ranges("-")
-        so = ", " if wishes else " "
-        said = (f"the loop is {good}{so}for {stable}, and not so for any value in {not_stable}." if stable and not_stable else
-                f"the loop is {good}{so}for {stable}." if stable else
-                f"the loop is not {good}{so}for any value in {not_stable}." if not_stable else "nothing is said of the loop.")
+        for_, not_for = ranges("+"), ranges("-")
+        said = (f"the loop is {good}{so}for {for_}, and not so for any value in {not_for}." if for_ and not_for else f"the loop is {good}{so}for {for_}." if for_ else
+                f"the loop is {not_good}{so}for any value in {not_for}." if not_for else "nothing is said of the loop.")
         return f"{where}{said} Nothing is said of the rest."
     tenths = [int(1000 * sum(share for kind, _, share in leaves if kind == letter)) for letter in "+-"]
-    stable, not_stable = (f"{k // 10}.{k % 10} %" for k in tenths)
-    return (f"{where}the loop is {good}{', ' if wishes else ' '}in all boxes '+' of the tree, and nowhere in its boxes '-': at least {stable} and {not_stable} of "
-            "the window. Nothing is said of the rest.")
+    shares = " and ".join(f"{k // 10}.{k % 10} %" for k in tenths)
+    return (f"{where}the loop is {good}{so}in all boxes '+' of the tree, and nowhere in its boxes '-': at least {shares} of the window. "
+            "Nothing is said of the rest.")
 
 # ---------------------------------------------------------------- dead time
 
