@@ -3178,9 +3178,9 @@ def in_common(polynomials, above):
             return ONE
     return found
 
-def separated(lists):
-    """Divides out of each list the factors that other lists hold: the signs of factors are easier to prove than that of their product. In no
-    list may all polynomials vanish together."""
+def separated(lists, positive):
+    """Divides out of each list the factors that other lists hold, and what is positive: the signs of factors are easier to prove than that of their
+    product. In no list may all polynomials vanish together."""
     def divided_by(list_, f):
         while any(list_) and not any(p and not any(p) for p in list_):
             quotients = [p / f if p else p for p in list_]
@@ -3192,7 +3192,7 @@ def separated(lists):
     def degree(p):
         return max(sum(e >> FIELD * v & MASK for v in range(e.bit_length() // FIELD + 1)) for e in p)
 
-    known = []
+    known = list(positive)
     for p in sorted((ways[0].primitive() for ways in lists if len(ways) == 1 and ways[0]), key=degree):
         for v in range(2, max(p).bit_length() // FIELD + 1):
             variable = P({1 << FIELD * v: 1})
@@ -3201,7 +3201,7 @@ def separated(lists):
         [rest] = reduce(divided_by, known, [p])
         known += [rest] if any(rest) else []
     several = [reduce(divided_by, known, cleared(ways)) for ways in lists if len(ways) != 1 or not ways[0]]
-    return [ways for ways in several if not any(p and not any(p) for p in ways)] + [[p] for p in known]
+    return [ways for ways in several if not any(p and not any(p) for p in ways)] + [[p] for p in known[len(positive):]]
 
 class Judge:
     """Whether boxes are stable everywhere, or nowhere. What is known of one are the functions over it, and whether they are its own or
@@ -3513,7 +3513,7 @@ def times_range(time, sides):
 class JudgeOfDelays:
     """Whether boxes are stable everywhere, or nowhere. What is known of one is the way along the axis."""
 
-    def __init__(self, own, divisors, sources, sides, models):
+    def __init__(self, own, divisors, positive, sources, sides, models):
         need(all(name == "delay" for name, *_ in sources.sources), "beside dead time the loop has other functions")
         n, self.models, names, behind_names = len(own) - 1, models, models.names, (2 + models.names) * FIELD
         self.times = [self.time(*f, names) for _, f in sources.sources]
@@ -3544,7 +3544,8 @@ class JudgeOfDelays:
         functions = cleared([p * number(1 << (w * j if w >= 0 else -w * (n - j))) for part in parts for j, p in enumerate(part)])
         self.divisors = []
         self.nowhere = not all(map(any, divisors))
-        for ways in separated(divisors):
+        self.separated = separated(divisors, positive)
+        for ways in self.separated:
             self.divisors.append(range(len(functions), len(functions) + len(ways)))
             functions += ways
         self.functions = OverBoxes(functions, Moving(), models)
@@ -3645,9 +3646,15 @@ def judge_of(text, names, values, sides, region, precision, cut=None):
     if cut:
         cut.is_real, sides = not is_complex, sides[:len(names)] + cut.sides(not is_complex)
     models = Models(*precision, len(sides))
-    parts = [own]  # the real and the imaginary part, of what has complex coefficients
+    parts, positive = [own], []  # the real and the imaginary part, of what has complex coefficients
     if cut and cut.is_complex:
         parts, divisors = cut.in_parts(own, divisors, 2 + len(names))
+        positive = cut.positive(2 + len(names))
+
+    def depends(lists):
+        """Whether a name of the cut is in a divisor."""
+        return any(p.degree(v) for ways in lists for p in ways for v in range(2 + len(names), 2 + len(sides)))
+
     has_delay = any(name == "delay" for name, *_ in sources.sources)
     common = ONE if enclosed else in_common(sum(parts, []), 2 + len(sides) if has_delay else 1 << FIELD)
     if any(common):  # where it vanishes, all coefficients do; the last divisor has a meaning of its own
@@ -3655,7 +3662,9 @@ def judge_of(text, names, values, sides, region, precision, cut=None):
     if has_delay:
         need(not discrete and extent == 0, "a loop with dead time is not continuous, or its boundary is not the imaginary axis")
         own = parts[0] if len(parts) == 1 else [sum(both, ZERO) for both in zip(*map(squared, parts))]
-        return JudgeOfDelays(own, divisors, sources, sides, models)
+        judge = JudgeOfDelays(own, divisors, positive, sources, sides, models)
+        judge.divides_by_factor = depends(judge.separated)
+        return judge
     if len(parts) == 1:
         parts = [in_region(parts[0], discrete, extent)]
     n = len(own) - 1
@@ -3663,13 +3672,14 @@ def judge_of(text, names, values, sides, region, precision, cut=None):
     nowhere = not all(map(any, divisors))
     nowhere = nowhere or (not all(functions) if len(parts) == 1 else not any(functions[::n + 1]) or not any(functions[n::n + 1]))
     places, begin = [], n + 1 if len(parts) == 1 else 2 * n + 1
-    for ways in separated(divisors):
+    divisors = separated(divisors, positive)
+    for ways in divisors:
         places.append(range(begin, begin + len(ways)))
         functions, begin = functions + ways, begin + len(ways)
     functions = OverBoxes(functions, sources, models)
-    if len(parts) == 1:
-        return Judge(functions, n, places, models, nowhere)
-    return Judge(InParts(functions, n), 2 * n, places, models, nowhere)
+    judge = Judge(functions, n, places, models, nowhere) if len(parts) == 1 else Judge(InParts(functions, n), 2 * n, places, models, nowhere)
+    judge.divides_by_factor = depends(divisors)
+    return judge
 
 def check_boxes(model, document, statement, values, discrete, extent):
     _, _, order, bits = parts(document, ["schema", "statement", "order", "bits"], ["model"])
@@ -3769,6 +3779,21 @@ class Cut:
         t = self.turns[0 if refuting else 1] if self.requirement == "phase_margin" else Fraction(1)
         return [[-t, t]] * (self.names - 1) + [[Fraction(0) if is_real else -t, t]]
 
+    def boxes(self, sides, judge):
+        """Those in all of which the loop is to be stable for a leaf `+`. Where no factor of the edge of a disc moves a root to the boundary, none of the disc does
+        if that is so at one point; in a real loop real ones tell."""
+        if self.names < 2 or not sides or judge.divides_by_factor:
+            return [sides + self.sides(self.is_real)]
+        [disc, turn], middle = self.sides(self.is_real), [[(low + high) / 2] * 2 for low, high in sides]
+        one, zero = Fraction(1), Fraction(0)
+        return [sides + [[one, one], turn], sides + [[-one, -one], turn], middle + [disc, [zero, zero] if self.is_real else turn]]
+
+    def positive(self, first):
+        """What has no zero where the factors are asked about."""
+        top, bottom = self.quotient(first)
+        found = [squared_modulus(short(p)).primitive() for p in ([bottom] if self.requirement == "complementary_peak" else [bottom, top])]
+        return [p for i, p in enumerate(found) if any(p) and p not in found[:i]]
+
     def quotient(self, first):
         """The factor over a denominator that has no zero."""
         t = P({UNIT | 1 << FIELD * (first + self.names - 1): 1})
@@ -3821,9 +3846,9 @@ class Proofs:
         return k
 
     def good(self, sides):
-        """One proof for each loop: that it is stable at all points."""
-        for cut, judge in self.loops:
-            stack = [(sides + (cut.sides(cut.is_real) if cut else []), None, False, 0)]
+        """Proofs for each loop: that it is stable at all points."""
+        for judge, whole in ((judge, box) for cut, judge in self.loops for box in (cut.boxes(sides, judge) if cut else [sides])):
+            stack = [(whole, None, False, 0)]
             while stack:
                 box, known, is_own, depth = stack.pop()
                 letter = self.letter()

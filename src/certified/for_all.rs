@@ -24,6 +24,9 @@ const ORDER_WITH_DEAD_TIME: usize = 1;
 const MOST_PARTS: usize = 96;
 const MOST_PARTS_OF_ONE: usize = 100_000;
 
+/// The same at a point of the axes.
+const MOST_PARTS_AT_POINT: usize = 1000;
+
 /// No part is halved more often.
 const MOST_HALVINGS: usize = 80;
 
@@ -41,6 +44,8 @@ const UNITS_OF_JUDGE: u64 = 32;
 pub(super) struct ForAll {
     judge: ForAllJudge,
     axes: usize,
+    /// The number of axes and names for all; own ones of requirements follow.
+    names: usize,
     /// How boxes were refuted, latest first.
     recent: RefCell<Vec<Refutation>>,
     counted: RefCell<u64>,
@@ -49,9 +54,9 @@ pub(super) struct ForAll {
 /// The number of a loop, and what of the ranges is taken.
 type Refutation = (usize, Vec<(Part, usize)>);
 
-/// A box of the axes, together with all values of the other names: for each loop as it is proved, and as it is refuted.
+/// A box of the axes, together with all values of the other names: for each loop the boxes that are to be proved, and that one of which a part is refuted.
 pub(super) struct Cell {
-    proofs: Vec<JudgedBox>,
+    proofs: Vec<Vec<JudgedBox>>,
     refuted: Vec<JudgedBox>,
     halvings: [usize; 2],
 }
@@ -78,9 +83,16 @@ impl ForAll {
             Diagnostic::error(Code::NoCertificate, format!("no certificate: {}", rejection.reason))
                 .help("the checkers read the model themselves; the answer is printed without '--certificate'")
         })?;
-        let (axes, recent) = (claim.axes.len(), RefCell::default());
+        let (axes, names, recent) = (claim.axes.len(), claim.axes.len() + claim.all.len(), RefCell::default());
         let counted = RefCell::new(judge.work());
-        Ok((ForAll { judge, axes, recent, counted }, precision))
+        Ok((ForAll { judge, axes, names, recent, counted }, precision))
+    }
+
+    /// Over axes that have the sides that they have in a box.
+    fn cell(&self, axes: &JudgedBox, halvings: [usize; 2]) -> Cell {
+        let loops = 0..self.judge.loops();
+        let proofs = loops.clone().map(|k| self.judge.proofs(axes, k)).collect();
+        Cell { proofs, refuted: loops.map(|k| self.judge.over(axes, k)).collect(), halvings }
     }
 
     /// Asks the budget for what was done since.
@@ -91,20 +103,34 @@ impl ForAll {
 
     /// How it is written that all loops are stable in all parts of a cell.
     fn proved(&self, of: &Cell, budget: &Budget) -> Option<String> {
-        let (mut out, mut left) = (String::new(), if self.axes == 0 { MOST_PARTS_OF_ONE } else { MOST_PARTS });
-        for (k, whole) in of.proofs.iter().enumerate() {
-            let mut open = vec![(whole.clone(), 0)];
-            while let Some((mut part, halvings)) = open.pop() {
-                left = left.checked_sub(1).filter(|_| halvings <= MOST_HALVINGS && self.may_go_on(budget))?;
-                if self.judge.shows(k, &mut part, true) {
-                    out.push('.');
-                    continue;
-                }
-                let axis = self.axis_of_part(k, &part, halvings)?;
-                out.push(letter(axis));
-                let [low, high] = self.judge.halves(k, &mut part, axis);
-                open.extend([(high, halvings + 1), (low, halvings + 1)]);
+        let mut out = String::new();
+        let mut left = if self.axes == 0 { MOST_PARTS_OF_ONE } else { MOST_PARTS };
+        for (k, boxes) in of.proofs.iter().enumerate() {
+            // The last of several is a point of the axes, and costs little.
+            let (over_axes, at_point) = boxes.split_at(boxes.len().min(2));
+            for whole in over_axes {
+                out += &self.proof(k, whole, &mut left, budget)?;
             }
+            for whole in at_point {
+                out += &self.proof(k, whole, &mut { MOST_PARTS_AT_POINT }, budget)?;
+            }
+        }
+        Some(out)
+    }
+
+    /// How it is written that a loop is stable in all parts of a box.
+    fn proof(&self, k: usize, whole: &JudgedBox, left: &mut usize, budget: &Budget) -> Option<String> {
+        let (mut out, mut open) = (String::new(), vec![(whole.clone(), 0)]);
+        while let Some((mut part, halvings)) = open.pop() {
+            *left = left.checked_sub(1).filter(|_| halvings <= MOST_HALVINGS && self.may_go_on(budget))?;
+            if self.judge.shows(k, &mut part, true) {
+                out.push('.');
+                continue;
+            }
+            let axis = self.axis_of_part(k, &part, halvings)?;
+            out.push(letter(axis));
+            let [low, high] = self.judge.halves(k, &mut part, axis);
+            open.extend([(high, halvings + 1), (low, halvings + 1)]);
         }
         Some(out)
     }
@@ -112,16 +138,18 @@ impl ForAll {
     /// The name whose side of a part is halved; `None` where the box of the axes is to be halved instead: there the middle of the ranges shows no more.
     fn axis_of_part(&self, k: usize, part: &JudgedBox, halvings: usize) -> Option<usize> {
         let axis = self.judge.axis(k, part);
-        let names = self.axes..self.judge.names(k);
-        if names.contains(&axis) && (halvings > 0 || self.axes == 0) {
+        if axis >= self.axes && (halvings > 0 || self.axes == 0) {
             return Some(axis);
         }
+        let names = self.axes..self.judge.names(k);
         let pinned = names.clone().fold(part.clone(), |part, name| self.judge.part(&part, Part::Middle, name));
-        if names.is_empty() || !self.judge.shows(k, &mut { pinned }, true) {
+        let sides = self.judge.sides(part);
+        let wide: Vec<usize> = names.filter(|name| sides[*name][0] != sides[*name][1]).collect();
+        if wide.is_empty() || !self.judge.shows(k, &mut { pinned }, true) {
             return None;
         }
         // What is even about the middle of a side has no slope there.
-        Some(if names.contains(&axis) { axis } else { names.start + halvings % names.len() })
+        Some(if wide.contains(&axis) { axis } else { wide[halvings % wide.len()] })
     }
 
     /// How it is written that a loop is not stable, for some values of the other names, at any point of a cell.
@@ -150,7 +178,8 @@ impl ForAll {
 impl ForAll {
     /// Sides are halved so often for the points that are tried: ends and middles of all sides come first, then points between them.
     fn levels(&self) -> usize {
-        let sides = (0..self.judge.loops()).map(|k| self.judge.names(k) - self.axes).max().unwrap_or(0);
+        let sides = |k: usize| self.judge.names(k) - self.axes - usize::from(self.is_disc(k));
+        let sides = (0..self.judge.loops()).map(sides).max().unwrap_or(0);
         match sides {
             0 => 0,
             1 => 8,
@@ -158,6 +187,11 @@ impl ForAll {
             3 => 2,
             _ => 1,
         }
+    }
+
+    /// Whether the factors of a loop are those of a disc.
+    fn is_disc(&self, k: usize) -> bool {
+        self.judge.names(k) == self.names + 2
     }
 
     /// Points of the ranges of all loops that come up at one level: each side is taken at an end, at its middle, or in the middle of a part that was halved
@@ -180,8 +214,14 @@ impl ForAll {
                     sides.clone().zip(places).flat_map(|(name, parts)| parts.into_iter().map(move |part| (part, name)));
                 (k, named.collect())
             };
+            // What some number inside of a disc shows one on its edge shows as well, or a real one.
+            let is_disc = self.is_disc(k);
+            let is_tried = move |places: &[Vec<Part>]| match places {
+                [.., radius, turn] if is_disc => radius.len() == 1 || *turn == [Part::Low],
+                _ => true,
+            };
             all.into_iter()
-                .filter(move |(_, highest)| *highest == level)
+                .filter(move |(places, highest)| *highest == level && is_tried(places))
                 .map(move |(places, _)| steps(places))
                 .collect::<Vec<_>>()
         };
@@ -288,24 +328,22 @@ impl Judge for ForAll {
     const AXES: [char; 2] = ['a', 'b'];
 
     fn whole(&self) -> Cell {
-        let all = |refute: bool| (0..self.judge.loops()).map(|k| self.judge.whole(k, refute)).collect();
-        Cell { proofs: all(false), refuted: all(true), halvings: [0; 2] }
+        self.cell(&self.judge.whole(0), [0; 2])
     }
 
     fn halves(&self, of: &mut Cell, axis: usize) -> [Cell; 2] {
         let mut halvings = of.halvings;
         halvings[axis] += 1;
         [Part::Lower, Part::Upper].map(|half| {
-            let axes = self.judge.part(&of.proofs[0], half, axis);
-            let over = |refute: bool| (0..self.judge.loops()).map(|k| self.judge.over(&axes, k, refute)).collect();
-            Cell { proofs: over(false), refuted: over(true), halvings }
+            let axes = self.judge.part(&of.refuted[0], half, axis);
+            self.cell(&axes, halvings)
         })
     }
 
     fn axis(&self, of: &Cell) -> usize {
         // Where the ranges change it most, that tells nothing of the axes.
         let widest = usize::from(self.axes == 2 && of.halvings[1] < of.halvings[0]);
-        Some(self.judge.axis(0, &of.proofs[0])).filter(|axis| *axis < self.axes).unwrap_or(widest)
+        Some(self.judge.axis(0, &of.proofs[0][0])).filter(|axis| *axis < self.axes).unwrap_or(widest)
     }
 
     fn leaf(&self, of: &mut Cell, good: bool, budget: &Budget) -> Option<String> {

@@ -179,13 +179,34 @@ impl Taylor {
         self.c.iter().chain([&self.rest]).map(Z::bits).fold(p.bits as u64, u64::max)
     }
 
+    /// The number of its coefficients that are not zero.
+    pub fn size(&self) -> usize {
+        self.c.iter().filter(|c| !c.is_zero()).count()
+    }
+
+    /// How many products of coefficients are counted for a product. In more than two coordinates few of them are of no higher degree than the model.
+    fn products(&self, other: &Self, p: &Precision) -> usize {
+        if p.parameters() <= 2 {
+            return self.c.len() * other.c.len();
+        }
+        let of_degrees = |of: &Self| {
+            let mut counts = vec![0; p.order + 1];
+            of.c.iter().enumerate().filter(|(_, c)| !c.is_zero()).for_each(|(i, _)| counts[p.monomials.degree(i)] += 1);
+            counts
+        };
+        let (own, others) = (of_degrees(self), of_degrees(other));
+        let pairs = own.iter().enumerate().map(|(d, count)| count * others[..=p.order - d].iter().sum::<usize>());
+        // Each coefficient is looked at, too.
+        pairs.sum::<usize>() + (self.c.len() + other.c.len()) / 16 + 1
+    }
+
     pub fn times(&self, other: &Self, p: &Precision, clock: &Clock) -> Result<Self, String> {
-        let products = (self.c.len() * other.c.len()).min(p.monomials.most_products());
-        clock.spend(products, self.longest(p), other.longest(p))?;
+        clock.spend(self.products(other, p), self.longest(p), other.longest(p))?;
         let mut full: Vec<Z> = Vec::new();
+        let others: Vec<(usize, &Z)> = other.c.iter().enumerate().filter(|(_, b)| !b.is_zero()).collect();
         for (i, a) in self.c.iter().enumerate().filter(|(_, a)| !a.is_zero()) {
             let most = p.order - p.monomials.degree(i);
-            for (k, b) in other.c.iter().enumerate().filter(|(_, b)| !b.is_zero()) {
+            for &(k, b) in &others {
                 if p.monomials.degree(k) > most {
                     break;
                 }

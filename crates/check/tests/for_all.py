@@ -101,7 +101,7 @@ def sides_of(cut, refuting=False):
 def good(model, of):
     """The tree of one leaf `+`, or None."""
     loops, sides = loops_of(model, of)
-    proofs = [proof_of(judge, sides + sides_of(cut)) for cut, judge in loops]
+    proofs = [proof_of(judge, box) for cut, judge in loops for box in (cut.boxes(sides, judge) if cut else [sides])]
     return None if None in proofs else "+" + "".join(proofs)
 
 def step_to(axis, share):
@@ -276,6 +276,38 @@ class Boxes(Case):
         tree = "a?" + bad(model, document(model, **of | {"axes": [("K", 100, 200)]}), axes=1)
         self.accept(model, with_tree(wide, tree), "the loop is not stable with a modulus margin of at least 1/3 at u, for any value in 100 <= K <= 200.")
         self.reject(model, with_tree(wide, tree[1:] + "?"))
+
+    def proofs(self, model, of):
+        """Of each box of a leaf `+` of the one requirement; None where none is found."""
+        [(cut, judge)], sides = loops_of(model, of)
+        return [proof_of(judge, box, 300) for box in cut.boxes(sides, judge)]
+
+    def test_each_part_of_a_disc_is_needed(self):
+        edge = siso("discrete", "K", "(z + 1/100)/(z + 2/100)")  # 1 + L is about a tenth everywhere
+        turned = siso("discrete", "1", "K*(z + 1/100)/(z + 2/100) - 1 + j/10")
+        third, second = (siso("continuous", "K", p) for p in ("1/(s*(s+1)*(s+2))", "1/(s*(s+1))"))
+        two = ("K", "19/10", "21/10")
+        for model, name, kind, bad_bound, good_bound, seen in (
+                (edge, ("K", "-91/100", "-89/100"), "modulus_margin", "1/2", "1/20", [True, True, False]),
+                (turned, ("K", "-1/100", "1/100"), "modulus_margin", "1/2", "1/20", [True, True, False]),
+                (third, two, "modulus_margin", "3/5", "1/3", [False, True, True]),
+                (second, two, "complementary_peak", "3/2", "8/5", [True, False, True])):
+            for ranges in ({"axes": [name]}, {"for_all": [name]}):
+                proofs = self.proofs(model, document(model, require=[require(kind, bad_bound)], **ranges))
+                self.assertEqual([p is not None for p in proofs], seen)
+                for forged in (".", "b..", "c..", "cc...", "a..", ""):
+                    tree = "+" + "".join(forged if p is None else p for p in proofs)
+                    self.reject(model, document(model, require=[require(kind, bad_bound)], tree=tree, **ranges))
+                proofs = self.proofs(model, document(model, require=[require(kind, good_bound)], **ranges))
+                self.accept(model, document(model, require=[require(kind, good_bound)], tree="+" + "".join(proofs), **ranges))
+                for tree in ("+" + proofs[0] + proofs[1], "+" + "".join(proofs) + ".", "+b.." + proofs[1] + proofs[2], "+" + proofs[0] + proofs[1] + "a.."):
+                    self.reject(model, document(model, require=[require(kind, good_bound)], tree=tree, **ranges), "tree")
+
+    def test_divisors_with_the_factor_are_asked_about_over_the_whole_disc(self):
+        for divisor, good_parts in (("K - 5/2", [False]), ("K + 9", [True]), ("7", [True] * 3)):  # 5/2 is one of the numbers 2 (1 + 2 d/3)
+            model = siso("continuous", "K", "1/(s+1)", "K", f"constants = {{ unused = '1/({divisor})' }}")
+            of = document(model, for_all=[("K", "19/10", "21/10")], require=[require("complementary_peak", "3/2", {"parameter": "K"})])
+            self.assertEqual([p is not None for p in self.proofs(model, of)], good_parts)
 
     def test_two_axes(self):
         model = siso("continuous", "K", "1/(s-a)", "K a")

@@ -2,13 +2,15 @@
 
 #[path = "for_all/changes.rs"]
 mod changes;
+#[path = "for_all/discs.rs"]
+mod discs;
 #[path = "for_all/truth.rs"]
 mod truth;
 #[path = "for_all/writer.rs"]
 mod writer;
 
 use jurist_check::{Step, check};
-use writer::{Asked, LIMITS, accepted, written};
+use writer::{Asked, LIMITS, accepted, proof, written};
 
 /// Unity feedback around a transfer function.
 fn loop_of(time: &str, transfer: &str, more: &str) -> String {

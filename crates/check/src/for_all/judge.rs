@@ -12,9 +12,9 @@ use crate::{Limits, Rejection, Step};
 /// There is one loop for each requirement, with the factor of it at its cut, or one without requirements. A box of a loop has a side for each of the names: the
 /// axes, those for all, and the own ones of the requirement.
 ///
-/// What is shown of a box depends on the way to it: the checker takes the box that [`over`](ForAllJudge::over) makes of the axes of a leaf; for a leaf `+` of the
-/// tree it halves that along the proof by [`halves`](ForAllJudge::halves), for a leaf `-` it takes parts by [`part`](ForAllJudge::part). In between a box may be
-/// asked about.
+/// What is shown of a box depends on the way to it: for a leaf `+` of the tree the checker takes the boxes that [`proofs`](ForAllJudge::proofs) makes of its
+/// axes, and halves each along its proof by [`halves`](ForAllJudge::halves); for a leaf `-` it takes parts by [`part`](ForAllJudge::part) of the one that
+/// [`over`](ForAllJudge::over) makes. In between a box may be asked about.
 ///
 /// ```
 /// use jurist_check::{ForAllJudge, Limits, Part};
@@ -26,12 +26,12 @@ use crate::{Limits, Rejection, Step};
 ///     "order": 2, "bits": 64
 /// }"#;
 /// let judge = ForAllJudge::new(model, certificate, &Limits::default()).unwrap();
-/// let whole = judge.whole(0, false);
+/// let whole = judge.whole(0);
 /// let [lower, upper] = [Part::Lower, Part::Upper].map(|half| judge.part(&whole, half, 0));
 /// assert_eq!(judge.sides(&upper)[0], ["1", "3"]);
-/// assert!(judge.shows(0, &mut judge.over(&upper, 0, false), true));
+/// assert!(judge.proofs(&upper, 0).iter_mut().all(|part| judge.shows(0, part, true)));
 /// let lower = judge.part(&judge.part(&lower, Part::Lower, 0), Part::Low, 0);
-/// assert!(judge.shows(0, &mut judge.part(&judge.over(&lower, 0, true), Part::Middle, 1), false), "a = -1, b = 3/2");
+/// assert!(judge.shows(0, &mut judge.part(&judge.over(&lower, 0), Part::Middle, 1), false), "a = -1, b = 3/2");
 /// ```
 pub struct ForAllJudge {
     statement: Statement,
@@ -146,14 +146,34 @@ impl ForAllJudge {
         self.statement.names.len() + self.statement.require.get(number).map_or(0, super::Requirement::names)
     }
 
-    /// Everything that is asked of the loop with this number: with `refute` as far as a leaf `-` may go, which is less of the angles of a phase margin.
-    pub fn whole(&self, number: usize, refute: bool) -> JudgedBox {
-        self.over_axes(&self.statement.window[..self.statement.axes], number, refute)
+    /// Everything that is asked of the loop with this number, as far as a leaf `-` may go, which is less of the angles of a phase margin.
+    pub fn whole(&self, number: usize) -> JudgedBox {
+        self.over_axes(&self.statement.window[..self.statement.axes], number)
     }
 
     /// The same where the axes have the sides that they have in another box, of any of the loops.
-    pub fn over(&self, axes: &JudgedBox, number: usize, refute: bool) -> JudgedBox {
-        self.over_axes(&axes.sides()[..self.statement.axes], number, refute)
+    pub fn over(&self, axes: &JudgedBox, number: usize) -> JudgedBox {
+        self.over_axes(&axes.sides()[..self.statement.axes], number)
+    }
+
+    /// The boxes in all of which a loop is to be stable for a leaf `+` over these axes, in their order: three for the factors of a disc, where there are axes or
+    /// names for all. The last of these is a point of them.
+    pub fn proofs(&self, axes: &JudgedBox, number: usize) -> Vec<JudgedBox> {
+        self.proofs_over(&axes.sides()[..self.statement.axes], number)
+    }
+
+    pub(super) fn proofs_over(&self, axes: &[[Q; 2]], number: usize) -> Vec<JudgedBox> {
+        let of = &self.loops[number];
+        let sides: Vec<[Q; 2]> = axes.iter().chain(&self.statement.window[self.statement.axes..]).cloned().collect();
+        let with = |sides: &[[Q; 2]], own: Vec<[Q; 2]>| of.over(sides.iter().cloned().chain(own).collect());
+        let Some(requirement) = self.statement.require.get(number) else { return vec![with(&sides, Vec::new())] };
+        match requirement.parts_of_disc(of.is_complex) {
+            Some([plus, minus, across]) if !sides.is_empty() && !of.divides_by_factor() => {
+                let middle: Vec<_> = sides.iter().map(|side| Part::of(side)(Part::Middle)).collect();
+                vec![with(&sides, plus), with(&sides, minus), with(&middle, across)]
+            }
+            _ => vec![with(&sides, requirement.ranges(of.is_complex, false))],
+        }
     }
 
     /// A point of the names for all, where there are no axes, in their ranges or not: with `refute`, as a point beyond. With several rates its own
@@ -170,13 +190,14 @@ impl ForAllJudge {
     }
 
     pub(super) fn at_point(&self, point: &[Q], number: usize) -> JudgedBox {
-        let whole = self.over_axes(&[], number, true);
+        let whole = self.over_axes(&[], number);
         point.iter().enumerate().fold(whole, |part, (axis, x)| part.with_side(axis, [x.clone(), x.clone()]))
     }
 
-    pub(super) fn over_axes(&self, axes: &[[Q; 2]], number: usize, refute: bool) -> JudgedBox {
+    /// Of a leaf `-`.
+    pub(super) fn over_axes(&self, axes: &[[Q; 2]], number: usize) -> JudgedBox {
         let of = &self.loops[number];
-        let own = self.statement.require.get(number).map(|own| own.ranges(of.is_complex, refute));
+        let own = self.statement.require.get(number).map(|own| own.ranges(of.is_complex, true));
         let for_all = &self.statement.window[self.statement.axes..];
         of.over(axes.iter().chain(for_all).cloned().chain(own.into_iter().flatten()).collect())
     }

@@ -69,6 +69,15 @@ impl Requirement {
         }
     }
 
+    /// Of factors by a disc three parts of these ranges: both halves of its edge, and what is enough of it at one point of the other names.
+    pub fn parts_of_disc(&self, is_complex: bool) -> Option<[Vec<[Q; 2]>; 3]> {
+        let [_, t] = self.ranges(is_complex, false).try_into().ok()?;
+        let [minus, zero, plus] = [-Q::one(), Q::zero(), Q::one()];
+        let at = |r: &Q| vec![[r.clone(), r.clone()], t.clone()];
+        let across = if is_complex { t.clone() } else { [zero.clone(), zero] };
+        Some([at(&plus), at(&minus), vec![[minus, plus], across]])
+    }
+
     pub fn in_words(&self) -> String {
         let bound = exact(&self.bound);
         let what = match self.factor.family {
@@ -180,6 +189,12 @@ mod tests {
         let disc = of("disk_margin", "1").unwrap();
         assert_eq!(disc.ranges(false, true), [[q(-1, 1), q(1, 1)], [q(0, 1), q(1, 1)]]);
         assert_eq!(disc.ranges(true, true), [[q(-1, 1), q(1, 1)], [q(-1, 1), q(1, 1)]]);
+        let [all, half, one, zero] = [[-1, 1], [0, 1], [1, 1], [0, 0]].map(|side| side.map(|n| q(n, 1)));
+        let minus = [-1, -1].map(|n| q(n, 1));
+        let parts = |of: [&[Q; 2]; 6]| [0, 2, 4].map(|i| vec![of[i].clone(), of[i + 1].clone()]);
+        assert_eq!(disc.parts_of_disc(false), Some(parts([&one, &half, &minus, &half, &all, &zero])));
+        assert_eq!(disc.parts_of_disc(true), Some(parts([&one, &all, &minus, &all, &all, &all])));
+        assert!(gain.parts_of_disc(false).is_none());
         let phase = read("90", ["9/10", "11/10"]).unwrap();
         assert_eq!(phase.ranges(false, false), [[q(0, 1), q(11, 10)]]);
         assert_eq!(phase.ranges(true, true), [[q(-9, 10), q(9, 10)]]);

@@ -32,7 +32,12 @@ impl ForAllJudge {
             Step::Line.of(self.clock().tick())?;
             let letter = letters.next().ok_or_else(|| line("the tree ends too early"))?;
             match letter {
-                '+' => (0..self.loops()).try_for_each(|k| self.proof(k, &axes, &mut letters))?,
+                '+' => {
+                    for k in 0..self.loops() {
+                        let boxes = self.proofs_over(&axes, k);
+                        boxes.into_iter().try_for_each(|own| self.proof(k, own, &mut letters))?;
+                    }
+                }
                 '-' => self.refutation(&axes, &mut letters)?,
                 '?' => {}
                 other => {
@@ -62,9 +67,9 @@ impl ForAllJudge {
         Ok(walked)
     }
 
-    /// That a loop is stable for all values of the names that are no axes.
-    fn proof(&self, k: usize, axes: &[[Q; 2]], letters: &mut Chars<'_>) -> Result<(), Rejection> {
-        let mut stack = vec![(self.over_axes(axes, k, false), 0)];
+    /// That a loop is stable in a box.
+    fn proof(&self, k: usize, of: JudgedBox, letters: &mut Chars<'_>) -> Result<(), Rejection> {
+        let mut stack = vec![(of, 0)];
         while let Some((mut part, depth)) = stack.pop() {
             Step::Line.of(self.clock().tick())?;
             match letters.next().ok_or_else(|| line("a proof ends too early"))? {
@@ -91,7 +96,7 @@ impl ForAllJudge {
     /// That a loop is not stable for some values of the names that are no axes, the same for all points of the axes.
     fn refutation(&self, axes: &[[Q; 2]], letters: &mut Chars<'_>) -> Result<(), Rejection> {
         let k = self.number(letters)?;
-        let part = self.stepped(k, self.over_axes(axes, k, true), letters)?;
+        let part = self.stepped(k, self.over_axes(axes, k), letters)?;
         not_stable(self.of_number(k), k, part, self.clock())
     }
 

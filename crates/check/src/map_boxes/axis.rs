@@ -100,7 +100,7 @@ pub(super) fn right(p: &[Taylor], precision: &Precision, clock: &Clock) -> Resul
     while let Some(part) = parts.pop() {
         looked_at += 1;
         precision.hold((parts.len() + 3) * (n + 1), clock)?;
-        clock.spend(16 * (n + 1) * precision.terms(), precision.bits as u64, 0)?;
+        clock.spend(operations(&part, n, precision), precision.bits as u64, 0)?;
         let [e, o] = &part.pair;
         if let Some(next) = half_plane(Some(direction), precision.parameters(), e, o)
             && let Some(turn) = direction.turn_to(next)
@@ -121,6 +121,14 @@ pub(super) fn right(p: &[Taylor], precision: &Precision, clock: &Clock) -> Resul
     let end = AXES[(n + if last { 0 } else { 2 }) % 4];
     let twice = direction.turn_to(end).map(|turn| n as i64 - turns - turn);
     Ok(twice.filter(|k| k % 2 == 0).and_then(|k| usize::try_from(k / 2).ok()))
+}
+
+/// How many operations are counted for a look at a part. In more than two coordinates most coefficients are zero.
+fn operations(part: &Part, n: usize, precision: &Precision) -> usize {
+    match precision.parameters() {
+        0..=2 => 16 * (n + 1) * precision.terms(),
+        _ => 4 * part.pair.iter().flatten().map(Taylor::size).sum::<usize>(),
+    }
 }
 
 /// The exponent of a power of two that is about the size of the roots.

@@ -53,6 +53,8 @@ pub(super) struct Delayed {
     /// The coefficients of all parts, then lists of divisors.
     functions: Functions,
     divisors: Vec<Range<usize>>,
+    /// Whether one of them depends on the factor.
+    pub divides_by_factor: bool,
     is_nowhere: bool,
     precision: Precision,
     turns: Turns,
@@ -126,7 +128,9 @@ impl Delayed {
             |part: Vec<Multi>| part.into_iter().enumerate().map(|(j, c)| c.scaled(&factor(j))).collect::<Vec<_>>();
         let mut all: Vec<Multi> = primitive(coefficients.into_iter().flat_map(scaled).collect(), clock)?;
         let mut divisors = Vec::with_capacity(terms.divisors.len());
-        for list in separated(terms.divisors, &positive, clock)? {
+        let lists = separated(terms.divisors, &positive, clock)?;
+        let divides_by_factor = of.has_own_name(&lists);
+        for list in lists {
             divisors.push(all.len()..all.len() + list.len());
             all.extend(primitive(list, clock)?);
         }
@@ -137,6 +141,7 @@ impl Delayed {
             times: terms.times,
             functions: Functions::new(&all, parameters),
             divisors,
+            divides_by_factor,
             is_nowhere,
             precision: Precision::new(parameters, parts.order, parts.bits),
             turns: Turns::new(parts.bits),

@@ -10,7 +10,9 @@ mod polynomial;
 use crate::clock::Clock;
 use crate::factor::Factor;
 use crate::format::Json;
+use crate::multivariate::Multi;
 use crate::number::Q;
+use crate::over_box::FIRST;
 use crate::statement::{Extent, axes, count, fixed_extent, list, number, object, text, values};
 use crate::words::{exact, inward};
 use crate::{Proved, Rejection, Step, is_discrete, verdict};
@@ -64,6 +66,14 @@ impl Parts {
             (order @ 1..=8, bits @ 64..=1024) => Ok(Parts { order, bits, share }),
             _ => Err("'order' is not from 1 to 8, or 'bits' not from 64 to 1024".to_owned()),
         }
+    }
+}
+
+impl Question {
+    /// Whether an own name of the factor is in one of these polynomials.
+    pub fn has_own_name(&self, all: &[Vec<Multi>]) -> bool {
+        let own = FIRST + self.names.len()..FIRST + self.window.len();
+        all.iter().flatten().any(|p| own.clone().any(|name| p.degree(name) > 0))
     }
 }
 

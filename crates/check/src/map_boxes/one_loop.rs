@@ -2,7 +2,7 @@
 
 use super::delayed::{self, Delayed};
 use super::polynomial::{self, Polynomial};
-use super::{Parts, Question, Sides};
+use super::{Parts, Question, Sides, share_of_window};
 use crate::blocks::has_several_rates;
 use crate::clock::Clock;
 use crate::model::{Boxed, Functions};
@@ -99,6 +99,14 @@ impl OneLoop {
         Ok(OneLoop { window: of.window.clone(), is_complex, is_enclosed, of: Step::Model.of(kind)? })
     }
 
+    /// Whether a divisor depends on the factor.
+    pub fn divides_by_factor(&self) -> bool {
+        match &self.of {
+            Kind::Polynomial(judge) => judge.divides_by_factor,
+            Kind::Delayed(judge) => judge.divides_by_factor,
+        }
+    }
+
     /// A box of which nothing is known yet.
     pub fn over(&self, sides: Vec<[Q; 2]>) -> JudgedBox {
         let known = match self.of {
@@ -158,11 +166,13 @@ impl OneLoop {
 
     /// The axis along which the functions change most in a box; of one that is not known, the widest in shares of the window.
     pub fn axis(&self, of: &JudgedBox) -> usize {
-        match (&self.of, &of.known) {
+        let found = match (&self.of, &of.known) {
             (Kind::Polynomial(judge), Known::Polynomial(known)) => judge.axis(&of.sides, &self.window, known),
             (_, Known::Delayed(known)) => known.axis(&of.sides, &self.window),
             _ => 0,
-        }
+        };
+        let [low, high] = &of.sides[found];
+        if low < high { found } else { share_of_window(&of.sides, &self.window) }
     }
 }
 

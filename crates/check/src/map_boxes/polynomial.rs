@@ -30,6 +30,8 @@ pub(super) struct Polynomial {
     squared: Option<usize>,
     /// Places of those divisors that one list has.
     divisors: Vec<Range<usize>>,
+    /// Whether one of them depends on the factor.
+    pub divides_by_factor: bool,
     /// Whether a divisor, or a coefficient, is zero everywhere: then no point is stable.
     is_nowhere: bool,
 }
@@ -60,7 +62,9 @@ impl Polynomial {
         let is_nowhere =
             is_undefined || if squared.is_some() { is_zero(0) || is_zero(n - 1) } else { (0..n).any(is_zero) };
         let mut divisors = Vec::with_capacity(own.divisors.len());
-        for parts in separated(own.divisors, &own.positive, clock)? {
+        let lists = separated(own.divisors, &own.positive, clock)?;
+        let divides_by_factor = of.has_own_name(&lists);
+        for parts in lists {
             // Their places beside the coefficients.
             let first = all.len() + coefficients - n * if squared.is_some() { 2 } else { 1 };
             divisors.push(first..first + parts.len());
@@ -76,6 +80,7 @@ impl Polynomial {
             coefficients,
             squared,
             divisors,
+            divides_by_factor,
             is_nowhere,
         })
     }

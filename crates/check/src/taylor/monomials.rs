@@ -10,11 +10,7 @@ pub(super) struct Monomials {
     /// How many monomials in so many last variables are below a degree: by variable, then by degree.
     below: Vec<Vec<usize>>,
     degrees: Vec<u8>,
-    most_products: usize,
 }
-
-/// The work of a product is counted as so many times the products of monomials up to the order.
-const COUNTED: usize = 4;
 
 impl Monomials {
     pub fn new(variables: usize, order: usize) -> Self {
@@ -26,7 +22,7 @@ impl Monomials {
                 below[variable][degree] = below[variable][degree - 1] + others;
             }
         }
-        let mut found = Monomials { variables, tails: Vec::new(), below, degrees: Vec::new(), most_products: 0 };
+        let mut found = Monomials { variables, tails: Vec::new(), below, degrees: Vec::new() };
         for degree in 0..=if variables == 0 { 0 } else { order } {
             let mut tail = vec![0; variables];
             tail.iter_mut().take(1).for_each(|first| *first = degree as u8);
@@ -39,14 +35,7 @@ impl Monomials {
                 tail[k + 1..].fill(0);
             }
         }
-        // Pairs of monomials are monomials in twice the variables: C(order + 2 n, 2 n).
-        let pairs = (1..=order).fold(1, |c, k| c * (2 * variables + k) / k);
-        found.most_products = COUNTED * pairs;
         found
-    }
-
-    pub fn most_products(&self) -> usize {
-        self.most_products
     }
 
     pub fn variables(&self) -> usize {
@@ -96,9 +85,6 @@ mod tests {
             let lists: Vec<Vec<usize>> = (0..all.len()).map(exponents).collect();
             let binomial = (1..=order).fold(1, |c, k| c * (variables + k) / k);
             assert_eq!(all.len(), binomial, "all of them");
-            let is_short = |(a, b): (usize, usize)| all.degree(a) + all.degree(b) <= order;
-            let pairs = (0..all.len()).flat_map(|a| (0..all.len()).map(move |b| (a, b))).filter(|pair| is_short(*pair));
-            assert_eq!(all.most_products(), COUNTED * pairs.count());
             for (i, own) in lists.iter().enumerate() {
                 assert_eq!(all.degree(i), own.iter().sum::<usize>());
                 assert!(i == 0 || all.degree(i - 1) <= all.degree(i));

@@ -4,6 +4,7 @@ use crate::truth::{Plant, is_true};
 use crate::writer::{Asked, LIMITS, written};
 use crate::{INPUT, SIGNAL, loop_of, other, phase};
 use jurist_check::check;
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// Numbers that look random.
@@ -215,7 +216,7 @@ fn random(draw: &mut Draw) -> (Plant, Asked) {
     let gain = of(1, 9, 14)[0];
     let text = |[x, y]: [i64; 2]| if y == 0 { format!("({x}/10)") } else { format!("({x}/10 + {y}/10*j)") };
     let product = |all: &[[i64; 2]]| all.iter().map(|c| format!("*({variable} - {})", text(*c))).collect::<String>();
-    let transfer = format!("{}{}/(1{})", text(gain), product(&zeros), product(&poles));
+    let transfer = format!("g*{}{}/(1{})", text(gain), product(&zeros), product(&poles));
     let tenth = |c: &[i64; 2]| c.map(|x| x as f64 / 10.0);
     let expanded = move |lead: [i64; 2], roots: &[[i64; 2]]| {
         roots.iter().fold(vec![tenth(&lead)], |p, root| {
@@ -228,10 +229,14 @@ fn random(draw: &mut Draw) -> (Plant, Asked) {
             out
         })
     };
-    let model = loop_of(time, &transfer, "");
-    let open = Rc::new(move |_: &_| [expanded([10, 0], &poles), expanded(gain, &zeros)]);
+    let model = loop_of(time, &transfer, "constants.g = 1");
+    let open = Rc::new(move |of: &BTreeMap<String, f64>| {
+        let g = of.get("g").copied().unwrap_or(1.0);
+        [expanded([10, 0], &poles), expanded(gain, &zeros).iter().map(|c| c.map(|x| g * x)).collect()]
+    });
     let at = if draw.below(2) == 0 { INPUT } else { SIGNAL };
     let share = (1 + draw.below(9)) as i64;
+    let ranges = ["", r#"{"name": "g", "between": ["19/20", "21/20"]}"#];
     let require = match draw.below(5) {
         0 => phase(at, 17.0 * share as f64),
         1 => other("gain_margin", at, &format!("{}/10", 10 + 3 * share)),
@@ -239,7 +244,7 @@ fn random(draw: &mut Draw) -> (Plant, Asked) {
         3 => other("disk_margin", at, &format!("{share}/5")),
         _ => other("complementary_peak", at, &format!("{}/10", 6 + 2 * share)),
     };
-    (Plant { model, time, open }, Asked { order: 2, ..Asked::of(time) }.require(require))
+    (Plant { model, time, open }, Asked { order: 2, ..Asked::of(time) }.for_all(ranges[draw.below(2)]).require(require))
 }
 
 /// `JURIST_LOOPS=1000` looks at so many loops.

@@ -127,14 +127,20 @@ fn points(ranges: &[Range]) -> Vec<BTreeMap<String, f64>> {
     all
 }
 
+/// The number of proofs of a leaf `+`.
+fn proofs(require: &[Json], has_names: bool) -> usize {
+    let is_of_disc = |of: &Json| !["phase_margin", "gain_margin"].contains(&text(of.get("kind")));
+    require.iter().map(|of| if has_names && is_of_disc(of) { 3 } else { 1 }).sum::<usize>().max(1)
+}
+
 /// The leaves of a tree with their boxes, proofs and steps left out.
-fn leaves(tree: &str, axes: &[Range], loops: usize) -> Vec<(char, Vec<Range>)> {
+fn leaves(tree: &str, axes: &[Range], proofs: usize) -> Vec<(char, Vec<Range>)> {
     let (mut letters, mut out, mut stack) = (tree.chars(), Vec::new(), vec![axes.to_vec()]);
     while let Some(own) = stack.pop() {
         let letter = letters.next().expect("a tree");
         match letter {
             '+' => {
-                let mut open = loops;
+                let mut open = proofs;
                 while open > 0 {
                     if letters.next().expect("a proof") == '.' { open -= 1 } else { open += 1 }
                 }
@@ -188,17 +194,19 @@ pub fn is_true(plant: &Plant, certificate: &str) -> bool {
         a.iter().chain(b).chain(&set).map(|(name, x)| (name.clone(), *x)).collect()
     };
     let inner = points(&for_all);
-    let all_good = leaves(text(of.get("tree")), &axes, families.len()).into_iter().all(|(letter, own)| {
-        points(&own).iter().all(|at| {
-            let most = || inner.iter().map(|values| worst(&with(at, values))).fold(f64::NEG_INFINITY, f64::max);
-            match letter {
-                '+' => most() < SLACK,
-                // A grid of factors may miss the worst by a little.
-                '-' => most() > -0.05,
-                _ => true,
-            }
-        })
-    });
+    let all_good = leaves(text(of.get("tree")), &axes, proofs(require, !axes.is_empty() || !for_all.is_empty()))
+        .into_iter()
+        .all(|(letter, own)| {
+            points(&own).iter().all(|at| {
+                let most = || inner.iter().map(|values| worst(&with(at, values))).fold(f64::NEG_INFINITY, f64::max);
+                match letter {
+                    '+' => most() < SLACK,
+                    // A grid of factors may miss the worst by a little.
+                    '-' => most() > -0.05,
+                    _ => true,
+                }
+            })
+        });
     let beyond = of.get("beyond").filter(|beyond| **beyond != Json::Null);
     all_good
         && beyond.is_none_or(|beyond| {

@@ -61,7 +61,7 @@ fn letter(axis: usize) -> char {
 }
 
 /// The proof of a loop over a box, with so many parts at most.
-fn proof(judge: &ForAllJudge, k: usize, part: JudgedBox, most: &mut usize) -> Option<String> {
+pub fn proof(judge: &ForAllJudge, k: usize, part: JudgedBox, most: &mut usize) -> Option<String> {
     let (mut out, mut stack) = (String::new(), vec![part]);
     while let Some(mut part) = stack.pop() {
         *most = most.checked_sub(1)?;
@@ -103,10 +103,11 @@ fn steps(judge: &ForAllJudge, k: usize, axes: usize, part: JudgedBox, most: usiz
 /// What is shown of all points of some axes, halved so often at most.
 fn tree(judge: &ForAllJudge, axes: usize, part: &JudgedBox, depth: usize, most: usize) -> String {
     // Refutations are short, or proofs are.
-    let refuted = |most| (0..judge.loops()).find_map(|k| steps(judge, k, axes, judge.over(part, k, true), most));
+    let refuted = |most| (0..judge.loops()).find_map(|k| steps(judge, k, axes, judge.over(part, k), most));
     let proved = || {
         (0..judge.loops()).try_fold(String::from("+"), |all, k| {
-            Some(all + &proof(judge, k, judge.over(part, k, false), &mut most.clone())?)
+            let proofs = judge.proofs(part, k).into_iter().map(|own| proof(judge, k, own, &mut most.clone()));
+            Some(all + &proofs.collect::<Option<String>>()?)
         })
     };
     if let Some(found) = refuted(1).or_else(proved).or_else(|| refuted(3)) {
@@ -127,7 +128,7 @@ fn tree(judge: &ForAllJudge, axes: usize, part: &JudgedBox, depth: usize, most: 
 pub fn written(model: &str, asked: &Asked, depth: usize, most: usize) -> (String, String) {
     let judge = asked.judge(model);
     let axes = asked.axes.matches("between").count();
-    let found = tree(&judge, axes, &judge.whole(0, false), depth, most);
+    let found = tree(&judge, axes, &judge.whole(0), depth, most);
     (asked.certificate(&found), found)
 }
 
