@@ -274,12 +274,14 @@ pub(super) fn leaf(
 /// ```standalone_crate
 /// use jurist::certified::certify_requirements;
 /// use jurist::{Budget, Limits, Model, Requirement, Source, check};
-/// let line = Source::new("loop", "K/(s*(s + 1))");
-/// let (model, _) = Model::from_line(&line)?;
-/// let (problem, budget) = (model.ask().set("K", "1/2".parse().unwrap()).problem()?, Budget::unlimited());
+/// let text = "time = 'continuous'\nparameters.K = 1\nloop = { inputs = ['r'], outputs = ['y'] }\n\
+///     [[block]]\nname = 'P'\ninput = 'r - y'\noutput = 'y'\ntransfer = 'K/(s*(s + 1))'\n";
+/// let (model, _) = Model::from_toml(&Source::new("loop.toml", text))?;
+/// let half: jurist::Rational = "1/2".parse().unwrap();
+/// let (problem, budget) = (model.ask().set("K", half).problem()?, Budget::unlimited());
 /// let requirement = [Requirement::phase_margin(&60.into())?];
 /// let certificate = certify_requirements(&problem, &requirement, None, true, &budget)?;
-/// let proved = check(&model.source().text, &certificate, &Limits::default()).unwrap();
+/// let proved = check(text, &certificate, &Limits::default()).unwrap();
 /// assert!(proved.statement.contains("60 degrees"));
 /// # Ok::<(), jurist::Error>(())
 /// ```

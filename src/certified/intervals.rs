@@ -136,12 +136,14 @@ fn by_boxes(answer: &Answer<StableSet>, budget: &Budget) -> Result<Option<Certif
 /// ```standalone_crate
 /// use jurist::certified::certify_required_intervals;
 /// use jurist::{Budget, Limits, Model, Requirement, Source, check};
-/// let (model, _) = Model::from_line(&Source::new("loop", "K/(s*(s + 1))"))?;
+/// let text = "time = 'continuous'\nparameters.K = 1\nloop = { inputs = ['r'], outputs = ['y'] }\n\
+///     [[block]]\nname = 'P'\ninput = 'r - y'\noutput = 'y'\ntransfer = 'K/(s*(s + 1))'\n";
+/// let (model, _) = Model::from_toml(&Source::new("loop.toml", text))?;
 /// let (requirement, budget) = ([Requirement::phase_margin(&45.into())?], Budget::unlimited());
 /// let answer = model.ask().free("K").problem()?.required_set(&requirement, None, &budget)?;
 /// let certified = certify_required_intervals(&answer, &requirement, None, &budget)?;
 /// assert!(certified.proved > "99/100".parse().unwrap());
-/// let proved = check(&model.source().text, &certified.text, &Limits::default()).unwrap();
+/// let proved = check(text, &certified.text, &Limits::default()).unwrap();
 /// assert!(proved.statement.contains("45 degrees"));
 /// # Ok::<(), jurist::Error>(())
 /// ```

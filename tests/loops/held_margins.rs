@@ -115,8 +115,10 @@ fn a_model_with_requirements_is_checked_at_its_nominal_point() {
     let run = jurist_with_input(&["verdict", "-", "--phase-margin", "60 deg"], met.as_bytes());
     assert_eq!(run.status, 1, "{}", run.stdout);
     assert!(run.stdout.contains("phase_margin >= 60 deg: not met (57.0653311558)"), "{}", run.stdout);
-    // What cannot be proved is refused, and what is not looked at is said.
-    let run = jurist_with_input(&["verdict", "-", "--certificate", "/dev/null"], met.as_bytes());
+    // What is met is certified; what is not written as a theorem is refused, and what is not looked at is said.
+    let run = jurist_with_input(&["verdict", "-", "--certificate", "-", "-o", "/dev/null"], met.as_bytes());
+    assert!(run.status == 0 && run.stdout.contains("\"modulus_margin\""), "{}{}", run.stdout, run.stderr);
+    let run = jurist_with_input(&["verdict", "-", "--coq", "/dev/null"], met.as_bytes());
     assert!(run.status == 2 && run.stderr.contains("E-require"), "{}", run.stderr);
     let run = jurist_with_input(&["analyze", "-"], met.as_bytes());
     assert!(run.stderr.contains("W-require"), "{}", run.stderr);

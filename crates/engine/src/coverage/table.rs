@@ -122,7 +122,7 @@ static ROWS: &[Row] = &[
     Row::new(Asked::ToleranceCertificate, "tolerance --tol NAME=10% --certificate FILE", [A(&WITNESSES), A(&WITNESSES), A(&WITNESSES), A(&WITNESSES), BESIDE, NO_ORDER]),
     at_a_point(Asked::VerdictWithMarginsCertificate, "verdict --modulus-margin 1/100 --certificate FILE", [A(&WITNESSES), A(&WITNESSES), A(&WITNESSES), BESIDE]),
     Row::new(Asked::IntervalsWithMarginsCertificate, "intervals --param NAME --modulus-margin 1/100 --certificate FILE", [A(&WITNESSES), A(&WITNESSES), A(&WITNESSES), A(&WITNESSES), BESIDE, NO_ORDER]),
-    Row::new(Asked::BoxMapWithRequirementsCertificate, "map -x NAME -y NAME --method boxes --modulus-margin 1/100 --certificate FILE", [B(&WITNESSES), B(&WITNESSES), B(&WITNESSES), B(&WITNESSES), BESIDE, NO_ORDER]),
+    Row::new(Asked::BoxMapWithRequirementsCertificate, "map -x NAME -y NAME --method boxes --modulus-margin 1/100 --certificate FILE", [B(&WITNESSES), B(&WITNESSES), B(&WITNESSES), B(&WITNESSES), R(&NO_CERTIFICATE), NO_ORDER]),
     Row::new(Asked::Smt2, "intervals --param NAME --smt2 FILE", [A(&WITNESSES), NO_SMT, NO_SMT, NO_SMT, BESIDE, NO_SMT]),
     Row::new(Asked::IntervalsCoq, "intervals --param NAME --coq FILE", [A(&WITNESSES), NO_COQ, NO_COQ, NO_COQ, BESIDE, NO_ORDER]),
     at_a_point(Asked::VerdictCoq, "verdict --coq FILE", [A(&WITNESSES), NO_COQ, NO_COQ, BESIDE]),

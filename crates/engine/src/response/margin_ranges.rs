@@ -71,7 +71,9 @@ impl Problem {
     /// use jurist_algebra::limits::Budget;
     /// use jurist_engine::error::Source;
     /// use jurist_engine::model::Model;
-    /// let (model, _) = Model::from_line(&Source::new("loop", "K/(s*(s + 1))"))?;
+    /// let text = "time = 'continuous'\nparameters.K = 1\nloop = { inputs = ['r'], outputs = ['y'] }\n\
+    ///     [[block]]\nname = 'P'\ninput = 'r - y'\noutput = 'y'\ntransfer = 'K/(s*(s + 1))'\n";
+    /// let (model, _) = Model::from_toml(&Source::new("loop.toml", text))?;
     /// let budget = Budget::unlimited();
     /// let ranges = model.ask().free("K").problem()?.margin_ranges(&model.usual_margins(&budget)?, None, &budget)?;
     /// // tan(60 deg) = 1/w and K = w sqrt(1 + w^2) at the crossing: up to K = 2/3.
