@@ -158,9 +158,11 @@ pub fn certify_required_intervals(
 ) -> Result<CertifiedIntervals, Error> {
     budget.step("certificate");
     let (problem, set) = (answer.problem(), LineSet::from(answer.value()));
-    let ends = match answer.value().for_all.is_empty() {
-        true => window(problem, &set),
-        false => looked_at(problem, &set),
+    let domain = &problem.parameter().domain;
+    let ends = match (&domain.lower, &domain.upper) {
+        (Some(low), Some(high)) => [low.clone(), high.clone()],
+        _ if answer.value().for_all.is_empty() => window(problem, &set),
+        _ => looked_at(problem, &set),
     };
     let axis = AllOf::new(&problem.parameter().name, ends[0].clone(), ends[1].clone()).expect("a window is not empty");
     let claim = ForAllClaim::new(vec![axis], answer.value().for_all.clone())

@@ -333,3 +333,17 @@ fn sets_of_one_parameter_for_all_values_agree_with_the_set_of_the_other_name() {
     }
     assert!(good > 40 && spoiled > 100, "{good} {spoiled}");
 }
+
+/// A loop in one line has no values of its names: a requirement is asked of it all the same, and the name that is asked about has no range.
+#[test]
+fn a_loop_in_one_line_is_asked_with_requirements() {
+    let line = "K*(s+L)/(s*(s+1)*(s+2))";
+    let run = jurist(&["intervals", line, "--param", "K", "--for-all", "L=1..6", "--phase-margin", "45 deg", "-q"]);
+    assert!(
+        run.status == 0 && run.stdout.contains("for all L from 1 to 6: stable, phase_margin >= 45 deg"),
+        "{}",
+        run.stderr
+    );
+    let run = jurist(&["intervals", line, "--param", "K", "--for-all", "K=1..6"]);
+    assert!(run.status == 2 && run.stderr.contains("'K' is what is asked about"), "{}", run.stderr);
+}

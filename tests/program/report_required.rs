@@ -1,7 +1,7 @@
 //! What a report says of requirements, of maps by boxes and of tolerances that are long.
 
 use super::report::{CASCADE, check_page, plain, rows, section};
-use crate::helpers::program::{jurist, jurist_with_input, refused};
+use crate::helpers::program::{jurist, jurist_with_input};
 
 #[test]
 fn requirements_are_met_or_not_with_what_is_left_and_certificates_stay() {

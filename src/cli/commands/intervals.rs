@@ -3,7 +3,7 @@
 use super::{Context, Runs, decided};
 use crate::certified::{CertifiedIntervals, certify_intervals, certify_required_intervals};
 use crate::cli::arguments::{DecisionOptions, RunOptions};
-use crate::cli::commands::map::ranges;
+use crate::cli::commands::map::{at_middles, ranges};
 use crate::cli::destinations::Files;
 use crate::cli::input::{decision, known_names, only_parameter};
 use crate::cli::output::{note, write_answer};
@@ -15,7 +15,7 @@ use clap::Args;
 use jurist_engine::answer::Answer;
 use jurist_engine::coverage::Asked;
 use jurist_engine::model::Model;
-use jurist_engine::problem::{DECAY, RADIUS};
+use jurist_engine::problem::{DECAY, Question, RADIUS};
 use jurist_engine::response::{MapForAll, RequiredSet, Requirement};
 use jurist_engine::show::documents::Intervals;
 use jurist_engine::show::intervals_text;
@@ -79,10 +79,11 @@ fn run(options: &Options, context: &Context) -> Outcome {
         known_names(context, &model, "--param", from_ref(&name))?;
     }
     let digits = output.digits() as usize;
-    let (asked, question) = options.require.asked(&model, question.free(&name), &options.decision.region, context)?;
+    let (all, question) = (ranges(&options.for_all, &[&name], &model, context)?, question.free(&name));
+    let asked = options.require.asked(&model, at_middles(&question, &all), &options.decision.region, context)?.0;
+    let question = asked.region.clone().into_iter().fold(question, Question::within);
     refuse_theorems(&asked, options.smt2.is_some() || options.coq.is_some())?;
-    if !options.for_all.is_empty() {
-        let all = ranges(&options.for_all, &model, context)?;
+    if !all.is_empty() {
         let for_all = MapForAll::new(all).with_requirements(asked.list.clone(), asked.at.clone());
         return match decided(for_all.intervals(question, &context.budget))? {
             Ok(answer) => required(&answer, (&asked.list, asked.at.as_deref()), options, &model, context),

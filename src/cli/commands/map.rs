@@ -22,7 +22,7 @@ use jurist_engine::answer::{Answer, BoxRequest, Map, MapBoxes, MapMethod, MapOrB
 use jurist_engine::coverage::Asked;
 use jurist_engine::error::{Code, Diagnostic, Error as EngineError};
 use jurist_engine::model::Model;
-use jurist_engine::problem::{DECAY, Problem, RADIUS};
+use jurist_engine::problem::{DECAY, Problem, Question, RADIUS};
 use jurist_engine::response::{AllOf, MapForAll, Requirements};
 use jurist_engine::show::{documents, map_boxes_text, map_text};
 use std::ffi::OsString;
@@ -109,7 +109,7 @@ impl Runs for Options {
 }
 
 /// The values of other names for all of which something is asked.
-pub(super) fn ranges(texts: &[String], model: &Model, context: &Context) -> Result<Vec<AllOf>, Error> {
+pub(super) fn ranges(texts: &[String], free: &[&str], model: &Model, context: &Context) -> Result<Vec<AllOf>, Error> {
     let mut all: Vec<AllOf> = Vec::new();
     for text in texts {
         let request = axis(context.line, "--for-all", text)?;
@@ -121,12 +121,20 @@ pub(super) fn ranges(texts: &[String], model: &Model, context: &Context) -> Resu
         if all.iter().any(|known| known.name == request.name) {
             return Err(wrong(format!("'{}' is given two ranges", request.name), "a second range").into());
         }
+        if free.contains(&request.name.as_str()) {
+            return Err(wrong(format!("'{}' is what is asked about", request.name), "another name has a range").into());
+        }
         let (Some(least), Some(greatest)) = (&request.lower, &request.upper) else {
             return Err(wrong("'--for-all' expects NAME=LO..HI".to_owned(), "its range needs two ends").into());
         };
         all.extend(AllOf::new(&request.name, least.clone(), greatest.clone()));
     }
     Ok(all)
+}
+
+/// A question in which these names have some value of their ranges: for what is read beside a question.
+pub(super) fn at_middles(question: &Question, all: &[AllOf]) -> Question {
+    question.clone().set_all(all.iter().map(|all| (all.name.clone(), all.range[0].midpoint(&all.range[1]))))
 }
 
 /// Answers on standard output or in a file.
@@ -153,10 +161,12 @@ fn run(options: &Options, context: &Context) -> Outcome {
         }
         return map_body::run(z, options, &requests, picture, (&model, question), context);
     }
-    let (asked, question) = options.require.asked_each(&model, question, &options.region, context)?;
+    let all = ranges(&options.for_all, &requests.each_ref().map(|axis| axis.name.as_str()), &model, context)?;
+    let valued = at_middles(&question, &all);
+    let asked = options.require.asked_each(&model, valued, &options.region, context)?.0;
+    let question = asked.region.clone().into_iter().fold(question, Question::within);
     let boxes = options.method.request(&requests, context)?;
-    if !options.for_all.is_empty() {
-        let all = ranges(&options.for_all, &model, context)?;
+    if !all.is_empty() {
         let asked = MapForAll::new(all).with_requirements(asked.list, asked.at);
         let found = match map_boxes::for_all(&asked, question, (&boxes, options.method.method()), context)? {
             Ok(found) => found,

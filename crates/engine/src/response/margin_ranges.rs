@@ -3,7 +3,7 @@
 use super::required_set::RequiredSet;
 use super::requirement::Requirement;
 use crate::answer::Answer;
-use crate::error::Error;
+use crate::error::{Code, Error};
 use crate::model::{Form, Model};
 use crate::problem::Problem;
 use crate::stability::StableSet;
@@ -106,6 +106,8 @@ impl Problem {
             budget.step(&requirement.text());
             let found = match self.with_margins(std::slice::from_ref(requirement), &stable, at, budget) {
                 Ok(set) => Ok(set),
+                // Where the first is refused for the cut all are.
+                Err(Error::Refused(why)) if why.code() == Code::Cut => return Err(Error::Refused(why)),
                 Err(Error::Refused(why)) => Err(why.diagnostics()[0].message.clone()),
                 Err(other) => return Err(other),
             };

@@ -100,7 +100,7 @@ fn with_gain(
     let is_inside = |f: &MultiPoly| f.degree_in(at) > 0;
     let is_in_time = sample_time.iter().any(|t| is_inside(t.numerator()) || is_inside(t.denominator()));
     if is_in_time || is_inside(&denominator) || polynomial.poles.iter().any(is_inside) {
-        return Err(refused("it is in a denominator, or in the sample time"));
+        return Err(refused("it is in the sample time, or in a divisor, as in that of the connection of blocks"));
     }
     if own.is_none() && symbols.is_moving() {
         return Err(refused("beside functions of what is free it has to be free itself"));
