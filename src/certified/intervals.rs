@@ -64,7 +64,7 @@ pub struct CertifiedIntervals {
 /// Where there is no exact one, as where the parameter is inside of functions (a sample time, a constant of a plant behind a hold), a window that
 /// contains the finite ends is cut into boxes as that of a map; the certificate then leaves short pieces at the ends unknown.
 ///
-/// Cost: that of [`Answer::certificate`], else that of [`certify_boxes`](crate::certify_boxes) for some dozen boxes at each end.
+/// Cost: that of [`Answer::certificate`], else that of [`certify_boxes`](crate::certified::certify_boxes) for some dozen boxes at each end.
 ///
 /// ```standalone_crate
 /// use jurist::certified::certify_intervals;
@@ -131,7 +131,7 @@ fn by_boxes(answer: &Answer<StableSet>, budget: &Budget) -> Result<Option<Certif
 
 /// A certificate of the set of values of one parameter for which the loop is stable and meets requirements: pieces of a window that contains the finite ends.
 ///
-/// Cost: that of [`certify_requirements`](crate::certify_requirements) for some dozen pieces at each end.
+/// Cost: that of [`certify_requirements`](crate::certified::certify_requirements) for some dozen pieces at each end.
 ///
 /// ```standalone_crate
 /// use jurist::certified::certify_required_intervals;
