@@ -259,7 +259,7 @@ def number(x):
 
 MAX_VARIABLES = 900  # none may be the unit or the factor
 UNIT = 1 << 950 * FIELD  # the imaginary unit, behind all other variables
-FACTOR = 1 << 951 * FIELD  # the complex factor of a loop that is cut, of which nothing has a real part until it has a value
+FACTOR = 1 << 951 * FIELD  # the complex factor at the cut of a loop; while it has no value, what contains it has no real part
 
 def is_real(*polynomials):
     return all(e < UNIT for p in polynomials for e in p)
@@ -1660,7 +1660,7 @@ class Enclosed:
             return self.interpolated(nodes, values)
 
         def over(point):
-            """With values for the last names, in the powers of the first, of which that of z runs fastest."""
+            """Puts in values for the last names. The result is a polynomial in the first names; its list of coefficients goes through the powers of z first."""
             if len(point) == len(asked):
                 return at(point)
             nodes = [k // 2 + 1 if k % 2 else -k // 2 for k in range(counts[len(asked) - len(point)])]
@@ -3780,8 +3780,8 @@ class Cut:
         return [[-t, t]] * (self.names - 1) + [[Fraction(0) if is_real else -t, t]]
 
     def boxes(self, sides, judge):
-        """Those in all of which the loop is to be stable for a leaf `+`. Where no factor of the edge of a disc moves a root to the boundary, none of the disc does
-        if that is so at one point; in a real loop real ones tell."""
+        """The boxes of a leaf `+`: it says that the loop is stable in each of them. A disc has three. No factor of its edge may move a root to the boundary;
+        then one point of the axes decides for the inside. Of a real loop real factors are enough there."""
         if self.names < 2 or not sides or judge.divides_by_factor:
             return [sides + self.sides(self.is_real)]
         [disc, turn], middle = self.sides(self.is_real), [[(low + high) / 2] * 2 for low, high in sides]
@@ -3955,7 +3955,7 @@ def check_for_all(model, document, statement, values, discrete, extent):
     return of_for_all(axes, for_all, values, within(discrete, extent), require, leaves, beyond)
 
 def of_for_all(axes, for_all, values, inside, require, leaves, beyond):
-    """The statement in words. Ends of ranges are exact: what is not so for all values of a range need not be in a smaller one."""
+    """The statement in words. Ends of ranges are written exactly: a smaller range may leave out the value that breaks the loop."""
     ways = {"phase_margin": "a phase margin of at least {} degrees", "gain_margin": "a gain margin of at least {} both ways",
             "modulus_margin": "a modulus margin of at least {}", "disk_margin": "a disk margin of at least {}",
             "complementary_peak": "a peak of the complementary sensitivity of at most {}"}

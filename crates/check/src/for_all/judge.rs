@@ -156,8 +156,10 @@ impl ForAllJudge {
         self.over_axes(&axes.sides()[..self.statement.axes], number)
     }
 
-    /// The boxes in all of which a loop is to be stable for a leaf `+` over these axes, in their order: three for the factors of a disc, where there are axes or
-    /// names for all. The last of these is a point of them.
+    /// The boxes of a leaf `+` over these axes, in their order: the leaf says that the loop is stable in each of them. The factors of a disc have three, where there
+    /// are axes or names for all: two for its edge, and one for its inside at a point of the axes.
+    ///
+    /// Cost: that of copying the sides.
     pub fn proofs(&self, axes: &JudgedBox, number: usize) -> Vec<JudgedBox> {
         self.proofs_over(&axes.sides()[..self.statement.axes], number)
     }

@@ -7,10 +7,10 @@ mod walk;
 
 use crate::clock::Clock;
 use crate::format::Json;
-use crate::map_boxes::{Parts, Question, ends, is_long};
+use crate::map_boxes::{Parts, Question, ends, is_long, read_with};
 use crate::number::Q;
 use crate::statement::{Extent, fixed_extent, identifier, list, number, object, text, values};
-use crate::{Proved, Rejection, Step, is_discrete};
+use crate::{Proved, Rejection, is_discrete};
 pub use judge::{ForAllJudge, Part};
 use num_traits::{One, Zero};
 use requirement::Requirement;
@@ -122,10 +122,7 @@ fn short(q: Q) -> Result<Q, String> {
 
 /// What is said, and how it is to be shown.
 fn read(json: &Json) -> Result<(Statement, Parts), Rejection> {
-    let keys = ["schema", "statement", "order", "bits"];
-    let [_, statement, order, bits] = Step::Format.of(object(json, "the certificate", keys, &["model"]))?;
-    let parts = Step::Format.of(Parts::read(order, bits, SHARE))?;
-    Ok((Step::Statement.of(Statement::read(statement))?, parts))
+    read_with(json, SHARE, Statement::read)
 }
 
 pub(super) fn check(model: &str, json: &Json, clock: Clock) -> Result<Proved, Rejection> {

@@ -12,7 +12,7 @@ fn at_values<'v>(values: impl Iterator<Item = (&'v String, &'v Q)>) -> String {
 }
 
 impl Statement {
-    /// The ranges of names for all are exact: what is not so for all values of a range need not be in a smaller one.
+    /// The statement in words. It gives the ranges of names for all exactly: a smaller range may leave out the value that breaks the loop.
     pub(super) fn in_words(&self, walked: &Walked) -> String {
         let require: Vec<String> = self.require.iter().map(Requirement::in_words).collect();
         let within = verdict::within(&self.extent, self.discrete);

@@ -158,10 +158,19 @@ pub(super) fn ends(json: &Json, may_be_one: bool) -> Result<[Q; 2], String> {
 
 /// What is said, and how it is to be shown.
 fn read(json: &Json) -> Result<(Statement, Parts), Rejection> {
+    read_with(json, SHARE, Statement::read)
+}
+
+/// The same of a certificate whose statement is read so.
+pub(super) fn read_with<S>(
+    json: &Json,
+    share: usize,
+    read: impl FnOnce(&Json) -> Result<S, String>,
+) -> Result<(S, Parts), Rejection> {
     let keys = ["schema", "statement", "order", "bits"];
     let [_, statement, order, bits] = Step::Format.of(object(json, "the certificate", keys, &["model"]))?;
-    let parts = Step::Format.of(Parts::read(order, bits, SHARE))?;
-    Ok((Step::Statement.of(Statement::read(statement))?, parts))
+    let parts = Step::Format.of(Parts::read(order, bits, share))?;
+    Ok((Step::Statement.of(read(statement))?, parts))
 }
 
 pub(super) fn check(model: &str, json: &Json, clock: Clock) -> Result<Proved, Rejection> {
