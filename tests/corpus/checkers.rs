@@ -62,7 +62,7 @@ fn end(json: &Json) -> Option<FoundEnd> {
 
 #[test]
 fn both_checkers_prove_what_is_expected() {
-    ask_all(|case, expectation| {
+    ask_all(3, |case, expectation| {
         if !case.is_proved {
             return Ok(());
         }

@@ -69,7 +69,7 @@ fn rounded(value: &Rational) -> [Rational; 2] {
 
 #[test]
 fn the_program_answers_as_expected_and_proves_it() {
-    ask_all(|case, expectation| {
+    ask_all(3, |case, expectation| {
         let (found, certificate) = found(case, expectation)?;
         if let Some(certificate) = certificate {
             accept(&case.model, &certificate);

@@ -16,3 +16,4 @@ pub mod random;
 pub mod required;
 pub mod schema;
 pub mod schur;
+pub mod thorough;

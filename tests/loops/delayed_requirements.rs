@@ -3,6 +3,7 @@
 use crate::helpers::model::{keeping, read};
 use crate::helpers::number::{number, ratio};
 use crate::helpers::random::Random;
+use crate::helpers::thorough::{count, is_tried};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::error::Error;
@@ -90,9 +91,12 @@ fn sets_agree_with_decisions_at_points() {
         ("1/(2*s)", "exp(-K*s)/(s + 1)"),
     ];
     let (mut ends, mut points) = (0, [0; 2]);
-    for (controller, plant) in loops {
+    for (i, (controller, plant)) in loops.into_iter().enumerate() {
         let model = series(controller, plant);
-        for requirement in kinds() {
+        for (j, requirement) in kinds().into_iter().enumerate() {
+            if !is_tried(i + j, 3) {
+                continue;
+            }
             let asked = std::slice::from_ref(&requirement);
             let found = set(&model, asked);
             let told = |x: &Rational| found.intervals.iter().any(|i| i.contains(x));
@@ -112,7 +116,7 @@ fn sets_agree_with_decisions_at_points() {
                     assert_eq!(is_open(&x) || told(&x), is_met, "{controller} {plant} {} {x}", requirement.text());
                 }
             }
-            for _ in 0..4 {
+            for _ in 0..count(3, 4) {
                 let x = ratio(random.below(6000) as i64 - 1000, 1000);
                 if !x.is_zero() && !is_open(&x) {
                     let is_met = decided(&model, &x, asked);
@@ -122,7 +126,8 @@ fn sets_agree_with_decisions_at_points() {
             }
         }
     }
-    assert!(ends >= 16 && points[0] > 10 && points[1] > 10, "{ends} {points:?}");
+    let enough = count(3, 11);
+    assert!(ends > enough && points[0] >= enough && points[1] >= enough, "{ends} {points:?}");
 }
 
 /// Two requirements at once: the one that binds is named.

@@ -3,6 +3,7 @@
 use super::required_boxes::{agrees, boxes, decided, diagram, required};
 use crate::helpers::number::number;
 use crate::helpers::random::Random;
+use crate::helpers::thorough::{count, is_tried};
 use jurist_engine::response::Requirement;
 
 fn kinds() -> [Requirement; 3] {
@@ -25,9 +26,12 @@ fn boxes_of_loops_with_dead_time_agree_with_decisions_at_points() {
         ("K", "exp(-0.3*s)/(L*s - 1)", [["0", "6"], ["1/2", "3"]]),
     ];
     let mut seen = [0; 2];
-    for (controller, plant, sides) in loops {
+    for (i, (controller, plant, sides)) in loops.into_iter().enumerate() {
         let model = diagram("continuous", ["K", "L"], controller, plant, false);
-        for requirement in &kinds() {
+        for (j, requirement) in kinds().iter().enumerate() {
+            if !is_tried(i + j, 3) {
+                continue;
+            }
             let answer = boxes(&model, ["K", "L"], sides, "1/5", std::slice::from_ref(requirement));
             let [unmet, met] = agrees(&answer, &mut random, 6, |p| decided(&model, ["K", "L"], p, requirement));
             seen = [seen[0] + unmet, seen[1] + met];
@@ -35,5 +39,6 @@ fn boxes_of_loops_with_dead_time_agree_with_decisions_at_points() {
             assert!(told > 2, "{controller} {plant} {}", requirement.text());
         }
     }
-    assert!(seen[0] > 20 && seen[1] > 20, "{seen:?}");
+    let enough = count(7, 21);
+    assert!(seen[0] >= enough && seen[1] >= enough, "{seen:?}");
 }

@@ -4,6 +4,7 @@ use crate::helpers::model::{keeping, load, read};
 use crate::helpers::number::{number, ratio};
 use crate::helpers::random::Random;
 use crate::helpers::required::{Known, is_met};
+use crate::helpers::thorough::{count, is_tried};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, BoxRequest, MapBoxes, MapMethod, MapOrBoxes, Verdict};
@@ -97,9 +98,12 @@ fn boxes_of_rational_loops_agree_with_a_second_decision() {
         (Requirement::disk_margin(number("1/2")).unwrap(), Known::Circle([1, -1], number("1/4"))),
     ];
     let mut seen = [0; 2];
-    for (time, controller, plant, sides) in loops {
+    for (i, (time, controller, plant, sides)) in loops.into_iter().enumerate() {
         let model = diagram(time, ["K", "L"], controller, plant, false);
-        for (requirement, known) in &kinds {
+        for (j, (requirement, known)) in kinds.iter().enumerate() {
+            if !is_tried(i + j, 5) {
+                continue;
+            }
             let answer = boxes(&model, ["K", "L"], sides, "1/10", std::slice::from_ref(requirement));
             assert!(answer.value().stopped().is_none(), "{controller} {plant} {}", requirement.text());
             let at = |p: &[Rational; 2]| is_met(&model, &[("K", &p[0]), ("L", &p[1])], Some("u"), known);
@@ -107,7 +111,8 @@ fn boxes_of_rational_loops_agree_with_a_second_decision() {
             seen = [seen[0] + unmet, seen[1] + met];
         }
     }
-    assert!(seen[0] > 60 && seen[1] > 60, "{seen:?}");
+    let enough = count(12, 61);
+    assert!(seen[0] >= enough && seen[1] >= enough, "{seen:?}");
 }
 
 /// Behind a hold with gains, with a constant of the plant and with the sample time, against crossings at points.

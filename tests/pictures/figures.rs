@@ -3,6 +3,7 @@
 use crate::helpers::drive::{sampled_drive, switched_drive};
 use crate::helpers::number::ratio;
 use crate::helpers::program::jurist_with_input;
+use crate::helpers::thorough::{count, is_tried};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_draw::figures::{
@@ -251,7 +252,7 @@ fn pictures(mut see: impl FnMut(&str, &Model, &str, &DrawnLocus)) {
     names.sort();
     assert!(names.len() > 10);
     let budget = Budget::unlimited();
-    for path in names {
+    for path in names.into_iter().enumerate().filter(|(i, _)| is_tried(*i, 3)).map(|(_, path)| path) {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
         let text = std::fs::read_to_string(&path).unwrap();
         let (model, _) = Model::from_toml(&jurist_engine::error::Source::new(name.as_str(), text)).unwrap();
@@ -309,5 +310,5 @@ fn pictures_show_every_certified_crossing_and_contradict_no_certified_answer() {
             assert_eq!(farthest < 0.0, certified, "{name}, {parameter} = {value}: {farthest:e}");
         }
     });
-    assert!(labels >= 20, "{labels}");
+    assert!(labels >= count(5, 20), "{labels}");
 }

@@ -2,6 +2,7 @@
 
 use crate::helpers::program::{json, jurist, jurist_with_input, refused};
 use crate::helpers::schema::fits;
+use crate::helpers::thorough::is_tried;
 use serde_json::Value;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -34,7 +35,8 @@ fn the_commands_that_templates_name_answer() {
     for name in templates() {
         let text = jurist(&["new", &name]).stdout;
         let lines = text.lines().filter_map(|line| line.strip_prefix("# jurist "));
-        for line in lines.filter(|line| !line.starts_with("analyze") && !line.starts_with("report")) {
+        let lines = lines.filter(|line| !line.starts_with("analyze") && !line.starts_with("report"));
+        for (_, line) in lines.enumerate().filter(|(i, _)| is_tried(i + name.len(), 2)) {
             // What follows two blanks says what the command is for.
             let (words, _) = line.split_once("  ").unwrap_or((line, ""));
             let file = |word: &str| folder.join(word).to_str().unwrap().to_owned();

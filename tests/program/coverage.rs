@@ -1,5 +1,6 @@
 //! The table of what is answered: every question is asked of a loop over each ring, and its outcome is the one that the table says.
 
+use crate::helpers::thorough::is_tried;
 use jurist::cli::captured;
 use jurist_algebra::limits::{Budget, parallel_map};
 use jurist_engine::coverage::{Asked, CoefficientRing, Coverage, rows};
@@ -129,7 +130,8 @@ fn every_question_of_a_loop_over_each_ring_has_the_outcome_of_the_table() {
     let wrong: Vec<Vec<String>> = parallel_map(rows(), |row| {
         let file = folder.join(format!("{:?}.html", row.asked));
         let of_time = |of: &&Loop| row.time.is_none_or(|time| time == of.model.time());
-        let asked = loops.iter().filter(of_time).map(|of| check(row, of, file.to_str().expect("a path")));
+        let tried = loops.iter().enumerate().filter(|(i, _)| is_tried(i + row.asked as usize, 3)).map(|(_, of)| of);
+        let asked = tried.filter(of_time).map(|of| check(row, of, file.to_str().expect("a path")));
         asked.filter_map(Result::err).collect::<Vec<_>>()
     });
     let wrong = wrong.concat();
@@ -185,7 +187,7 @@ fn the_ring_of_a_loop_is_seen() {
 
 #[test]
 fn explain_says_how_a_question_of_a_loop_over_each_ring_is_decided() {
-    for of in loops() {
+    for (i, of) in loops().into_iter().enumerate() {
         let asked = |further: &[&str]| {
             let arguments = ["intervals", "-", "--param", "K", "--domain", "K=1/10..1"].iter().chain(further).copied();
             captured(arguments, &of.model, &Budget::unlimited())
@@ -200,6 +202,9 @@ fn explain_says_how_a_question_of_a_loop_over_each_ring_is_decided() {
         assert!(plan.starts_with("\nhow it is decided\n    question      intervals --param NAME\n"), "{plan}");
         assert!(plan.contains(&format!("    coefficients  {}: ", of.ring.name())), "{plan}");
         assert!(plan.contains(&format!("    method        {} ({})\n", method.name, method.place)), "{plan}");
+        if !is_tried(i, 4) {
+            continue;
+        }
         let document: serde_json::Value =
             serde_json::from_str(&asked(&["--explain", "--json"]).unwrap().output).unwrap();
         assert_eq!(document["plan"]["ring"], of.ring.name());
