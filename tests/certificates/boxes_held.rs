@@ -6,7 +6,7 @@ use crate::helpers::certificates::with;
 use crate::helpers::model::{example_text, path, read};
 use crate::helpers::number::number;
 use crate::helpers::program::jurist;
-use crate::helpers::thorough::count;
+use crate::helpers::thorough::{count, tried};
 use jurist_algebra::limits::Budget;
 use jurist_check::format::Json;
 use jurist_check::{Limits, Step, check};
@@ -111,7 +111,7 @@ fn the_drive_behind_a_hold_is_certified_in_its_controllers() {
 /// Another model's certificate, be the other ever so near.
 #[test]
 fn a_certificate_is_about_its_own_plant() {
-    for (plant, from, to) in [
+    let cases = [
         (PLANTS[0], "s/20", "s/21"),
         (PLANTS[0], "0.3*T", "0.4*T"),
         (PLANTS[1], "'foh'", "'zoh'"),
@@ -120,7 +120,8 @@ fn a_certificate_is_about_its_own_plant() {
         (PLANTS[3], "double", "double-ends"),
         (PLANTS[7], "-5", "-6"),
         (PLANTS[8], "prewarp = 2", "prewarp = 3"),
-    ] {
+    ];
+    for (plant, from, to) in tried(cases, 3) {
         let text = loop_of(plant);
         let certificate = emitted(&text);
         let other = loop_of(&plant.replace(from, to));

@@ -8,6 +8,7 @@ use crate::helpers::certificates::{emitted, is_true, verdict_emitted, with_count
 use crate::helpers::model::{example_text, read};
 use crate::helpers::number::number;
 use crate::helpers::random::Random;
+use crate::helpers::thorough::{count, is_tried, tried};
 use jurist::Budget;
 use jurist::certified::certify_intervals;
 use jurist_check::format::Json;
@@ -174,7 +175,8 @@ fn a_machine_in_its_frame_is_certified() {
     let advances = ["", ", advance = 'omega_e*T'", ", advance = '1.5*omega_e*T'"];
     for (k, advance) in advances.iter().enumerate() {
         let own = machine(advance);
-        for (speed, limit) in [("3700", 3), ("3800", 2), ("6500", 2), ("6502", 1), ("8758", 1), ("8759", 0)] {
+        let limits = [("3700", 3), ("3800", 2), ("6500", 2), ("6502", 1), ("8758", 1), ("8759", 0)];
+        for (speed, limit) in limits.into_iter().enumerate().filter(|(i, _)| is_tried(i + k, 3)).map(|(_, case)| case) {
             let certificate = verdict(&own, speed);
             assert_eq!(certificate.contains("\"stable\""), k + limit >= 3, "{advance} {speed}");
             accept(&own, &certificate);
@@ -199,7 +201,7 @@ fn a_machine_in_its_frame_is_certified() {
 fn certificates_are_about_their_frame() {
     let mut random = Random::new(1963);
     let (mut rejected, mut accepted) = (0, 0);
-    for k in 0..40 {
+    for k in 0..count(20, 40) {
         let mut rate = || {
             let (speed, advance) =
                 (["w", "-w", "2*w", "w/3"][random.below(4)], ["", "w/5", "3*w/10", "0"][random.below(4)]);
@@ -229,7 +231,8 @@ fn certificates_are_about_their_frame() {
         assert_eq!(found.is_ok(), is_true, "{found:?}\n{other}\n{certificate}");
         *(if is_true { &mut accepted } else { &mut rejected }) += 1;
     }
-    assert!(rejected > 5 && accepted > 5, "{rejected} {accepted}");
+    let enough = count(2, 6);
+    assert!(rejected >= enough && accepted >= enough, "{rejected} {accepted}");
 }
 
 /// A gain that is turned by an angle: `exp` of a complex number, read by enclosures.
@@ -277,7 +280,7 @@ fn complex_plants_behind_holds_are_certified() {
             "transfer = '1/(s + 1 + 2*j)'\ndiscretize = { method = 'zoh', frame = -3, delay = '0.05', advance = '2' }",
         ),
     ] {
-        for value in ["1/2", "-1/2", "2", "5", "20"] {
+        for value in tried(["1/2", "5", "-1/2", "2", "20"], 2) {
             let certificate = verdict_emitted(&text(plant), "K", value);
             accept(&text(plant), &certificate);
             let is_true = is_true(&text(other), &Json::parse(&certificate).unwrap());

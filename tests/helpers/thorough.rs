@@ -14,3 +14,8 @@ pub fn is_tried(number: usize, every: usize) -> bool {
 pub fn count(few: usize, all: usize) -> usize {
     if is_thorough() { all } else { few }
 }
+
+/// Those of some cases that are tried: one of `every`, or each.
+pub fn tried<T>(cases: impl IntoIterator<Item = T>, every: usize) -> impl Iterator<Item = T> {
+    cases.into_iter().enumerate().filter(move |(number, _)| is_tried(*number, every)).map(|(_, case)| case)
+}

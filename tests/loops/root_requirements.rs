@@ -3,6 +3,7 @@
 use crate::helpers::model::{continuous, discrete, keeping, load};
 use crate::helpers::number::{number, ratio};
 use crate::helpers::program::jurist;
+use crate::helpers::thorough::tried;
 use jurist_algebra::limits::Budget;
 use jurist_engine::model::Model;
 use jurist_engine::response::{RequiredEnd, RequiredSet, Requirement};
@@ -34,7 +35,7 @@ fn the_damping_of_a_discrete_loop_over_three_coefficient_rings() {
         ("k*sqrt(2)", "0", "5.152240872897900191668349"),
         ("exp(k)", "-4", "1.986005331268996552197335"),
     ];
-    for (gain, least, expected) in loops {
+    for (gain, least, expected) in tried(loops, 3) {
         let model = discrete(&format!("1000*z^4 - 1900*z^3 + 900*z^2 + ({gain})*(11*z - 10)"), "");
         let set = set_on(&model, "k", [least, "100"], &requirement);
         assert_eq!(ends(&set, 25), [[least.to_owned(), expected.to_owned()]], "{gain}");

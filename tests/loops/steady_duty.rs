@@ -3,6 +3,7 @@
 use super::pwm::{ends, set};
 use crate::helpers::model::{example_text, read};
 use crate::helpers::program::jurist_with_input;
+use crate::helpers::thorough::tried;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::parse_number;
 use jurist_engine::answer::Verdict;
@@ -90,11 +91,12 @@ fn the_height_of_the_pulses_and_the_period_are_questions() {
 /// With the height of the pulses as a function of `d` for which the orbit has the duty ratio `d`.
 #[test]
 fn a_duty_ratio_that_moves_is_that_which_is_known_by_construction() {
-    for (edge, pulse) in [
+    let cases = [
         ("trailing", "exp(-3*(1 - d)*T) - exp(-3*T)"),
         ("leading", "1 - exp(-3*d*T)"),
         ("double", "exp(-3*(1 - d)/2*T) - exp(-3*(1 + d)/2*T)"),
-    ] {
+    ];
+    for (edge, pulse) in tried(cases, 3) {
         let text = |duty: &str| {
             let text = leaky(&format!("edge = '{edge}', duty = '{duty}'"), pulse);
             text.replace("K = 1", "K = 3\nd = { nominal = 0.5, min = 0.05, max = 0.95 }")

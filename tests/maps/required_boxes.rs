@@ -130,7 +130,7 @@ fn boxes_behind_a_hold_agree_with_decisions_at_points() {
         Requirement::modulus_margin(number("1/2")).unwrap(),
     ];
     let mut seen = [0; 2];
-    for (names, controller, plant, sides) in loops {
+    for (i, (names, controller, plant, sides)) in loops.into_iter().enumerate() {
         let model = match names[1] {
             "T" => load(
                 "time = 'discrete'\nsample_time = 'T'\n[parameters]\nK = 1\nT = 0.5\n[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\n\
@@ -139,13 +139,14 @@ fn boxes_behind_a_hold_agree_with_decisions_at_points() {
             ),
             _ => diagram("discrete", names, controller, plant, true),
         };
-        for requirement in &kinds {
+        for requirement in kinds.iter().enumerate().filter(|(j, _)| is_tried(i + j, 3)).map(|(_, kind)| kind) {
             let answer = boxes(&model, names, sides, "1/12", std::slice::from_ref(requirement));
             let [unmet, met] = agrees(&answer, &mut random, 12, |p| decided(&model, names, p, requirement));
             seen = [seen[0] + unmet, seen[1] + met];
         }
     }
-    assert!(seen[0] > 25 && seen[1] > 25, "{seen:?}");
+    let enough = count(6, 26);
+    assert!(seen[0] >= enough && seen[1] >= enough, "{seen:?}");
 }
 
 /// Requirements on roots: damping of continuous loops, settling of discrete ones.
@@ -154,12 +155,12 @@ fn boxes_of_requirements_on_roots_agree_with_decisions_at_points() {
     let mut random = Random::new(39);
     let damping = Requirement::damping(number("1/2")).unwrap();
     let model = diagram("continuous", ["K", "L"], "K + L/s", "2/((s + 1)*(s + 2))", false);
-    let answer = boxes(&model, ["K", "L"], [["0", "6"], ["0", "9"]], "1/20", std::slice::from_ref(&damping));
+    let answer = boxes(&model, ["K", "L"], [["0", "6"], ["0", "9"]], "1/10", std::slice::from_ref(&damping));
     let seen = agrees(&answer, &mut random, 40, |p| decided(&model, ["K", "L"], p, &damping));
     assert!(seen[0] > 5 && seen[1] > 5, "{seen:?}");
     let model = diagram("discrete", ["K", "L"], "K + L*T/(z - 1)", "1/(0.5*s + 1)", true);
     let settling = [Requirement::settling_time(number("0.8"), &number("0.1")).unwrap()];
-    let answer = boxes(&model, ["K", "L"], [["0", "8"], ["0", "20"]], "1/20", &settling);
+    let answer = boxes(&model, ["K", "L"], [["0", "8"], ["0", "20"]], "1/10", &settling);
     let seen = agrees(&answer, &mut random, 40, |p| decided(&model, ["K", "L"], p, &settling[0]));
     assert!(seen[0] > 5 && seen[1] > 5, "{seen:?}");
 }
@@ -199,7 +200,7 @@ fn a_delay_margin_is_refused() {
 fn a_gain_margin_that_is_reached_at_frequency_zero_everywhere_is_met_nowhere() {
     let two = Requirement::gain_margin(&number("2")).unwrap();
     let model = diagram("continuous", ["K", "L"], "2", "(K*s + 1)/((s - 1)*(L*s + 1))", false);
-    let answer = boxes(&model, ["K", "L"], [["1", "2"], ["1/2", "1"]], "1/10", std::slice::from_ref(&two));
+    let answer = boxes(&model, ["K", "L"], [["1", "2"], ["1/2", "1"]], "1/4", std::slice::from_ref(&two));
     assert!(!decided(&model, ["K", "L"], &[number("3/2"), number("3/4")], &two));
     assert!(!required(&answer).is_empty() && required(&answer).iter().all(|b| b.met != Some(true)));
     // With a little less it is met everywhere.
