@@ -174,6 +174,17 @@ impl Polynomial {
         }
     }
 
+    /// Whether roots are to the right of the line that a power of two is right of the axis, at every point of the box.
+    pub fn has_root_beyond(&self, sides: &Sides, of: &mut Known, exponent: i64, clock: &Clock) -> Result<bool, String> {
+        if self.is_nowhere {
+            return Ok(true);
+        }
+        self.compute(sides, of, clock)?;
+        let Some((known, true)) = &of.functions else { return Ok(false) };
+        let moved = shifted(&known[..self.coefficients], exponent, &self.precision, clock)?;
+        Ok(right(&moved, &self.precision, clock)?.is_some_and(|count| count > 0))
+    }
+
     fn decided(&self, known: &[Taylor], stable: bool, clock: &Clock) -> Result<bool, String> {
         let p = &known[..self.coefficients];
         let right = |p: &[Taylor]| right(p, &self.precision, clock);
