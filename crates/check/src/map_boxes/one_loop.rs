@@ -175,6 +175,16 @@ impl OneLoop {
         }
     }
 
+    /// The coefficients in the middle of a box, in the half plane, times a positive number; none with dead time.
+    pub fn coefficients_approximate(&self, of: &mut JudgedBox, clock: &Clock) -> Option<Vec<f64>> {
+        match (&self.of, &mut of.known) {
+            (Kind::Polynomial(judge), Known::Polynomial(known)) => {
+                judge.coefficients_approximate(&of.sides, known, clock)
+            }
+            _ => None,
+        }
+    }
+
     /// The axis along which the functions change most in a box; of one that is not known, the widest in shares of the window.
     pub fn axis(&self, of: &JudgedBox) -> usize {
         let found = match (&self.of, &of.known) {

@@ -96,6 +96,11 @@ impl TuneJudge {
         self.of.of_number(number).has_root_beyond(of, exponent, self.of.clock()).unwrap_or(false)
     }
 
+    /// The coefficients of a loop in the middle of a box, in the half plane, times a positive number, for a choice and no proof; none with dead time.
+    pub fn coefficients_approximate(&self, number: usize, of: &mut JudgedBox) -> Option<Vec<f64>> {
+        self.of.of_number(number).coefficients_approximate(of, self.of.clock())
+    }
+
     /// The gain along which a cell is to be halved, the widest in shares of the bounds; `None` where it is a point.
     pub fn widest(&self, cell: &JudgedBox) -> Option<usize> {
         self.of.widest(&cell.sides()[..self.asked().axes])

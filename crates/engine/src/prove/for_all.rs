@@ -111,7 +111,12 @@ impl Problem {
         ])))
     }
 
-    fn requirement(&self, requirement: &Requirement, at: Option<&str>, budget: &Budget) -> Result<Value, Error> {
+    pub(super) fn requirement(
+        &self,
+        requirement: &Requirement,
+        at: Option<&str>,
+        budget: &Budget,
+    ) -> Result<Value, Error> {
         let refused = || Err(no_certificate(format!("no certificate: nothing proves '{}'", requirement.text())));
         if requirement.signals().is_some() {
             return refused();
@@ -138,7 +143,7 @@ impl Problem {
     }
 }
 
-fn range(of: &AllOf) -> Value {
+pub(super) fn range(of: &AllOf) -> Value {
     object([("name", of.name.as_str().into()), ("between", of.range.iter().map(number).collect())])
 }
 
