@@ -4,7 +4,7 @@ mod cells;
 mod guess;
 
 use self::cells::{Cells, Written};
-use super::for_all::precision;
+use super::for_all::{certify_requirements, precision};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{MultiPoly, simplest_between};
@@ -23,6 +23,9 @@ const BEYOND: [u64; 3] = [20, 14, 10];
 /// What is found has a level that is worse by such shares.
 const BELOW: [u64; 4] = [20, 14, 10, 7];
 
+/// Shares of the way from the gains that are found to those that are typed in.
+const TOWARDS_TYPED: [u64; 4] = [10, 7, 4, 0];
+
 /// Bits of levels.
 const BITS: u64 = 64;
 
@@ -30,6 +33,7 @@ const BITS: u64 = 64;
 const DIGITS: i64 = 9;
 
 /// A certificate of best gains: that no gains of the box meet what is required, or none that are better than a value, and that the gains that are found do.
+/// Where nothing is to be best, it is that of these gains alone.
 ///
 /// The value is a little better than the best one, by `2^-20` of it at best: at gains next to it no box is proved.
 ///
@@ -56,14 +60,14 @@ const DIGITS: i64 = 9;
 /// [`Error::Stopped`] when the budget runs out.
 pub fn certify_tune(answer: &TuneAnswer, budget: &Budget) -> Result<String, Error> {
     budget.step("certificate");
-    let claim = claim(answer)?;
     match &answer.outcome {
         Outcome::Infeasible { conflict, .. } => {
-            let mut claim = claim;
+            let mut claim = claim(answer)?;
             claim.requirements = excluding(&claim.requirements, conflict);
             written(answer, &claim, budget)?.ok_or_else(close)
         }
-        Outcome::Optimum(optimum) => of_optimum(answer, &claim, optimum, budget),
+        Outcome::Optimum(optimum) if answer.asked.objective == Objective::Anything => of_point(answer, optimum, budget),
+        Outcome::Optimum(optimum) => of_optimum(answer, &claim(answer)?, optimum, budget),
         Outcome::Open(stopped) => Err(stopped.clone().into()),
     }
 }
@@ -97,6 +101,18 @@ fn claim(answer: &TuneAnswer) -> Result<TuneClaim, Error> {
     claim.requirements.clone_from(&answer.asked.requirements.list);
     claim.at.clone_from(&answer.asked.requirements.at);
     Ok(claim)
+}
+
+/// That the gains that are found are good, where nothing is to be best.
+fn of_point(answer: &TuneAnswer, optimum: &Optimum, budget: &Budget) -> Result<String, Error> {
+    let (problem, required) = (&answer.problem, &answer.asked.requirements);
+    let names = problem.free().iter().map(|free| free.name.clone());
+    let question = problem.model().ask().within(problem.region().clone()).set_all(problem.set().to_vec());
+    let point = question.set_all(names.zip(optimum.found.iter().cloned())).problem()?;
+    match required.list.as_slice() {
+        [] => point.verdict(budget)?.certificate(budget),
+        list => certify_requirements(&point, list, required.at.as_deref(), true, budget),
+    }
 }
 
 /// The value of the optimum, and what it is of.
@@ -139,17 +155,8 @@ fn found(
     optimum: &Optimum,
     budget: &Budget,
 ) -> Result<Option<FoundClaim>, Error> {
-    let levels = match (target, &optimum.found_value) {
-        (Target::Level { .. }, Some(value)) => BELOW
-            .iter()
-            .filter_map(|bits| target.found(value, *bits).transpose())
-            .map(|level| level.map(Some))
-            .collect::<Result<_, _>>()?,
-        (Target::Level { .. }, None) => Vec::new(),
-        (Target::Formula { .. }, _) => vec![None],
-    };
-    for level in levels {
-        let found = FoundClaim { point: optimum.found.clone(), level, proof: String::new() };
+    for (point, level) in candidates(target, optimum)? {
+        let found = FoundClaim { point, level, proof: String::new() };
         let mut claim = claim.clone();
         claim.found = Some(found.clone());
         let judge = judge(answer, &claim, budget)?.0;
@@ -159,6 +166,25 @@ fn found(
         budget.check()?;
     }
     Ok(None)
+}
+
+/// Gains and their levels: those that are found, with worse and worse levels; or, where there is no level, those on the way to the gains that are typed in, which
+/// meet requirements by more.
+fn candidates(target: &Target<'_>, optimum: &Optimum) -> Result<Vec<(Vec<Rational>, Option<LevelAsked>)>, Error> {
+    let point = &optimum.found;
+    if let Target::Level { .. } = target {
+        let Some(value) = &optimum.found_value else { return Ok(Vec::new()) };
+        let levels = BELOW.iter().filter_map(|bits| target.found(value, *bits).transpose());
+        return levels.map(|level| Ok((point.clone(), Some(level?)))).collect();
+    }
+    let typed = optimum.typed.iter().flat_map(|typed| {
+        let way = move |bits: u64| {
+            let share = Rational::dyadic(&1.into(), bits);
+            point.iter().zip(&typed.values).map(|(a, b)| a + &(&(b - a) * &share)).collect()
+        };
+        TOWARDS_TYPED.map(way)
+    });
+    Ok(std::iter::once(point.clone()).chain(typed).map(|point| (point, None)).collect())
 }
 
 /// What a check sees, with the degree and the bits of its models.

@@ -13,7 +13,7 @@ const MOST_HALVINGS: usize = 140;
 const MOST_RECENT: usize = 3;
 
 /// So many parts are looked at to see that gains are good.
-const MOST_PARTS: usize = 4000;
+const MOST_PARTS: usize = 500;
 
 /// More work is not done: the slower checker takes half a minute at most for what comes out.
 const MOST_WORK: u64 = 40_000_000_000;
