@@ -6,7 +6,7 @@ mod guess;
 use self::cells::{Cells, Written};
 use super::for_all::{certify_requirements, precision};
 use jurist_algebra::limits::Budget;
-use jurist_algebra::number::{Enclosure, Integer, Rational};
+use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{MultiPoly, simplest_between};
 use jurist_check::{Limits, TuneJudge};
 use jurist_engine::error::{Code, Diagnostic, Error};
@@ -25,12 +25,6 @@ const BELOW: [u64; 4] = [20, 14, 10, 7];
 
 /// Shares of the way from the gains that are found to those that are typed in.
 const TOWARDS_TYPED: [u64; 4] = [10, 7, 4, 0];
-
-/// Bits of levels.
-const BITS: u64 = 64;
-
-/// Digits of angles.
-const DIGITS: i64 = 9;
 
 /// A certificate of best gains: that no gains of the box meet what is required, or none that are better than a value, and that the gains that are found do.
 /// Where nothing is to be best, it is that of these gains alone.
@@ -276,7 +270,7 @@ impl<'a> Target<'a> {
                 is_greatest: *is_greatest,
                 proved: proved.clone(),
             }),
-            Target::Level { .. } => self.asked(proved, true)?.map(BestOf::Level),
+            Target::Level { .. } => self.asked(proved)?.map(BestOf::Level),
         })
     }
 
@@ -288,26 +282,16 @@ impl<'a> Target<'a> {
             true => [value - &share, value - &(&share * &Rational::dyadic(&1.into(), 1))],
             false => [value + &(&share * &Rational::dyadic(&1.into(), 1)), value + &share],
         };
-        self.asked(&simplest_between(&near, &far).unwrap_or(far), false)
+        self.asked(&simplest_between(&near, &far).unwrap_or(far))
     }
 
-    /// The level as a requirement of rational numbers: an angle is rounded to more, or to less.
-    fn asked(&self, scale: &Rational, up: bool) -> Result<Option<LevelAsked>, Error> {
+    /// The level with its number; `None` where it is at an end of what it may be.
+    fn asked(&self, scale: &Rational) -> Result<Option<LevelAsked>, Error> {
         let Target::Level { level, between } = self else { return Ok(None) };
         let [low, high] = level.scale();
         if *scale <= low || *scale >= high {
             return Ok(None);
         }
-        if *level != Level::PhaseMargin {
-            return level.asked_between(scale, *between).map(Some);
-        }
-        let Some(degrees) = level.enclosure(&Enclosure::from_rational(scale.clone()), BITS) else { return Ok(None) };
-        let unit = Rational::from(10).pow(-DIGITS).expect("ten is not zero");
-        let steps = |x: &Rational| x.checked_div(&unit).expect("a power is not zero").floor();
-        let degrees = match up {
-            true => Rational::from(steps(degrees.upper()) + Integer::ONE) * unit,
-            false => Rational::from(steps(degrees.lower())) * unit,
-        };
-        Ok(Requirement::phase_margin(&degrees).ok().map(LevelAsked::Requirement))
+        level.asked_between(scale, *between).map(Some)
     }
 }
