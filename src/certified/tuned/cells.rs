@@ -104,7 +104,6 @@ impl<'a> Cells<'a> {
         while let Some(Open { cell, halvings, hint }) = open.pop() {
             let allowed = ForAllJudge::allowed(model_bytes + out.len() + open.len());
             if halvings > MOST_HALVINGS || of_check > allowed || self.loops().work() > MOST_WORK || !self.may_go_on() {
-                if std::env::var("DBG").is_ok() {
                     eprintln!(
                         "stop at {halvings} leaves {leaves} work {} {:?} allowed {allowed} {of_check}",
                         self.loops().work(),
@@ -113,7 +112,6 @@ impl<'a> Cells<'a> {
                 }
                 return Written::TooClose;
             }
-            if std::env::var("DBG").is_ok() {
                 let f: Vec<[f64; 2]> = self
                     .loops()
                     .sides(&cell)

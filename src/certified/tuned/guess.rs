@@ -12,7 +12,7 @@ pub(super) struct Guess {
 
 /// A side is cut into so many parts at first, and the best of them so often in two.
 const FIRST: u64 = 4;
-const LAST: u64 = 11;
+const LAST: u64 = 17;
 
 /// So often all roots are corrected.
 const ROUNDS: usize = 60;
