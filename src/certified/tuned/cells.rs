@@ -104,27 +104,7 @@ impl<'a> Cells<'a> {
         while let Some(Open { cell, halvings, hint }) = open.pop() {
             let allowed = ForAllJudge::allowed(model_bytes + out.len() + open.len());
             if halvings > MOST_HALVINGS || of_check > allowed || self.loops().work() > MOST_WORK || !self.may_go_on() {
-                    eprintln!(
-                        "stop at {halvings} leaves {leaves} work {} {:?} allowed {allowed} {of_check}",
-                        self.loops().work(),
-                        self.loops().sides(&cell)
-                    );
-                }
                 return Written::TooClose;
-            }
-                let f: Vec<[f64; 2]> = self
-                    .loops()
-                    .sides(&cell)
-                    .iter()
-                    .take(self.gains)
-                    .map(|s| {
-                        s.clone().map(|x| {
-                            let mut i = x.split('/').map(|p| p.parse::<f64>().unwrap());
-                            i.next().unwrap() / i.next().unwrap_or(1.0)
-                        })
-                    })
-                    .collect();
-                eprintln!("{halvings} {leaves} {f:?} {:?}", self.guesses(&cell));
             }
             let mut cost = 0;
             match self.look(&cell, hint, &mut cost) {
