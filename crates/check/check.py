@@ -4180,17 +4180,24 @@ def check_gains(model, document, statement, values, discrete, extent):
         proofs = Proofs(proof, of_found, len(names), names)
         proofs.good([[x, x] for x in point])
         need(proofs.at == len(proof), "proof: something follows it")
-    wishes = [cut.in_words() for cut, _ in loops[1:]]
-    wishes = f", with {' and '.join(wishes)}" if wishes else ""
-    beside = f" with {formula.in_words(names)} {'>=' if is_greatest else '<='} {exact(proved)}" if formula else ""
+    best = formula and (formula, is_greatest, proved)
+    return of_cells(gains, values, within(discrete, inside), [cut for cut, _ in loops[1:]], best, point and (point, found_level))
+
+def of_cells(gains, values, inside, cuts, best, found):
+    """The statement in words. Ranges are written exactly: a smaller one may leave out gains that are good."""
+    names = [*gains]
+    wishes = f", with {' and '.join(cut.in_words() for cut in cuts)}" if cuts else ""
+    formula, is_greatest, proved = best or (None, None, None)
+    beside = f" with {formula.in_words(names)} {'>=' if is_greatest else '<='} {exact(proved)}" if best else ""
     where = " and ".join(f"{name} from {exact(low)} to {exact(high)}" for name, (low, high) in gains.items())
-    sentence = f"For no {where}{beside}{and_with(values)}, the loop is stable{within(discrete, inside)}{wishes}."
-    if point is None:
+    sentence = f"For no {where}{beside}{and_with(values)}, the loop is stable{inside}{wishes}."
+    if not found:
         return sentence
+    point, level = found
     at = at_values(dict(zip(names, point)))
-    if formula:
+    if best:
         return f"{sentence} At {at} it is, and {formula.in_words(names)} is {exact(formula.at(point))} there."
-    has = f" with {found_level.cut.in_words()}" if found_level.cut else within(discrete, found_level.bound)
+    has = f" with {level.cut.in_words()}" if level.cut else within(level.discrete, level.bound)
     return f"{sentence} At {at} it is,{has} instead."
 
 # ---------------------------------------------------------------- dead time

@@ -149,8 +149,7 @@ fn found(
     optimum: &Optimum,
     budget: &Budget,
 ) -> Result<Option<FoundClaim>, Error> {
-    for (point, level) in candidates(target, optimum)? {
-        let found = FoundClaim { point, level, proof: String::new() };
+    for found in candidates(target, optimum)? {
         let mut claim = claim.clone();
         claim.found = Some(found.clone());
         let judge = judge(answer, &claim, budget)?.0;
@@ -164,12 +163,13 @@ fn found(
 
 /// Gains and their levels: those that are found, with worse and worse levels; or, where there is no level, those on the way to the gains that are typed in, which
 /// meet requirements by more.
-fn candidates(target: &Target<'_>, optimum: &Optimum) -> Result<Vec<(Vec<Rational>, Option<LevelAsked>)>, Error> {
+fn candidates(target: &Target<'_>, optimum: &Optimum) -> Result<Vec<FoundClaim>, Error> {
     let point = &optimum.found;
+    let of = |point: Vec<Rational>, level| FoundClaim { point, level, proof: String::new() };
     if let Target::Level { .. } = target {
         let Some(value) = &optimum.found_value else { return Ok(Vec::new()) };
         let levels = BELOW.iter().filter_map(|bits| target.found(value, *bits).transpose());
-        return levels.map(|level| Ok((point.clone(), Some(level?)))).collect();
+        return levels.map(|level| Ok(of(point.clone(), Some(level?)))).collect();
     }
     let typed = optimum.typed.iter().flat_map(|typed| {
         let way = move |bits: u64| {
@@ -178,7 +178,7 @@ fn candidates(target: &Target<'_>, optimum: &Optimum) -> Result<Vec<(Vec<Rationa
         };
         TOWARDS_TYPED.map(way)
     });
-    Ok(std::iter::once(point.clone()).chain(typed).map(|point| (point, None)).collect())
+    Ok(std::iter::once(point.clone()).chain(typed).map(|point| of(point, None)).collect())
 }
 
 /// What a check sees, with the degree and the bits of its models.

@@ -58,44 +58,40 @@ fn by_trial(judge: &TuneJudge, k: usize, gains: usize, middle: &JudgedBox) -> Op
     all.find(|guess| judge.loops().shows(k, &mut guess.part(judge, middle), false))
 }
 
+/// A place of the own names, and how far beyond the boundary a root is there.
+struct Place {
+    radius: Option<Part>,
+    /// So many parts of the last side from its lower end.
+    at: u64,
+    abscissa: f64,
+    guess: Guess,
+}
+
 /// The point at which a root is farthest beyond, as far as halving finds it.
 fn by_roots(judge: &TuneJudge, k: usize, gains: usize, middle: &JudgedBox) -> Option<(Guess, f64)> {
     let own = judge.loops().names(k) - gains;
     let radii: &[Option<Part>] = if own == 2 { &[Some(Part::High), Some(Part::Low)] } else { &[None] };
-    let value = |guess: &Guess| {
-        let mut part = guess.part(judge, middle);
-        abscissa_approximate(&judge.coefficients_approximate(k, &mut part)?)
-    };
-    let guess = |radius: Option<Part>, place: Option<(u64, u64)>| {
-        let radius = radius.map(|end| (end, gains));
-        let turn = place.map(|(at, level)| steps(at, level, gains + own - 1)).unwrap_or_default();
-        Guess { number: k, steps: radius.into_iter().chain(turn).collect(), exponent: None }
+    let look = |radius: Option<Part>, turn: Vec<(Part, usize)>, at: u64| {
+        let steps = radius.map(|end| (end, gains)).into_iter().chain(turn).collect();
+        let guess = Guess { number: k, steps, exponent: None };
+        let coefficients = judge.coefficients_approximate(k, &mut guess.part(judge, middle))?;
+        let abscissa = abscissa_approximate(&coefficients)?;
+        Some(Place { radius, at, abscissa, guess })
     };
     if own == 0 {
-        let plain = guess(None, None);
-        return value(&plain).map(|x| (plain, x));
+        return look(None, Vec::new(), 0).map(|place| (place.guess, place.abscissa));
     }
-    let mut best: Option<(Guess, f64, Option<Part>, u64)> = None;
-    let consider = |radius: Option<Part>, at: u64, level: u64, best: &mut Option<(Guess, f64, Option<Part>, u64)>| {
-        let guess = guess(radius, Some((at, level)));
-        if let Some(x) = value(&guess)
-            && best.as_ref().is_none_or(|(_, known, ..)| x > *known)
-        {
-            *best = Some((guess, x, radius, at));
-        }
-    };
-    for radius in radii {
-        (0..=1 << FIRST).for_each(|at| consider(*radius, at, FIRST, &mut best));
-    }
+    let turned = |radius: Option<Part>, at: u64, level: u64| look(radius, steps(at, level, gains + own - 1), at);
+    let better = |a: Place, b: Place| if b.abscissa > a.abscissa { b } else { a };
+    let first = radii.iter().flat_map(|radius| (0..=1 << FIRST).filter_map(|at| turned(*radius, at, FIRST)));
+    let mut best = first.reduce(better)?;
     for level in FIRST + 1..=LAST {
-        let (.., radius, at) = best.as_mut()?;
-        *at *= 2;
-        let (radius, at) = (*radius, *at);
-        for near in [at.checked_sub(1), (at < 1 << level).then_some(at + 1)].into_iter().flatten() {
-            consider(radius, near, level, &mut best);
-        }
+        best.at *= 2;
+        let near = [best.at.checked_sub(1), (best.at < 1 << level).then_some(best.at + 1)];
+        let radius = best.radius;
+        best = near.into_iter().flatten().filter_map(|at| turned(radius, at, level)).fold(best, better);
     }
-    best.map(|(guess, x, ..)| (guess, x))
+    Some((best.guess, best.abscissa))
 }
 
 impl Guess {

@@ -132,7 +132,7 @@ fn wanted(
     each.extend(require.into_iter().map(with));
     for (place, level) in [none, level].into_iter().enumerate() {
         match level {
-            Some(Level::Requirement(own)) => each.push(with(own.clone())),
+            Some(Level::Requirement(own)) => each.push(with((**own).clone())),
             Some(Level::Region(bound)) => {
                 let own = Extent::Number(bound.clone());
                 if matches!(&extent, Extent::Number(base) if !objective::is_within(bound, base, discrete)) {

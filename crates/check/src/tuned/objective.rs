@@ -147,13 +147,13 @@ impl Formula {
 pub(super) enum Level {
     /// A decay rate or a radius.
     Region(Q),
-    Requirement(Requirement),
+    Requirement(Box<Requirement>),
 }
 
 impl Level {
     pub fn read(json: &Json, discrete: bool) -> Result<Self, String> {
         if json.get("kind").is_some() {
-            return Ok(Level::Requirement(Requirement::read(json)?));
+            return Ok(Level::Requirement(Box::new(Requirement::read(json)?)));
         }
         let Extent::Number(bound) = fixed_extent(json, discrete)? else { return Err("a level is a number".into()) };
         let bound = short(bound)?;
