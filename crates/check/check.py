@@ -3237,8 +3237,11 @@ class Judge:
 
     def has_root_beyond(self, sides, e):
         """Whether roots are right of the line that 2^e is right of the axis."""
+        n, terms, bits = self.n, len(self.models.exponents), self.models.bits + abs(e) * self.n
+        hold((n + 1) * terms, bits)
+        spend(n * n * terms // 4, bits)
         known = self.functions.at(sides)
-        return bool(known) and bool(roots_to_the_right(moved(list(known[:self.n + 1]), e), self.models))
+        return bool(known) and bool(roots_to_the_right(moved(list(known[:n + 1]), e), self.models))
 
     def decides(self, known, stable):
         p, models = list(known[:self.n + 1]), self.models
@@ -4115,6 +4118,33 @@ class Gains(Proofs):
                     stack.append(([side if i == axis else other for i, other in enumerate(cell)], depth + 1))
         need(self.at == len(self.text), "tree: something follows it")
 
+def read_objective(objective, gains, discrete):
+    """A function, whether it is to be great, and a value; or a level; or nothing."""
+    if objective is None:
+        return None, None, None, None
+    need(isinstance(objective, dict), "objective: an object is expected")
+    if "level" in objective:
+        [level] = parts(objective, ["level"])
+        return None, None, None, Level(level, discrete)
+    is_greatest = "greatest" in objective
+    formula, proved = parts(objective, ["greatest" if is_greatest else "least", "proved"])
+    return Formula(formula, gains), is_greatest, of_few_digits(proved), None
+
+def read_found(found, sides, discrete, formula, level):
+    """Gains in the box, their level if one is to be best, and the proof; or nothing."""
+    if found is None:
+        return None, None, None
+    point, found_level, proof = parts(found, ["point", "level", "proof"])
+    point = items(point, of_few_digits)
+    need(len(point) == len(sides) and all(low <= x <= high for x, (low, high) in zip(point, sides)), "found: the point is not in the box")
+    need((formula or level) and (found_level is None) == (level is None), "found: nothing is to be best, or another kind of level")
+    if level:
+        found_level = Level(found_level, discrete)
+        need(level.is_better_than(found_level), "found: its level is not worse than the one of which there is none")
+    need(not formula or formula.at(point) is not None, "found: what is to be best is undefined there")
+    need(isinstance(proof, str), "found: there is no proof")
+    return point, found_level, proof
+
 def check_gains(model, document, statement, values, discrete, extent):
     _, _, order, bits = parts(document, ["schema", "statement", "order", "bits"], ["model"])
     keys = ["kind", "time", "set", "region", "gains", "require", "objective", "found", "tree"]
@@ -4125,33 +4155,15 @@ def check_gains(model, document, statement, values, discrete, extent):
     names, sides = [*gains], [*gains.values()]
     need(1 <= len(gains) <= 5 and all(low < high for low, high in sides), "there are no gains or more than five, or the box is empty")
     need(len(require) <= 7, "more than seven requirements")
-    formula = level = is_greatest = proved = None
-    if objective is not None:
-        need(isinstance(objective, dict), "objective: an object is expected")
-        if "level" in objective:
-            [level] = parts(objective, ["level"])
-            level = Level(level, discrete)
-        else:
-            is_greatest = "greatest" in objective
-            formula, proved = parts(objective, ["greatest" if is_greatest else "least", "proved"])
-            formula, proved = Formula(formula, len(names)), of_few_digits(proved)
-    point = found_level = proof = None
-    if found is not None:
-        point, found_level, proof = parts(found, ["point", "level", "proof"])
-        point = items(point, of_few_digits)
-        need(len(point) == len(names) and all(low <= x <= high for x, (low, high) in zip(point, sides)), "found: the point is not in the box")
-        need(objective is not None and (found_level is None) == (level is None), "found: nothing is to be best, or another kind of level")
-        if level:
-            found_level = Level(found_level, discrete)
-            need(level.is_better_than(found_level), "found: its level is not worse than the one of which there is none")
-        need(not formula or formula.at(point) is not None, "found: what is to be best is undefined there")
+    formula, is_greatest, proved, level = read_objective(objective, len(names), discrete)
+    point, found_level, proof = read_found(found, sides, discrete, formula, level)
     levels = [of for of in (level, found_level) if of]
     need(all(of.cut or (of.bound <= extent if discrete else of.bound >= extent) for of in levels), "the region of a level is not inside of the required one")
     several = has_several_rates(model)
     need(not several or not any(not of.cut for of in levels), "the radius of a loop of several rates has no certificate")
     cuts = [None, *require, *(of.cut for of in levels if of.cut)]
     need(len(names) + max((cut.names for cut in cuts if cut), default=0) <= 8, "there are too many names")
-    need(isinstance(tree, str) and (proof is None or isinstance(proof, str)), "there is no tree")
+    need(isinstance(tree, str), "there is no tree")
     global most
     most += WORK_OF_PART * (len(tree) + len(proof or ""))
 

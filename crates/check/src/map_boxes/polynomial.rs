@@ -184,6 +184,11 @@ impl Polynomial {
         }
         self.compute(sides, of, clock)?;
         let Some((known, true)) = &of.functions else { return Ok(false) };
+        // In between numbers are longer than those of the models.
+        let (n, terms) = (self.coefficients, self.precision.terms());
+        let bits = self.precision.bits as u64 + exponent.unsigned_abs() * n as u64;
+        clock.hold(n * terms, bits)?;
+        clock.spend(n * n / 2 * terms, bits, 0)?;
         let moved = shifted(&known[..self.coefficients], exponent, &self.precision, clock)?;
         Ok(right(&moved, &self.precision, clock)?.is_some_and(|count| count > 0))
     }
