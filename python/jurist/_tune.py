@@ -37,7 +37,9 @@ class Tune(Document):
         return found
 
     def certificate(self, timeout: float | None = None) -> str:
-        """A certificate that `verify` re-checks with independent code: no gains within the bounds meet what is required, or none that are better than a value.
+        """A certificate that `verify` re-checks with independent code.
+
+        It says that no gains within the bounds meet what is required, or none that are better than a value.
 
         Examples
         --------
