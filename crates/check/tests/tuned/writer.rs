@@ -77,8 +77,9 @@ pub fn held() -> Asked {
             + &loop_of("discrete", "K/(s + a)", "K = {}, a = {}", "discretize = 'zoh'\n"),
         time: "discrete",
         open: Rc::new(|of| {
-            let decay = (-of["a"]).exp();
-            [vec![[-decay, 0.0], [1.0, 0.0]], vec![[of["K"] * (1.0 - decay) / of["a"], 0.0]]]
+            let (a, decay) = (of["a"], (-of["a"]).exp());
+            let share = if a == 0.0 { 1.0 } else { (1.0 - decay) / a };
+            [vec![[-decay, 0.0], [1.0, 0.0]], vec![[of["K"] * share, 0.0]]]
         }),
     };
     asked(plant, &format!("{}, {}", range("K", "1/2", "8"), range("a", "1/2", "1")))
