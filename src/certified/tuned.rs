@@ -20,6 +20,9 @@ use std::time::Duration;
 /// proved.
 const BEYOND: [u64; 3] = [20, 14, 10];
 
+/// The same behind the end of a bracket.
+const BEYOND_KNOWN: [u64; 2] = [10, 7];
+
 /// What is found has a level that is worse by such shares.
 const BELOW: [u64; 4] = [20, 14, 10, 7];
 
@@ -56,9 +59,15 @@ pub fn certify_tune(answer: &TuneAnswer, budget: &Budget) -> Result<String, Erro
     budget.step("certificate");
     match &answer.outcome {
         Outcome::Infeasible { conflict, .. } => {
-            let mut claim = claim(answer)?;
-            claim.requirements = excluding(&claim.requirements, conflict);
-            written(answer, &claim, budget)?.ok_or_else(close)
+            let all = claim(answer)?;
+            let mut few = all.clone();
+            few.requirements = excluding(&all.requirements, conflict);
+            match written(answer, &few, budget)? {
+                None if few.requirements.len() < all.requirements.len() => {
+                    written(answer, &all, budget)?.ok_or_else(close)
+                }
+                found => found.ok_or_else(close),
+            }
         }
         Outcome::Optimum(optimum) if answer.asked.objective == Objective::Anything => of_point(answer, optimum, budget),
         Outcome::Optimum(optimum) => of_optimum(answer, &claim(answer)?, optimum, budget),
@@ -123,10 +132,10 @@ fn of_optimum(answer: &TuneAnswer, claim: &TuneClaim, optimum: &Optimum, budget:
         Best::Unbounded | Best::Zero | Best::Nothing => return Err(nothing()),
     };
     let target = Target::of(answer, claim).ok_or_else(nothing)?;
-    let shares = BEYOND.iter().map(|bits| target.beyond(&value, *bits));
-    let values: Vec<Rational> =
-        known.iter().cloned().chain(known.is_none().then_some(shares).into_iter().flatten()).collect();
-    for proved in values {
+    let from = known.as_ref().unwrap_or(&value);
+    let shares = if known.is_some() { &BEYOND_KNOWN[..] } else { &BEYOND[..] };
+    let further = shares.iter().map(|bits| target.beyond(from, *bits));
+    for proved in known.iter().cloned().chain(further) {
         let Some(best) = target.best(&proved)? else { continue };
         let mut claim = claim.clone();
         claim.best = Some(best);
