@@ -144,6 +144,7 @@ mod certificates {
     mod rates_held;
     mod readers;
     mod smt;
+    mod tuned;
 }
 
 /// What models are expected to be, and numbers that they take from other files.

@@ -3235,6 +3235,14 @@ class Judge:
         known = self.functions.at(sides)
         return bool(known) and self.decides(known, stable)
 
+    def has_root_beyond(self, sides, e):
+        """Whether roots are right of the line that 2^e is right of the axis."""
+        n, terms, bits = self.n, len(self.models.exponents), self.models.bits + abs(e) * self.n
+        hold((n + 1) * terms, bits)
+        spend(n * n * terms // 4, bits)
+        known = self.functions.at(sides)
+        return bool(known) and bool(roots_to_the_right(moved(list(known[:n + 1]), e), self.models))
+
     def decides(self, known, stable):
         p, models = list(known[:self.n + 1]), self.models
         if stable:
@@ -3575,6 +3583,9 @@ class JudgeOfDelays:
     def shows(self, sides, known, own, stable):
         return self.look(sides, known)[0] is stable
 
+    def has_root_beyond(self, sides, e):
+        return False
+
     def look(self, sides, way):
         """The verdict on a box, None if nothing is shown; and the way for parts of it."""
         if self.nowhere:
@@ -3820,8 +3831,15 @@ class Cut:
                     for ways in divisors]
         return [list(part) for part in zip(*found)], divisors
 
+    def in_words(self):
+        return f"{WISHES[self.requirement].format(exact(self.bound))} {self.where()}"
+
     def where(self):
         return {"signal": "at {}", "parameter": "at the parameter {}", "input": "at the input of '{}'"}[self.kind].format(CONTROL.sub(" ", self.name))
+
+WISHES = {"phase_margin": "a phase margin of at least {} degrees", "gain_margin": "a gain margin of at least {} both ways",
+          "modulus_margin": "a modulus margin of at least {}", "disk_margin": "a disk margin of at least {}",
+          "complementary_peak": "a peak of the complementary sensitivity of at most {}"}
 
 def of_few_digits(text):
     q = rational(text)
@@ -3956,10 +3974,7 @@ def check_for_all(model, document, statement, values, discrete, extent):
 
 def of_for_all(axes, for_all, values, inside, require, leaves, beyond):
     """The statement in words. Ends of ranges are written exactly: a smaller range may leave out the value that breaks the loop."""
-    ways = {"phase_margin": "a phase margin of at least {} degrees", "gain_margin": "a gain margin of at least {} both ways",
-            "modulus_margin": "a modulus margin of at least {}", "disk_margin": "a disk margin of at least {}",
-            "complementary_peak": "a peak of the complementary sensitivity of at most {}"}
-    wishes = " and ".join(f"{ways[cut.requirement].format(exact(cut.bound))} {cut.where()}" for cut in require)
+    wishes = " and ".join(cut.in_words() for cut in require)
     good, not_good = (f"{word}stable{inside}{f'{comma} with {wishes}' if wishes else ''}" for word, comma in (("", ","), ("not ", "")))
     so = ", " if wishes else " "
     values = {name: low for name, (low, high) in for_all.items() if low == high} | values
@@ -3994,6 +4009,208 @@ def of_for_all(axes, for_all, values, inside, require, leaves, beyond):
     shares = " and ".join(f"{k // 10}.{k % 10} %" for k in tenths)
     return (f"{where}the loop is {good}{so}in all boxes '+' of the tree, and nowhere in its boxes '-': at least {shares} of the window. "
             "Nothing is said of the rest.")
+
+# ---------------------------------------------------------------- best gains
+
+class Formula:
+    """A rational function of the gains."""
+
+    def __init__(self, item, gains):
+        self.above, self.below = (self.polynomial(p, gains) for p in parts(item, ["above", "below"]))
+
+    @staticmethod
+    def polynomial(json_value, gains):
+        p = boxed(gains)(json_value)
+        exponents = {e: [e >> FIELD * (2 + i) & MASK for i in range(gains)] for e in p}
+        need(p and len(p) <= 1000, "objective: a polynomial is zero, or has too many terms")
+        need(all(sum(of) <= 32 for of in exponents.values()), "objective: a polynomial has too high a degree")
+        need(size(p.values()) <= 1 << 15, "objective: too long numbers")
+        terms = [(of, p[e]) for e, of in exponents.items()]
+        return sorted(terms, key=lambda term: (sum(term[0]), term[0]), reverse=True)
+
+    def gain(self):
+        """The number of the gain that it is, None if it is another function."""
+        (exponents, c), *others = self.above
+        is_plain = not others and c == 1 == sum(exponents) and self.is_polynomial()
+        return exponents.index(1) if is_plain else None
+
+    def is_polynomial(self):
+        return len(self.below) == 1 and not any(self.below[0][0]) and self.below[0][1] == 1
+
+    def at(self, point):
+        above, below = (sum(c * prod(x ** k for x, k in zip(point, of)) for of, c in p) for p in (self.above, self.below))
+        return above / below if below else None
+
+    def is_worse(self, is_greatest, number, cell):
+        """Whether all values over a cell are worse than a number."""
+        def sign(terms):
+            p = P({sum(k << FIELD * (2 + i) for i, k in enumerate(of)): c for of, c in terms if c})
+            if not p:
+                return 0
+            [plane] = Tensor.of([[p]], cell, InBox(len(cell), None)).planes
+            return 1 if min(plane) > 0 else -1 if max(plane) < 0 else 0
+
+        below = sign(self.below)
+        difference = {tuple(of): c * number.denominator for of, c in self.above}
+        for of, c in self.below:
+            difference[tuple(of)] = difference.get(tuple(of), 0) - c * number.numerator
+        return below != 0 and sign(list(difference.items())) == (-below if is_greatest else below)
+
+    def in_words(self, names):
+        def polynomial(terms):
+            out = ""
+            for of, c in terms:
+                powers = [name if k == 1 else f"{name}^{k}" for name, k in zip(names, of) if k]
+                sign = ("-" if c < 0 else "") if not out else " - " if c < 0 else " + "
+                out += sign + "*".join(([] if abs(c) == 1 and powers else [exact(Fraction(abs(c)))]) + powers)
+            return out
+
+        above = polynomial(self.above)
+        return above if self.is_polynomial() else f"({above})/({polynomial(self.below)})"
+
+class Level:
+    """A number of the loop that is to be best: a region, or a requirement."""
+
+    def __init__(self, item, discrete):
+        self.discrete, self.cut = discrete, Cut(item) if isinstance(item, dict) and "kind" in item else None
+        if not self.cut:
+            [bound] = parts(item, ["radius" if discrete else "decay"])
+            self.bound = of_few_digits(bound)
+            need(0 < self.bound < 1 if discrete else self.bound > 0, "a level is no more than stability")
+
+    def is_better_than(self, other):
+        a, b = self.cut or self, other.cut or other
+        if self.cut and other.cut:
+            need((a.requirement, a.kind, a.name) == (b.requirement, b.kind, b.name), "the levels are not of the same kind")
+        need(bool(self.cut) == bool(other.cut), "the levels are not of the same kind")
+        is_least_best = a.requirement == "complementary_peak" if self.cut else self.discrete
+        return a.bound < b.bound if is_least_best else a.bound > b.bound
+
+class Gains(Proofs):
+    """Reads cells of gains, none of which has any that are good."""
+
+    def cells(self, sides, is_worse):
+        stack = [(sides, 0)]
+        while stack:
+            cell, depth = stack.pop()
+            letter = self.letter()
+            if letter == "o":
+                need(is_worse(cell), "stable: a leaf o is not shown")
+            elif letter in "-s":
+                exponent = None
+                if letter == "s":
+                    found = re.compile("-?[0-9]{1,3};").match(self.text, self.at)
+                    need(found, "tree: no exponent")
+                    self.at, exponent = found.end(), int(found[0][:-1])
+                    need(abs(exponent) <= 100, "tree: no exponent")
+                k, part = self.part([*cell])
+                judge = self.loops[k][1]
+                if exponent is None:
+                    self.nowhere_stable(judge, part)
+                else:
+                    need(judge.nowhere or judge.has_root_beyond(part, exponent), "stable: no root is shown to be beyond")
+            else:
+                axis = self.axis(letter, cell)
+                need(depth < MOST_HALVINGS, "tree: too deep")
+                low, high = cell[axis]
+                need(low < high, "tree: a side without a width is halved")
+                for side in [(low + high) / 2, high], [low, (low + high) / 2]:
+                    stack.append(([side if i == axis else other for i, other in enumerate(cell)], depth + 1))
+        need(self.at == len(self.text), "tree: something follows it")
+
+def read_objective(objective, gains, discrete):
+    """A function, whether it is to be great, and a value; or a level; or nothing."""
+    if objective is None:
+        return None, None, None, None
+    need(isinstance(objective, dict), "objective: an object is expected")
+    if "level" in objective:
+        [level] = parts(objective, ["level"])
+        return None, None, None, Level(level, discrete)
+    is_greatest = "greatest" in objective
+    formula, proved = parts(objective, ["greatest" if is_greatest else "least", "proved"])
+    return Formula(formula, gains), is_greatest, of_few_digits(proved), None
+
+def read_found(found, sides, discrete, formula, level):
+    """Gains in the box, their level if one is to be best, and the proof; or nothing."""
+    if found is None:
+        return None, None, None
+    point, found_level, proof = parts(found, ["point", "level", "proof"])
+    point = items(point, of_few_digits)
+    need(len(point) == len(sides) and all(low <= x <= high for x, (low, high) in zip(point, sides)), "found: the point is not in the box")
+    need((formula or level) and (found_level is None) == (level is None), "found: nothing is to be best, or another kind of level")
+    if level:
+        found_level = Level(found_level, discrete)
+        need(level.is_better_than(found_level), "found: its level is not worse than the one of which there is none")
+    need(not formula or formula.at(point) is not None, "found: what is to be best is undefined there")
+    need(isinstance(proof, str), "found: there is no proof")
+    return point, found_level, proof
+
+def check_gains(model, document, statement, values, discrete, extent):
+    _, _, order, bits = parts(document, ["schema", "statement", "order", "bits"], ["model"])
+    keys = ["kind", "time", "set", "region", "gains", "require", "objective", "found", "tree"]
+    *_, gains, require, objective, found, tree = parts(statement, keys)
+    need(extent != "parameter", "the region has no parameter here")
+    need(1 <= count(order) <= 8 and 64 <= count(bits) <= 1024, "order or bits: out of range")
+    gains, require = ranges_of(gains), items(require, Cut)
+    names, sides = [*gains], [*gains.values()]
+    need(1 <= len(gains) <= 5 and all(low < high for low, high in sides), "there are no gains or more than five, or the box is empty")
+    need(len(require) <= 7, "more than seven requirements")
+    formula, is_greatest, proved, level = read_objective(objective, len(names), discrete)
+    point, found_level, proof = read_found(found, sides, discrete, formula, level)
+    levels = [of for of in (level, found_level) if of]
+    need(all(of.cut or (of.bound <= extent if discrete else of.bound >= extent) for of in levels), "the region of a level is not inside of the required one")
+    several = has_several_rates(model)
+    need(not several or not any(not of.cut for of in levels), "the radius of a loop of several rates has no certificate")
+    cuts = [None, *require, *(of.cut for of in levels if of.cut)]
+    need(len(names) + max((cut.names for cut in cuts if cut), default=0) <= 8, "there are too many names")
+    need(isinstance(tree, str), "there is no tree")
+    global most
+    most += WORK_OF_PART * (len(tree) + len(proof or ""))
+
+    def judge(cut, region):
+        judged = judge_of(model, names, values, sides, (discrete, region), (order, bits), cut)
+        judged.functions.allow_to_compute()
+        return cut, judged
+
+    usual = 1 if discrete else 0
+    inside = level.bound if level and not level.cut else extent
+    loops = [judge(cut, usual if cut else inside) for cut in cuts]
+    of_found = loops
+    if found_level and found_level.cut:
+        loops, of_found = loops[:-1], loops[:-2] + loops[-1:]
+    elif found_level:
+        of_found = [*loops[1:], judge(None, found_level.bound)]
+    cells, gain = [*sides], formula.gain() if formula else None
+    if gain is not None:
+        low, high = sides[gain]
+        if is_greatest and low < proved <= high:
+            cells[gain] = [proved, high]
+        elif not is_greatest and low <= proved < high:
+            cells[gain] = [low, proved]
+    Gains(tree, loops, len(names), names).cells(cells, lambda cell: bool(formula) and formula.is_worse(is_greatest, proved, cell))
+    if point is not None:
+        proofs = Proofs(proof, of_found, len(names), names)
+        proofs.good([[x, x] for x in point])
+        need(proofs.at == len(proof), "proof: something follows it")
+    best = formula and (formula, is_greatest, proved)
+    return of_cells(gains, values, within(discrete, inside), [cut for cut, _ in loops[1:]], best, point and (point, found_level))
+
+def of_cells(gains, values, inside, cuts, best, found):
+    """The statement in words. Ranges are written exactly: a smaller one may leave out gains that are good."""
+    names = [*gains]
+    wishes = f", with {' and '.join(cut.in_words() for cut in cuts)}" if cuts else ""
+    formula, is_greatest, proved = best or (None, None, None)
+    beside = f" with {formula.in_words(names)} {'>=' if is_greatest else '<='} {exact(proved)}" if best else ""
+    where = " and ".join(f"{name} from {exact(low)} to {exact(high)}" for name, (low, high) in gains.items())
+    sentence = f"For no {where}{beside}{and_with(values)}, the loop is stable{inside}{wishes}."
+    if not found:
+        return sentence
+    point, level = found
+    at = at_values(dict(zip(names, point)))
+    if best:
+        return f"{sentence} At {at} it is, and {formula.in_words(names)} is {exact(formula.at(point))} there."
+    has = f" with {level.cut.in_words()}" if level.cut else within(level.discrete, level.bound)
+    return f"{sentence} At {at} it is,{has} instead."
 
 # ---------------------------------------------------------------- dead time
 
@@ -4537,8 +4754,8 @@ def read(certificate):
     need(isinstance(document, dict) and document.get("schema") in SCHEMAS, "unknown schema")
     return document
 
-SCHEMAS = [f"jurist/certificate/{version}" for version in range(1, 11)]
-RATIONAL, WITH_SYMBOLS, WITH_DEAD_TIME, OF_BOXES, OF_MAPS, OF_CELLS, OF_MAPS_BY_BOXES, OF_BOXES_WITH_SYMBOLS, BY_ENCLOSURES, FOR_ALL = SCHEMAS
+SCHEMAS = [f"jurist/certificate/{version}" for version in range(1, 12)]
+RATIONAL, WITH_SYMBOLS, WITH_DEAD_TIME, OF_BOXES, OF_MAPS, OF_CELLS, OF_MAPS_BY_BOXES, OF_BOXES_WITH_SYMBOLS, BY_ENCLOSURES, FOR_ALL, OF_GAINS = SCHEMAS
 FURTHER = ["bits", "symbols", "modes"]
 
 def table_of(document):
@@ -4559,7 +4776,7 @@ def check(model, certificate):
     statement = document["statement"]
     kind, time, values, region = (statement[key] for key in ("kind", "time", "set", "region"))
     kinds = {OF_BOXES: ["tolerance"], OF_MAPS: ["map"], OF_CELLS: ["cells", "verdict"], OF_MAPS_BY_BOXES: ["boxes"],
-             OF_BOXES_WITH_SYMBOLS: ["tolerance"], BY_ENCLOSURES: ["verdict"], FOR_ALL: ["for_all"]}
+             OF_BOXES_WITH_SYMBOLS: ["tolerance"], BY_ENCLOSURES: ["verdict"], FOR_ALL: ["for_all"], OF_GAINS: ["tune"]}
     need(kind in kinds.get(document["schema"], ["intervals", "verdict"]), "unknown kind of statement")
     need(time in ("discrete", "continuous"), "unknown time")
     discrete = time == "discrete"
@@ -4568,7 +4785,7 @@ def check(model, certificate):
     extent = "parameter" if extent == "parameter" else rational(extent)
     need(not discrete or extent == "parameter" or extent > 0, "the radius is not positive")
     if has_several_rates(model):
-        need(extent == 1 and document["schema"] in (RATIONAL, WITH_SYMBOLS, OF_MAPS_BY_BOXES, BY_ENCLOSURES, FOR_ALL),
+        need(extent == 1 and document["schema"] in (RATIONAL, WITH_SYMBOLS, OF_MAPS_BY_BOXES, BY_ENCLOSURES, FOR_ALL, OF_GAINS),
              "a loop of several rates has certificates of stability without further wishes alone")
     if kind == "tolerance":
         return check_tolerance(model, document, statement, values, discrete, extent)
@@ -4576,6 +4793,8 @@ def check(model, certificate):
         return check_boxes(model, document, statement, values, discrete, extent)
     if kind == "for_all":
         return check_for_all(model, document, statement, values, discrete, extent)
+    if kind == "tune":
+        return check_gains(model, document, statement, values, discrete, extent)
     if kind == "map":
         return check_map(model, document, statement, values, discrete, extent)
     if document["schema"] == OF_CELLS:

@@ -36,6 +36,23 @@ class Tune(Document):
         found: dict[str, object] = self.to_dict()
         return found
 
+    def certificate(self, timeout: float | None = None) -> str:
+        """A certificate that `verify` re-checks with independent code.
+
+        It says that no gains within the bounds meet what is required, or none that are better than a value.
+
+        Examples
+        --------
+        >>> import jurist
+        >>> loop = jurist.Loop.from_line("K/(s*(s+1)*(s+2))")
+        >>> best = loop.tune("max K", ["K"], bounds={"K": (0, 100)})
+        >>> jurist.verify(loop, best.certificate()).kind
+        'tune'
+        """
+        if self._loop is None:
+            raise ValueError("this answer does not know its question")
+        return self._loop._file_of(self._words, "--certificate", timeout)
+
     def __bool__(self) -> bool:
         return self.feasible is True
 

@@ -38,7 +38,7 @@ const MOST_POINTS_OF_ONE: usize = 300;
 const MOST_RECENT: usize = 6;
 
 /// So many of the judge's units are a unit of a budget.
-const UNITS_OF_JUDGE: u64 = 32;
+pub(super) const UNITS_OF_JUDGE: u64 = 32;
 
 /// What a check sees of a box of the axes, for all values of the other names.
 pub(super) struct ForAll {
@@ -120,19 +120,12 @@ impl ForAll {
 
     /// How it is written that a loop is stable in all parts of a box.
     fn proof(&self, k: usize, whole: &JudgedBox, left: &mut usize, budget: &Budget) -> Option<String> {
-        let (mut out, mut open) = (String::new(), vec![(whole.clone(), 0)]);
-        while let Some((mut part, halvings)) = open.pop() {
-            *left = left.checked_sub(1).filter(|_| halvings <= MOST_HALVINGS && self.may_go_on(budget))?;
-            if self.judge.shows(k, &mut part, true) {
-                out.push('.');
-                continue;
-            }
-            let axis = self.axis_of_part(k, &part, halvings)?;
-            out.push(letter(axis));
-            let [low, high] = self.judge.halves(k, &mut part, axis);
-            open.extend([(high, halvings + 1), (low, halvings + 1)]);
-        }
-        Some(out)
+        let mut may_go_on = || {
+            let is_left = *left > 0 && self.may_go_on(budget);
+            *left = left.saturating_sub(1);
+            is_left
+        };
+        proof((&self.judge, k), whole, &mut may_go_on, &|part, halvings| self.axis_of_part(k, part, halvings))
     }
 
     /// The name whose side of a part is halved; `None` where the box of the axes is to be halved instead: there the middle of the ranges shows no more.
@@ -243,8 +236,32 @@ fn places(level: usize) -> Vec<(Vec<Part>, usize)> {
     out
 }
 
+/// How it is written that a loop is stable in all parts of a box; `axis` says along which name a part is halved.
+pub(super) fn proof(
+    (judge, k): (&ForAllJudge, usize),
+    whole: &JudgedBox,
+    may_go_on: &mut dyn FnMut() -> bool,
+    axis: &dyn Fn(&JudgedBox, usize) -> Option<usize>,
+) -> Option<String> {
+    let (mut out, mut open) = (String::new(), vec![(whole.clone(), 0)]);
+    while let Some((mut part, halvings)) = open.pop() {
+        if halvings > MOST_HALVINGS || !may_go_on() {
+            return None;
+        }
+        if judge.shows(k, &mut part, true) {
+            out.push('.');
+            continue;
+        }
+        let axis = axis(&part, halvings)?;
+        out.push(letter(axis));
+        let [low, high] = judge.halves(k, &mut part, axis);
+        open.extend([(high, halvings + 1), (low, halvings + 1)]);
+    }
+    Some(out)
+}
+
 /// `a`, `b`, ...: the name with this number.
-fn letter(name: usize) -> char {
+pub(super) fn letter(name: usize) -> char {
     char::from(b'a' + u8::try_from(name).expect("there are few names"))
 }
 

@@ -221,7 +221,8 @@ impl Tensor {
         Ok(sum.iter().all(|c| *c > off))
     }
 
-    fn has_sign(&self, positive: bool) -> bool {
+    /// Whether all coefficients have this sign.
+    pub fn has_sign(&self, positive: bool) -> bool {
         let off = &self.slack[0];
         self.planes[0].iter().all(|c| c.magnitude() > off.magnitude() && c.is_positive() == positive)
     }

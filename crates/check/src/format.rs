@@ -36,6 +36,9 @@ pub const SCHEMA_BY_ENCLOSURES: &str = "jurist/certificate/9";
 /// Of what holds for all values of names.
 pub const SCHEMA_FOR_ALL: &str = "jurist/certificate/10";
 
+/// Of best gains.
+pub const SCHEMA_OF_TUNING: &str = "jurist/certificate/11";
+
 /// Texts longer than this many bytes are refused unread.
 pub const MAX_TEXT: usize = 64 << 20;
 

@@ -57,6 +57,7 @@ mod symbols;
 mod taylor;
 mod tolerance;
 mod toml;
+mod tuned;
 mod univariate;
 mod verdict;
 mod words;
@@ -65,12 +66,13 @@ pub use digest::sha256;
 pub use for_all::{ForAllJudge, Part};
 pub use map_boxes::{BoxJudge, JudgedBox};
 pub use report::{Names, report};
+pub use tuned::TuneJudge;
 
 use clock::{Clock, out_of_time};
 use complex::{Meant, meant};
 use format::{
     Json, SCHEMA, SCHEMA_BY_ENCLOSURES, SCHEMA_FOR_ALL, SCHEMA_OF_BOXES, SCHEMA_OF_BOXES_WITH_SYMBOLS, SCHEMA_OF_CELLS,
-    SCHEMA_OF_MAPS, SCHEMA_OF_MAPS_BY_BOXES, SCHEMA_WITH_DEAD_TIME, SCHEMA_WITH_SYMBOLS,
+    SCHEMA_OF_MAPS, SCHEMA_OF_MAPS_BY_BOXES, SCHEMA_OF_TUNING, SCHEMA_WITH_DEAD_TIME, SCHEMA_WITH_SYMBOLS,
 };
 use num_traits::Zero;
 use number::{Q, shorten};
@@ -137,7 +139,7 @@ impl Default for Limits {
 pub struct Proved {
     /// The statement in a sentence or two.
     pub statement: String,
-    /// The kind of the statement: `intervals`, `verdict`, `tolerance`, `map`, `boxes`, `cells` or `for_all`.
+    /// The kind of the statement: `intervals`, `verdict`, `tolerance`, `map`, `boxes`, `cells`, `for_all` or `tune`.
     pub kind: &'static str,
 }
 
@@ -318,6 +320,7 @@ fn by_kind(model: &str, certificate: &str, clock: Clock) -> Result<Proved, Rejec
         SCHEMA_OF_BOXES_WITH_SYMBOLS,
         SCHEMA_BY_ENCLOSURES,
         SCHEMA_FOR_ALL,
+        SCHEMA_OF_TUNING,
     ];
     if !known.contains(&schema) {
         let [rest @ .., last] = known.map(|name| format!("'{name}'"));
@@ -330,7 +333,14 @@ fn by_kind(model: &str, certificate: &str, clock: Clock) -> Result<Proved, Rejec
     // Of loops with several rates the unit disc is what is proved of.
     if toml::read(model).is_ok_and(|model| blocks::has_several_rates(&model)) {
         let region = statement.get("region").and_then(|region| region.get("radius"));
-        let of_rates = [SCHEMA, SCHEMA_WITH_SYMBOLS, SCHEMA_OF_MAPS_BY_BOXES, SCHEMA_BY_ENCLOSURES, SCHEMA_FOR_ALL];
+        let of_rates = [
+            SCHEMA,
+            SCHEMA_WITH_SYMBOLS,
+            SCHEMA_OF_MAPS_BY_BOXES,
+            SCHEMA_BY_ENCLOSURES,
+            SCHEMA_FOR_ALL,
+            SCHEMA_OF_TUNING,
+        ];
         if !of_rates.contains(&schema) || !matches!(region, Some(Json::Text(one)) if one == "1") {
             let reason = "a loop of several rates has certificates of stability without further wishes alone".into();
             return Err(Rejection { step: Step::Model, reason });
@@ -339,6 +349,7 @@ fn by_kind(model: &str, certificate: &str, clock: Clock) -> Result<Proved, Rejec
     match Step::Statement.of(text(kind, "'kind'"))? {
         "boxes" if schema == SCHEMA_OF_MAPS_BY_BOXES => map_boxes::check(model, &json, clock),
         "for_all" if schema == SCHEMA_FOR_ALL => for_all::check(model, &json, clock),
+        "tune" if schema == SCHEMA_OF_TUNING => tuned::check(model, &json, clock),
         "map" if schema == SCHEMA_OF_MAPS => map::check(model, &json, statement, &clock),
         "tolerance" if [SCHEMA_OF_BOXES, SCHEMA_OF_BOXES_WITH_SYMBOLS].contains(&schema) => {
             boxes::check(model, &json, statement, &clock)

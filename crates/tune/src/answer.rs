@@ -7,6 +7,7 @@ use crate::typed::{Typed, typed};
 use crate::{many_gains, one_gain, two_gains};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
+use jurist_algebra::poly::MultiPoly;
 use jurist_algebra::real::Real;
 use jurist_engine::error::{Code, Diagnostic, Error};
 use jurist_engine::problem::{Problem, Question};
@@ -23,6 +24,8 @@ pub struct TuneAnswer {
     pub asked: Asked,
     /// What was found.
     pub outcome: Outcome,
+    /// Numerator and denominator of an expression that is to be best, in the gains.
+    pub formula: Option<[MultiPoly; 2]>,
 }
 
 /// What was found.
@@ -159,7 +162,8 @@ impl TuneAnswer {
             }
             open => open,
         };
-        Ok(TuneAnswer { problem, outcome, asked })
+        let formula = lines.formula.as_ref().map(|formula| formula.parts().map(Clone::clone));
+        Ok(TuneAnswer { problem, outcome, asked, formula })
     }
 
     /// Whether some gains meet what is required; `None` where it is open.

@@ -1,12 +1,14 @@
 //! `jurist tune`: the best gains within what is required.
 
 use super::{Context, Runs, decided};
+use crate::certified::certify_tune;
 use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions, RunOptions};
 use crate::cli::assignments::{bound, in_line, plain_number};
 use crate::cli::destinations::Files;
 use crate::cli::input::{known_names, load, question};
 use crate::cli::requirements::RequirementOptions;
 use crate::cli::status::{Error, Outcome, Status};
+use crate::cli::written::certify;
 use clap::Args;
 use jurist_algebra::number::{Rational, parse_number};
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Span};
@@ -14,6 +16,7 @@ use jurist_engine::model::Model;
 use jurist_engine::show::documents;
 use jurist_tune::answer::TuneAnswer;
 use jurist_tune::asked::{Asked, Gain};
+use std::ffi::OsString;
 use std::sync::Arc;
 
 /// Options of `jurist tune`.
@@ -43,6 +46,9 @@ pub(in crate::cli) struct Options {
     /// What may be given up for gains of few digits: a share, or per cent such as 2% [default: 1%]
     #[arg(long, value_name = "SHARE", allow_hyphen_values = true)]
     pub loss: Option<String>,
+    /// Writes a certificate that 'jurist verify' re-checks: that no gains within the bounds meet what is required, or none that are better than a value
+    #[arg(long, value_name = "FILE")]
+    pub certificate: Option<OsString>,
     #[command(flatten)]
     pub output: OutputOptions,
 }
@@ -58,6 +64,7 @@ impl Runs for Options {
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
         files.question(&self.model.model, &self.output.output);
+        files.outputs.extend(self.certificate.iter().map(|file| ("the certificate", file.clone())));
         Ok(())
     }
 }
@@ -127,6 +134,8 @@ fn run(options: &Options, context: &Context) -> Outcome {
         return context.undecided(output, stopped, || Some(answer.text(digits)), || answer.json(digits));
     }
     context.answer(output, || answer.text(digits), || answer.json(digits))?;
+    let text = &answer.problem.model().source().text;
+    certify(context, &output.run, text, &options.certificate, || certify_tune(&answer, &context.budget))?;
     Ok(if answer.is_feasible() == Some(false) { Status::DoesNotHold } else { Status::Holds })
 }
 

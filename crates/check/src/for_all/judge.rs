@@ -1,6 +1,6 @@
 //! Who decides the boxes of a certificate for all values.
 
-use super::{SHARE, Statement, read};
+use super::{Beyond, Loops, Requirement, SHARE, read};
 use crate::clock::Clock;
 use crate::format::Json;
 use crate::map_boxes::{JudgedBox, OneLoop, Parts, on_a_large_stack};
@@ -34,7 +34,7 @@ use crate::{Limits, Rejection, Step};
 /// assert!(judge.shows(0, &mut judge.part(&judge.over(&lower, 0), Part::Middle, 1), false), "a = -1, b = 3/2");
 /// ```
 pub struct ForAllJudge {
-    statement: Statement,
+    asked: Loops,
     clock: Clock,
     loops: Vec<OneLoop>,
 }
@@ -98,41 +98,46 @@ impl ForAllJudge {
     /// [`Rejection`] where the certificate has not the form of one for all values, or the model cannot be read.
     pub fn new(model: &str, certificate: &str, limits: &Limits) -> Result<Self, Rejection> {
         on_a_large_stack(|| {
-            let (statement, parts) = read(&Step::Format.of(Json::parse(certificate))?)?;
-            ForAllJudge::of(model, statement, &parts, Clock::new(limits.timeout))
+            let ((asked, _), parts) = read(&Step::Format.of(Json::parse(certificate))?)?;
+            ForAllJudge::of(model, asked, &parts, Clock::new(limits.timeout))
         })
     }
 
-    pub(super) fn of(model: &str, statement: Statement, parts: &Parts, clock: Clock) -> Result<Self, Rejection> {
+    pub(crate) fn of(model: &str, asked: Loops, parts: &Parts, clock: Clock) -> Result<Self, Rejection> {
         debug_assert_eq!(parts.share, SHARE);
-        let requirements = statement.require.iter().map(Some);
-        let all: Vec<_> = if statement.require.is_empty() { vec![None] } else { requirements.collect() };
-        let one = |requirement| {
-            OneLoop::new(model, &statement.question(requirement, statement.window.clone()), parts, &clock)
-        };
-        let loops = all.into_iter().map(one).collect::<Result<Vec<_>, _>>()?;
-        Ok(ForAllJudge { statement, clock, loops })
+        let one = |number| OneLoop::new(model, &asked.question(number, asked.window.clone()), parts, &clock);
+        let loops = (0..asked.each.len()).map(one).collect::<Result<Vec<_>, _>>()?;
+        Ok(ForAllJudge { asked, clock, loops })
     }
 
     /// A loop that is known at the point beyond.
-    pub(super) fn beyond(&self, number: usize, model: &str, parts: &Parts) -> Result<Option<OneLoop>, Rejection> {
-        let Some(beyond) = self.statement.beyond.as_ref().filter(|_| self.loops[number].is_enclosed) else {
+    pub(super) fn beyond(
+        &self,
+        number: usize,
+        beyond: &Beyond,
+        model: &str,
+        parts: &Parts,
+    ) -> Result<Option<OneLoop>, Rejection> {
+        if !self.loops[number].is_enclosed {
             return Ok(None);
-        };
+        }
         let point = beyond.point.iter().map(|x| [x.clone(), x.clone()]).collect();
-        let question = self.statement.question(self.statement.require.get(number), point);
-        OneLoop::new(model, &question, parts, &self.clock).map(Some)
+        OneLoop::new(model, &self.asked.question(number, point), parts, &self.clock).map(Some)
     }
 
-    pub(super) fn statement(&self) -> &Statement {
-        &self.statement
+    pub(crate) fn asked(&self) -> &Loops {
+        &self.asked
     }
 
-    pub(super) fn clock(&self) -> &Clock {
+    fn requirement(&self, number: usize) -> Option<&Requirement> {
+        self.asked.requirement(number)
+    }
+
+    pub(crate) fn clock(&self) -> &Clock {
         &self.clock
     }
 
-    pub(super) fn of_number(&self, number: usize) -> &OneLoop {
+    pub(crate) fn of_number(&self, number: usize) -> &OneLoop {
         &self.loops[number]
     }
 
@@ -143,17 +148,17 @@ impl ForAllJudge {
 
     /// How many names the boxes of a loop have.
     pub fn names(&self, number: usize) -> usize {
-        self.statement.names.len() + self.statement.require.get(number).map_or(0, super::Requirement::names)
+        self.asked.names.len() + self.requirement(number).map_or(0, Requirement::names)
     }
 
     /// Everything that is asked of the loop with this number, as far as a leaf `-` may go, which is less of the angles of a phase margin.
     pub fn whole(&self, number: usize) -> JudgedBox {
-        self.over_axes(&self.statement.window[..self.statement.axes], number)
+        self.over_axes(&self.asked.window[..self.asked.axes], number)
     }
 
     /// The same where the axes have the sides that they have in another box, of any of the loops.
     pub fn over(&self, axes: &JudgedBox, number: usize) -> JudgedBox {
-        self.over_axes(&axes.sides()[..self.statement.axes], number)
+        self.over_axes(&axes.sides()[..self.asked.axes], number)
     }
 
     /// The boxes of a leaf `+` over these axes, in their order: the leaf says that the loop is stable in each of them. The factors of a disc have three, where there
@@ -161,14 +166,14 @@ impl ForAllJudge {
     ///
     /// Cost: that of copying the sides.
     pub fn proofs(&self, axes: &JudgedBox, number: usize) -> Vec<JudgedBox> {
-        self.proofs_over(&axes.sides()[..self.statement.axes], number)
+        self.proofs_over(&axes.sides()[..self.asked.axes], number)
     }
 
-    pub(super) fn proofs_over(&self, axes: &[[Q; 2]], number: usize) -> Vec<JudgedBox> {
+    pub(crate) fn proofs_over(&self, axes: &[[Q; 2]], number: usize) -> Vec<JudgedBox> {
         let of = &self.loops[number];
-        let sides: Vec<[Q; 2]> = axes.iter().chain(&self.statement.window[self.statement.axes..]).cloned().collect();
+        let sides: Vec<[Q; 2]> = axes.iter().chain(&self.asked.window[self.asked.axes..]).cloned().collect();
         let with = |sides: &[[Q; 2]], own: Vec<[Q; 2]>| of.over(sides.iter().cloned().chain(own).collect());
-        let Some(requirement) = self.statement.require.get(number) else { return vec![with(&sides, Vec::new())] };
+        let Some(requirement) = self.requirement(number) else { return vec![with(&sides, Vec::new())] };
         match requirement.parts_of_disc(of.is_complex) {
             Some([plus, minus, across]) if !sides.is_empty() && !of.divides_by_factor() => {
                 let middle: Vec<_> = sides.iter().map(|side| Part::of(side)(Part::Middle)).collect();
@@ -184,7 +189,7 @@ impl ForAllJudge {
     /// # Errors
     /// Where there is not one number, a quotient of two integers, for each of these names.
     pub fn at(&self, point: &[&str], number: usize) -> Result<JudgedBox, String> {
-        if self.statement.axes > 0 || point.len() != self.statement.names.len() {
+        if self.asked.axes > 0 || point.len() != self.asked.names.len() {
             return Err("there is not one number for each name".into());
         }
         let point = point.iter().map(|x| rational(x)).collect::<Result<Vec<_>, _>>()?;
@@ -197,10 +202,10 @@ impl ForAllJudge {
     }
 
     /// Of a leaf `-`.
-    pub(super) fn over_axes(&self, axes: &[[Q; 2]], number: usize) -> JudgedBox {
+    pub(crate) fn over_axes(&self, axes: &[[Q; 2]], number: usize) -> JudgedBox {
         let of = &self.loops[number];
-        let own = self.statement.require.get(number).map(|own| own.ranges(of.is_complex, true));
-        let for_all = &self.statement.window[self.statement.axes..];
+        let own = self.requirement(number).map(|own| own.ranges(of.is_complex, true));
+        let for_all = &self.asked.window[self.asked.axes..];
         of.over(axes.iter().chain(for_all).cloned().chain(own.into_iter().flatten()).collect())
     }
 

@@ -13,26 +13,40 @@ use crate::statement::{Extent, fixed_extent, identifier, list, number, object, t
 use crate::{Proved, Rejection, is_discrete};
 pub use judge::{ForAllJudge, Part};
 use num_traits::{One, Zero};
-use requirement::Requirement;
+pub(crate) use requirement::Requirement;
+pub(crate) use sentence::{at_values, wishes};
+pub(crate) use walk::{axis, deeper, halves, line};
 
 /// So many names at most: axes, those for all, and the own ones of a requirement.
-const MAX_NAMES: usize = 8;
+pub(crate) const MAX_NAMES: usize = 8;
 
 /// More requirements are refused.
-const MAX_REQUIREMENTS: usize = 9;
+pub(crate) const MAX_REQUIREMENTS: usize = 9;
 
 /// See [`Parts::share`]: as in [`shown`](crate::map_boxes), so that a box is halved alike whether it was looked at or not.
-const SHARE: usize = 10;
+pub(crate) const SHARE: usize = 10;
 
-struct Statement {
-    discrete: bool,
+/// Loops over a window of names.
+#[derive(Clone)]
+pub(crate) struct Loops {
+    pub discrete: bool,
     /// The axes, then the names for all whose values it holds.
-    names: Vec<String>,
-    axes: usize,
-    window: Vec<[Q; 2]>,
-    set: Vec<(String, Q)>,
-    extent: Extent,
-    require: Vec<Requirement>,
+    pub names: Vec<String>,
+    pub axes: usize,
+    pub window: Vec<[Q; 2]>,
+    pub set: Vec<(String, Q)>,
+    pub each: Vec<Wanted>,
+}
+
+/// What is wanted of one of them.
+#[derive(Clone)]
+pub(crate) struct Wanted {
+    pub extent: Extent,
+    pub requirement: Option<Requirement>,
+}
+
+/// What is said of them, beside what is asked.
+struct Told {
     tree: String,
     beyond: Option<Beyond>,
 }
@@ -43,8 +57,8 @@ struct Beyond {
     not: String,
 }
 
-impl Statement {
-    fn read(json: &Json) -> Result<Self, String> {
+impl Loops {
+    fn read(json: &Json) -> Result<(Self, Told), String> {
         let keys = ["kind", "time", "axes", "for_all", "set", "region", "require", "tree", "beyond"];
         let [_, time, axes, for_all, set, region, require, tree, beyond] = object(json, "the statement", keys, &[])?;
         let discrete = is_discrete(time)?;
@@ -75,20 +89,30 @@ impl Statement {
         let axes_count = axes.len();
         let (names, window) = axes.into_iter().chain(for_all).unzip();
         let (set, tree) = (values(set)?, text(tree, "'tree'")?.to_owned());
-        Ok(Statement { discrete, names, axes: axes_count, window, set, extent, require, tree, beyond })
+        let wanted = |requirement| Wanted { extent: extent.clone(), requirement };
+        let each = match require.is_empty() {
+            true => vec![wanted(None)],
+            false => require.into_iter().map(|own| wanted(Some(own))).collect(),
+        };
+        Ok((Loops { discrete, names, axes: axes_count, window, set, each }, Told { tree, beyond }))
     }
 
-    /// What is asked of the loop with a requirement, where the names have these ranges.
-    fn question(&self, requirement: Option<&Requirement>, mut window: Vec<[Q; 2]>) -> Question {
-        window.extend(requirement.into_iter().flat_map(|own| own.ranges(true, false)));
+    /// What is asked of the loop with this number, where the names have these ranges.
+    fn question(&self, number: usize, mut window: Vec<[Q; 2]>) -> Question {
+        let Wanted { extent, requirement } = &self.each[number];
+        window.extend(requirement.iter().flat_map(|own| own.ranges(true, false)));
         Question {
             discrete: self.discrete,
             names: self.names.clone(),
             set: self.set.clone(),
-            extent: self.extent.clone(),
-            factor: requirement.map(|own| own.factor.clone()),
+            extent: extent.clone(),
+            factor: requirement.as_ref().map(|own| own.factor.clone()),
             window,
         }
+    }
+
+    fn requirement(&self, number: usize) -> Option<&Requirement> {
+        self.each[number].requirement.as_ref()
     }
 }
 
@@ -105,7 +129,7 @@ impl Beyond {
 }
 
 /// Names with their ranges.
-fn ranges(json: &Json, what: &str, may_be_one: bool) -> Result<Vec<(String, [Q; 2])>, String> {
+pub(crate) fn ranges(json: &Json, what: &str, may_be_one: bool) -> Result<Vec<(String, [Q; 2])>, String> {
     let mut out: Vec<(String, [Q; 2])> = Vec::new();
     for range in list(json, what)? {
         let [name, between] = object(range, "a range", ["name", "between"], &[])?;
@@ -116,19 +140,21 @@ fn ranges(json: &Json, what: &str, may_be_one: bool) -> Result<Vec<(String, [Q; 
 }
 
 /// A number of a statement.
-fn short(q: Q) -> Result<Q, String> {
+pub(crate) fn short(q: Q) -> Result<Q, String> {
     if is_long(&q) { Err("a number has too many digits".into()) } else { Ok(q) }
 }
 
 /// What is said, and how it is to be shown.
-fn read(json: &Json) -> Result<(Statement, Parts), Rejection> {
-    read_with(json, SHARE, Statement::read)
+fn read(json: &Json) -> Result<((Loops, Told), Parts), Rejection> {
+    read_with(json, SHARE, Loops::read)
 }
 
 pub(super) fn check(model: &str, json: &Json, clock: Clock) -> Result<Proved, Rejection> {
-    let (statement, parts) = read(json)?;
-    let judge = ForAllJudge::of(model, statement, &parts, clock)?;
-    let walked = judge.walk()?;
-    judge.walk_beyond(model, &parts)?;
-    Ok(Proved { statement: judge.statement().in_words(&walked), kind: "for_all" })
+    let ((asked, told), parts) = read(json)?;
+    let judge = ForAllJudge::of(model, asked, &parts, clock)?;
+    let walked = judge.walk(&told)?;
+    if let Some(beyond) = &told.beyond {
+        judge.walk_beyond(beyond, model, &parts)?;
+    }
+    Ok(Proved { statement: judge.asked().in_words(&told, &walked), kind: "for_all" })
 }

@@ -15,7 +15,8 @@ use num_traits::{One, Signed, Zero};
 const ANGLE_BITS: usize = 512;
 
 /// What a loop is to bear: all factors of a family.
-pub(super) struct Requirement {
+#[derive(Clone)]
+pub(crate) struct Requirement {
     pub factor: Factor,
     bound: Q,
     /// Of a phase margin: numbers below and above the tangent of half of it, or the tangent.
@@ -57,6 +58,17 @@ impl Requirement {
     /// The number of its own names.
     pub fn names(&self) -> usize {
         self.factor.family.names()
+    }
+
+    /// Whether both are of the same kind at the same cut, and this one asks for more.
+    pub fn asks_for_more_than(&self, other: &Requirement) -> bool {
+        let is_alike = std::mem::discriminant(&self.factor.family) == std::mem::discriminant(&other.factor.family)
+            && self.factor.cut == other.factor.cut;
+        is_alike
+            && match self.factor.family {
+                Family::Complementary(_) => self.bound < other.bound,
+                _ => self.bound > other.bound,
+            }
     }
 
     /// The ranges of its own names, in which a loop that is stable meets it, or which it is to leave for a loop not to meet it.

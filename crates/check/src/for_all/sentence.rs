@@ -1,21 +1,26 @@
 //! What a certificate for all values says.
 
-use super::{Requirement, Statement};
+use super::{Loops, Requirement, Told};
 use crate::map_boxes::{Walked, percent};
 use crate::number::Q;
 use crate::verdict;
 use crate::words::{exact, inward};
 
 /// `a = 1, b = 2`.
-fn at_values<'v>(values: impl Iterator<Item = (&'v String, &'v Q)>) -> String {
+pub(crate) fn at_values<'v>(values: impl Iterator<Item = (&'v String, &'v Q)>) -> String {
     values.map(|(name, q)| format!("{name} = {}", exact(q))).collect::<Vec<_>>().join(", ")
 }
 
-impl Statement {
+/// A phrase for each requirement.
+pub(crate) fn wishes(of: &Loops) -> Vec<String> {
+    of.each.iter().filter_map(|own| own.requirement.as_ref()).map(Requirement::in_words).collect()
+}
+
+impl Loops {
     /// The statement in words. It gives the ranges of names for all exactly: a smaller range may leave out the value that breaks the loop.
-    pub(super) fn in_words(&self, walked: &Walked) -> String {
-        let require: Vec<String> = self.require.iter().map(Requirement::in_words).collect();
-        let within = verdict::within(&self.extent, self.discrete);
+    pub(super) fn in_words(&self, told: &Told, walked: &Walked) -> String {
+        let require = wishes(self);
+        let within = verdict::within(&self.each[0].extent, self.discrete);
         let joint = if require.is_empty() { " " } else { ", " };
         let good = |with: &str| match require.is_empty() {
             true => format!("stable{within}"),
@@ -32,7 +37,7 @@ impl Statement {
         let with_values = if values.is_empty() { String::new() } else { format!(", with {values}") };
         let yes = good(", with ");
         if axes.is_empty() {
-            return self.of_one_point(walked, [&every, &values, &with_values], [&yes, &good(" with ")]);
+            return self.of_one_point(told, walked, [&every, &values, &with_values], [&yes, &good(" with ")]);
         }
         let axes: Vec<String> = self.names.iter().zip(axes).map(of_axis).collect();
         let axes = axes.join(" and ");
@@ -58,7 +63,13 @@ impl Statement {
     }
 
     /// Where there are no axes: of names for all, of the values of others, and of what is good, or not.
-    fn of_one_point(&self, walked: &Walked, [every, values, with_values]: [&str; 3], [yes, no]: [&str; 2]) -> String {
+    fn of_one_point(
+        &self,
+        told: &Told,
+        walked: &Walked,
+        [every, values, with_values]: [&str; 3],
+        [yes, no]: [&str; 2],
+    ) -> String {
         let letter = walked.pieces.first().map_or('?', |(letter, _)| *letter);
         let mut out = if letter == '-' && !every.is_empty() {
             format!("Not f{every}{with_values}, the loop is {yes}.")
@@ -74,7 +85,7 @@ impl Statement {
                 _ => format!("{begin} loop is stable or not: nothing is said of it."),
             }
         };
-        if let Some(beyond) = &self.beyond {
+        if let Some(beyond) = &told.beyond {
             let at = at_values(self.names.iter().zip(&beyond.point));
             out += &if at.is_empty() { " It is not.".to_owned() } else { format!(" At {at}, it is not.") };
         }

@@ -1,6 +1,6 @@
 //! The walk over the tree of a certificate for all values.
 
-use super::{ForAllJudge, Part};
+use super::{Beyond, ForAllJudge, Part, Told};
 use crate::clock::Clock;
 use crate::map_boxes::{JudgedBox, MAX_DEPTH, OneLoop, Parts, Walked};
 use crate::number::{Q, Z};
@@ -9,11 +9,11 @@ use num_traits::One;
 use std::str::Chars;
 
 /// The names by their letters.
-fn axis(letter: char) -> Option<usize> {
+pub(crate) fn axis(letter: char) -> Option<usize> {
     ('a'..='h').position(|own| own == letter)
 }
 
-fn line(reason: impl Into<String>) -> Rejection {
+pub(crate) fn line(reason: impl Into<String>) -> Rejection {
     Rejection { step: Step::Line, reason: reason.into() }
 }
 
@@ -23,22 +23,17 @@ fn stable(reason: String) -> Rejection {
 
 impl ForAllJudge {
     /// That each leaf of the tree is what it says, and the point beyond.
-    pub(super) fn walk(&self) -> Result<Walked, Rejection> {
-        let of = self.statement();
-        let mut letters = of.tree.chars();
+    pub(super) fn walk(&self, told: &Told) -> Result<Walked, Rejection> {
+        let of = self.asked();
+        let mut letters = told.tree.chars();
         let mut walked = Walked::new();
         let mut stack = vec![(of.window[..of.axes].to_vec(), 0)];
         while let Some((axes, depth)) = stack.pop() {
             Step::Line.of(self.clock().tick())?;
             let letter = letters.next().ok_or_else(|| line("the tree ends too early"))?;
             match letter {
-                '+' => {
-                    for k in 0..self.loops() {
-                        let boxes = self.proofs_over(&axes, k);
-                        boxes.into_iter().try_for_each(|own| self.proof(k, own, &mut letters))?;
-                    }
-                }
-                '-' => self.refutation(&axes, &mut letters)?,
+                '+' => (0..self.loops()).try_for_each(|k| self.proofs_of(k, &axes, &mut letters))?,
+                '-' => self.refutation(&axes, self.loops(), &mut letters)?,
                 '?' => {}
                 other => {
                     let axis = axis(other).filter(|axis| *axis < axes.len());
@@ -65,6 +60,11 @@ impl ForAllJudge {
             return Err(line("something follows the tree"));
         }
         Ok(walked)
+    }
+
+    /// That a loop is stable for all values of what is no axis.
+    pub(crate) fn proofs_of(&self, k: usize, axes: &[[Q; 2]], letters: &mut Chars<'_>) -> Result<(), Rejection> {
+        self.proofs_over(axes, k).into_iter().try_for_each(|own| self.proof(k, own, letters))
     }
 
     /// That a loop is stable in a box.
@@ -94,16 +94,32 @@ impl ForAllJudge {
     }
 
     /// That a loop is not stable for some values of the names that are no axes, the same for all points of the axes.
-    fn refutation(&self, axes: &[[Q; 2]], letters: &mut Chars<'_>) -> Result<(), Rejection> {
-        let k = self.number(letters)?;
+    pub(crate) fn refutation(&self, axes: &[[Q; 2]], loops: usize, letters: &mut Chars<'_>) -> Result<(), Rejection> {
+        let k = self.number(loops, letters)?;
         let part = self.stepped(k, self.over_axes(axes, k), letters)?;
         not_stable(self.of_number(k), k, part, self.clock())
     }
 
-    /// The number of a loop.
-    fn number(&self, letters: &mut Chars<'_>) -> Result<usize, Rejection> {
+    /// That a loop has a root beyond the boundary by more than a power of two, in the same way.
+    pub(crate) fn far_refutation(
+        &self,
+        axes: &[[Q; 2]],
+        exponent: i64,
+        loops: usize,
+        letters: &mut Chars<'_>,
+    ) -> Result<(), Rejection> {
+        let k = self.number(loops, letters)?;
+        let mut part = self.stepped(k, self.over_axes(axes, k), letters)?;
+        if !self.of_number(k).has_root_beyond(&mut part, exponent, self.clock()).map_err(stable)? {
+            return Err(stable(format!("a leaf 's' is not shown for loop {k}: {part}")));
+        }
+        Ok(())
+    }
+
+    /// The number of a loop, one of the first ones.
+    fn number(&self, loops: usize, letters: &mut Chars<'_>) -> Result<usize, Rejection> {
         let k = letters.next().and_then(|digit| digit.to_digit(10)).map(|k| k as usize);
-        k.filter(|k| *k < self.loops()).ok_or_else(|| line("a leaf '-' does not say of which loop it is"))
+        k.filter(|k| *k < loops).ok_or_else(|| line("a leaf '-' does not say of which loop it is"))
     }
 
     /// The part of a box to which steps lead.
@@ -116,7 +132,7 @@ impl ForAllJudge {
             }
             let step = Part::named(letter).ok_or_else(|| line(format!("'{}' is no step", letter.escape_debug())))?;
             let axis = letters.next().and_then(axis);
-            let own = self.statement().axes..self.names(k);
+            let own = self.asked().axes..self.names(k);
             let axis = axis.filter(|axis| own.contains(axis)).ok_or_else(|| line("a step has no name, or an axis"))?;
             deeper(depth)?;
             part = self.part(&part, step, axis);
@@ -125,12 +141,11 @@ impl ForAllJudge {
     }
 
     /// That the point beyond is not good.
-    pub(super) fn walk_beyond(&self, model: &str, parts: &Parts) -> Result<(), Rejection> {
-        let Some(beyond) = &self.statement().beyond else { return Ok(()) };
+    pub(super) fn walk_beyond(&self, beyond: &Beyond, model: &str, parts: &Parts) -> Result<(), Rejection> {
         let mut letters = beyond.not.chars();
-        let k = self.number(&mut letters)?;
+        let k = self.number(self.loops(), &mut letters)?;
         let part = self.stepped(k, self.at_point(&beyond.point, k), &mut letters)?;
-        match self.beyond(k, model, parts)? {
+        match self.beyond(k, beyond, model, parts)? {
             Some(of) => not_stable(&of, k, part, self.clock())?,
             None => not_stable(self.of_number(k), k, part, self.clock())?,
         }
@@ -146,12 +161,12 @@ fn not_stable(of: &OneLoop, k: usize, mut part: JudgedBox, clock: &Clock) -> Res
     Ok(())
 }
 
-fn halves([low, high]: &[Q; 2]) -> [[Q; 2]; 2] {
+pub(crate) fn halves([low, high]: &[Q; 2]) -> [[Q; 2]; 2] {
     let middle = (low + high) / Q::from(Z::from(2));
     [[low.clone(), middle.clone()], [middle, high.clone()]]
 }
 
-fn deeper(depth: usize) -> Result<(), Rejection> {
+pub(crate) fn deeper(depth: usize) -> Result<(), Rejection> {
     if depth < MAX_DEPTH { Ok(()) } else { Err(line("the tree is too deep")) }
 }
 

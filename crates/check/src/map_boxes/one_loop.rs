@@ -164,6 +164,27 @@ impl OneLoop {
         }
     }
 
+    /// Whether a root is shown to be beyond the boundary, moved outwards by a power of two, at every point of the closed box. Of loops with dead time
+    /// nothing is shown.
+    pub fn has_root_beyond(&self, of: &mut JudgedBox, exponent: i64, clock: &Clock) -> Result<bool, String> {
+        match (&self.of, &mut of.known) {
+            (Kind::Polynomial(judge), Known::Polynomial(known)) => {
+                judge.has_root_beyond(&of.sides, known, exponent, clock)
+            }
+            _ => Ok(false),
+        }
+    }
+
+    /// The coefficients in the middle of a box, in the half plane, times a positive number; none with dead time.
+    pub fn coefficients_approximate(&self, of: &mut JudgedBox, clock: &Clock) -> Option<Vec<f64>> {
+        match (&self.of, &mut of.known) {
+            (Kind::Polynomial(judge), Known::Polynomial(known)) => {
+                judge.coefficients_approximate(&of.sides, known, clock)
+            }
+            _ => None,
+        }
+    }
+
     /// The axis along which the functions change most in a box; of one that is not known, the widest in shares of the window.
     pub fn axis(&self, of: &JudgedBox) -> usize {
         let found = match (&self.of, &of.known) {

@@ -10,12 +10,15 @@ use crate::number::Z;
 use crate::over_box::{OverBox, in_half_plane, in_region, separated};
 use crate::over_symbols::primitive;
 use crate::taylor::{Precision, Taylor};
-use num_traits::{One, Signed};
+use num_traits::{One, Signed, ToPrimitive};
 use std::ops::Range;
 
 /// Beyond the axis, by these powers of two relative to the size of the roots, roots of a box are looked for whose boundary runs between
 /// parts that are all not stable.
 const BEYOND: [i64; 2] = [-3, -1];
+
+/// Bits of a number that floating point holds.
+const MOST_OF_FLOAT: u64 = 1000;
 
 /// The characteristic polynomial over the window.
 pub(super) struct Polynomial {
@@ -172,6 +175,31 @@ impl Polynomial {
             Some((known, true)) => self.decided(known, stable, clock),
             _ => Ok(false),
         }
+    }
+
+    /// Whether roots are to the right of the line that a power of two is right of the axis, at every point of the box.
+    pub fn has_root_beyond(&self, sides: &Sides, of: &mut Known, exponent: i64, clock: &Clock) -> Result<bool, String> {
+        if self.is_nowhere {
+            return Ok(true);
+        }
+        self.compute(sides, of, clock)?;
+        let Some((known, true)) = &of.functions else { return Ok(false) };
+        // In between numbers are longer than those of the models.
+        let (n, terms) = (self.coefficients, self.precision.terms());
+        let bits = self.precision.bits as u64 + exponent.unsigned_abs() * n as u64;
+        clock.hold(n * terms, bits)?;
+        clock.spend(n * n / 2 * terms, bits, 0)?;
+        let moved = shifted(&known[..self.coefficients], exponent, &self.precision, clock)?;
+        Ok(right(&moved, &self.precision, clock)?.is_some_and(|count| count > 0))
+    }
+
+    /// The coefficients in the middle of a box, times a positive number.
+    pub fn coefficients_approximate(&self, sides: &Sides, of: &mut Known, clock: &Clock) -> Option<Vec<f64>> {
+        self.compute(sides, of, clock).ok()?;
+        let (known, _) = of.functions.as_ref()?;
+        let constants: Vec<Z> = known[..self.coefficients].iter().map(Taylor::constant).collect();
+        let long = constants.iter().map(Z::bits).max()?.saturating_sub(MOST_OF_FLOAT);
+        constants.iter().map(|c| (c >> long).to_f64()).collect()
     }
 
     fn decided(&self, known: &[Taylor], stable: bool, clock: &Clock) -> Result<bool, String> {

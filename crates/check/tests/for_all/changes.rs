@@ -1,6 +1,7 @@
 //! Changed certificates: what is accepted is true.
 
-use crate::truth::{Plant, is_true};
+use crate::samples::Plant;
+use crate::truth::is_true;
 use crate::writer::{Asked, LIMITS, written};
 use crate::{INPUT, SIGNAL, loop_of, other, phase};
 use jurist_check::check;

@@ -6,9 +6,9 @@ use super::{no_certificate, refuse_free_bound};
 use crate::error::Error;
 use crate::model::Cut;
 use crate::problem::{Problem, Region};
-use crate::response::{AllOf, Requirement, Rule, half_tangent};
+use crate::response::{AllOf, Level, Requirement, Rule, half_tangent};
 use jurist_algebra::limits::{Budget, Exhausted};
-use jurist_algebra::number::Rational;
+use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::poly::RealAlgebraic;
 use serde_json::Value;
 
@@ -20,6 +20,10 @@ const TURN_BITS: u64 = 48;
 
 /// A factor that is not rational is rounded to so many digits.
 const FACTOR_DIGITS: usize = 12;
+
+/// Digits of an angle behind the point, and a power of two that is above half of what rounding changes, in radians.
+const ANGLE_DIGITS: i64 = 9;
+const NEAR_BITS: u64 = 34;
 
 /// What is said of the boxes of a tree, of up to two names: whether the loop is stable, and meets what is required, at all points of a box for all values of
 /// further names.
@@ -111,7 +115,12 @@ impl Problem {
         ])))
     }
 
-    fn requirement(&self, requirement: &Requirement, at: Option<&str>, budget: &Budget) -> Result<Value, Error> {
+    pub(super) fn requirement(
+        &self,
+        requirement: &Requirement,
+        at: Option<&str>,
+        budget: &Budget,
+    ) -> Result<Value, Error> {
         let refused = || Err(no_certificate(format!("no certificate: nothing proves '{}'", requirement.text())));
         if requirement.signals().is_some() {
             return refused();
@@ -119,8 +128,11 @@ impl Problem {
         let mut bound = match requirement.rule() {
             Rule::Factors(factor) => vec![("bound", number(&above(factor)))],
             Rule::Turned { twice_cosine } => {
-                let Some(degrees) = requirement.required_number(0) else { return refused() };
                 let turns = turns(twice_cosine, budget)?;
+                let (degrees, turns) = match requirement.required_number(0) {
+                    Some(degrees) => (degrees, turns),
+                    None => (rounded_degrees(twice_cosine), around_rounded(turns)),
+                };
                 vec![("bound", number(&degrees)), ("turns", turns.iter().map(number).collect())]
             }
             Rule::Circle(circle) => vec![("bound", number(circle.asked()))],
@@ -138,7 +150,7 @@ impl Problem {
     }
 }
 
-fn range(of: &AllOf) -> Value {
+pub(super) fn range(of: &AllOf) -> Value {
     object([("name", of.name.as_str().into()), ("between", of.range.iter().map(number).collect())])
 }
 
@@ -157,6 +169,21 @@ fn turns(twice_cosine: &RealAlgebraic, budget: &Budget) -> Result<[Rational; 2],
     let (low, high) = tangent.refined_to_digits(TURN_BITS as usize).enclosure();
     let unit = Rational::dyadic(&1.into(), TURN_BITS);
     Ok([rounded_down(&low, &unit), rounded_down(&high, &unit) + unit])
+}
+
+/// An angle of which twice the cosine is given, rounded down to some digits: a level that is asked for.
+fn rounded_degrees(twice_cosine: &RealAlgebraic) -> Rational {
+    let (low, high) = twice_cosine.refined_to_digits(2 * FACTOR_DIGITS).enclosure();
+    let degrees = Level::PhaseMargin.enclosure(&Enclosure::new(low, high), 2 * TURN_BITS).expect("an angle is finite");
+    let unit = Rational::from(10).pow(-ANGLE_DIGITS).expect("ten is not zero");
+    rounded_down(degrees.lower(), &unit)
+}
+
+/// Two numbers around the tangents of half of all angles that are that near to one of which these are around the tangent: it changes by half of `1 + t^2` times the angle.
+fn around_rounded([below, above]: [Rational; 2]) -> [Rational; 2] {
+    let by = |t: &Rational| (t * t + Rational::ONE) * Rational::dyadic(&1.into(), NEAR_BITS);
+    let (less, more) = (&below - &by(&below), &above + &by(&above));
+    [if less.sign().is_gt() { less } else { below * Rational::dyadic(&1.into(), 1) }, more]
 }
 
 fn rounded_down(x: &Rational, unit: &Rational) -> Rational {

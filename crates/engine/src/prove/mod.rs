@@ -18,6 +18,7 @@ mod over_symbols;
 mod smt2;
 mod statement;
 mod text;
+mod tuned;
 
 use crate::coverage::refusals::{NO_CERTIFICATE, NOT_ALGEBRAIC};
 use crate::error::{Code, Diagnostic, Error};
@@ -26,6 +27,7 @@ use crate::stability::StableSet;
 
 pub use emit::SCHEMA;
 pub use for_all::ForAllClaim;
+pub use tuned::{BestOf, FoundClaim, TuneClaim};
 
 /// Certificates are made of polynomials over the integers.
 fn refuse_transcendental(set: &StableSet, what: &str) -> Result<(), Error> {
