@@ -169,6 +169,7 @@ mod tune {
     mod laws;
     mod norms;
     mod settling;
+    mod told;
 }
 
 /// Responses and root loci in floating point, against exact answers.

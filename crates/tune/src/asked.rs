@@ -249,16 +249,13 @@ fn objective(model: &Model, gains: &[Gain], text: &str) -> Result<Objective, Err
 /// The signals of `norm INPUT OUTPUT`; `None` of another text.
 fn norm(model: &Model, text: &str) -> Result<Option<Between>, Error> {
     let words: Vec<&str> = text.split_whitespace().collect();
-    let (input, output) = match words[..] {
-        ["norm", input, output] => (input, output),
-        ["norm"] => {
-            let error = Diagnostic::error(Code::TuneObjective, "a norm is from an input to an output");
-            return Err(error.help("write 'min norm INPUT OUTPUT'").into());
-        }
-        _ => return Ok(None),
-    };
     let inputs: Vec<&str> = model.inputs().iter().map(|name| name.name.as_str()).collect();
     let outputs: Vec<&str> = model.outputs().iter().map(|output| output.name.name.as_str()).collect();
+    let (input, output) = match words[..] {
+        ["norm", input, output] => (input, output),
+        ["norm", ..] => return Err(norm_of(&inputs, &outputs, &words[1..])),
+        _ => return Ok(None),
+    };
     for (known, name, what) in [(inputs, input, "input"), (outputs, output, "output")] {
         if !known.contains(&name) {
             let error = Diagnostic::error(Code::TuneObjective, format!("the loop has no {what} '{name}'"));
@@ -266,6 +263,26 @@ fn norm(model: &Model, text: &str) -> Result<Option<Between>, Error> {
         }
     }
     Ok(Some(Between::new(input, output)))
+}
+
+/// That a norm is between two signals: with what is to be written.
+fn norm_of(inputs: &[&str], outputs: &[&str], written: &[&str]) -> Error {
+    let given = written.iter().map(|word| format!("'{word}'")).collect::<Vec<_>>().join(", ");
+    let message = match written {
+        [] => "a norm is from an input to an output".to_owned(),
+        [_] => format!("a norm is from an input to an output, and {given} is one signal"),
+        _ => format!("a norm is from one input to one output, not of {given}"),
+    };
+    // What is written already is kept where it is a signal of that kind.
+    let kept = |known: &[&str]| written.iter().find(|word| known.contains(word)).map(|word| (*word).to_owned());
+    let or_only = |known: &[&str], name: &str| match known {
+        [only] => (*only).to_owned(),
+        _ => name.to_owned(),
+    };
+    let input = kept(inputs).unwrap_or_else(|| or_only(inputs, "INPUT"));
+    let output = kept(outputs).unwrap_or_else(|| or_only(outputs, "OUTPUT"));
+    let known = format!("inputs: {}; outputs: {}", inputs.join(", "), outputs.join(", "));
+    Diagnostic::error(Code::TuneObjective, message).help(format!("write 'min norm {input} {output}' ({known})")).into()
 }
 
 /// An error where an expression has a name that is no gain and none of the model's, or no gain at all.

@@ -38,7 +38,8 @@ pub struct Tune {
     pub optimum: Option<OptimumFound>,
     /// Gains that meet what is required; `null` where there are none.
     pub found: Option<PointFound>,
-    /// No gains have this value of the objective, or a better one, rounded away from the best one; `null` where the optimum is exact or without end.
+    /// No gains have this value of the objective, or a better one, rounded away from the best one; where it is open whether there are any gains, none have a
+    /// better one. `null` where the optimum is exact or without end.
     pub proved: Option<String>,
     /// So many boxes of gains prove the bracket, or that no gains meet what is required; `null` where sets or maps do.
     pub cells: Option<u64>,
@@ -91,6 +92,18 @@ pub struct PointFound {
 }
 
 impl TuneAnswer {
+    /// No gains have this value, or a better one.
+    fn proved(&self) -> Option<&Rational> {
+        match &self.outcome {
+            Outcome::Optimum(optimum) => match &optimum.value {
+                Best::Between([_, proved]) => Some(proved),
+                _ => None,
+            },
+            Outcome::Open { proved, .. } => proved.as_ref(),
+            Outcome::Infeasible { .. } => None,
+        }
+    }
+
     /// The document, with so many digits of decimals.
     pub fn json(&self, digits: usize) -> Tune {
         let asked = &self.asked;
@@ -116,10 +129,7 @@ impl TuneAnswer {
                 point: named(&optimum.found),
                 value: optimum.found_value.as_ref().map(|x| number_text(&reading, x, digits)),
             }),
-            proved: optimum.and_then(|optimum| match &optimum.value {
-                Best::Between([_, proved]) => Some(number_text(&reading, proved, digits)),
-                _ => None,
-            }),
+            proved: self.proved().map(|x| number_text(&reading, x, digits)),
             cells: self.cells().map(|cells| cells as u64),
             rounded: typed.map(|typed| named(&typed.values)),
             loss_percent: optimum.and_then(|optimum| self.lost(optimum)),

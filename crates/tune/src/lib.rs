@@ -25,6 +25,7 @@ pub mod decimals;
 pub mod document;
 mod formula;
 mod formula_of_one;
+mod level_of_one;
 mod lines;
 mod many_gains;
 mod near;

@@ -86,6 +86,14 @@ impl<'a> Lines<'a> {
         Ok((list, region))
     }
 
+    /// Work after whose end by the budget something is known all the same.
+    ///
+    /// # Errors
+    /// Those of the work, and the end of the budget.
+    pub fn part<T>(&self, work: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
+        self.budget.enter(work)?
+    }
+
     fn free(&self, question: Question, gain: usize) -> Question {
         let name = &self.asked.gains[gain].name;
         question.free(name).domain(name, self.ranges[gain].clone())

@@ -2,8 +2,8 @@
 
 use crate::asked::Objective;
 use crate::formula::Formula;
+use crate::level_of_one::{is_without_end, scale};
 use crate::lines::Lines;
-use crate::one_gain::{is_without_end, scale};
 use crate::parts::{Beside, Part, Parts};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_engine::error::Error;
@@ -167,6 +167,15 @@ impl<'l> Target<'l> {
         };
         let best = if self.is_rising() { ends.iter().max() } else { ends.iter().min() }?;
         Some(self.step(best, &Rational::dyadic(&Integer::ONE, SMALL)))
+    }
+
+    /// The same, and no value beyond the bounds.
+    pub fn best_within(&self, parts: &[Part]) -> Option<Value> {
+        let best = self.best_of(parts)?;
+        match self {
+            Target::Gain { end, .. } | Target::Formula { end, .. } if self.is_better(&best, end) => Some(end.clone()),
+            _ => Some(best),
+        }
     }
 
     /// The value of a point; `None` of a level, and where there is none.

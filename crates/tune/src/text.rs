@@ -3,7 +3,7 @@
 use crate::answer::{Best, Optimum, Outcome, Place, TuneAnswer};
 use crate::asked::Objective;
 use crate::reading::Reading;
-use jurist_algebra::number::{Enclosure, Rational, to_decimal};
+use jurist_algebra::number::{Enclosure, Rational, parse_number, to_decimal};
 use jurist_algebra::poly::{MultiPoly, RealAlgebraic};
 use jurist_algebra::real::Real;
 use jurist_engine::problem::Bound;
@@ -39,7 +39,7 @@ impl TuneAnswer {
         match &self.outcome {
             Outcome::Infeasible { conflict, cells } => self.conflict_text(&mut out, conflict, *cells),
             Outcome::Optimum(optimum) => self.optimum_text(&mut out, optimum, digits),
-            Outcome::Open(_) => writeln!(out, "whether any gains meet this was not decided").expect(TAKES),
+            Outcome::Open { proved, .. } => self.open_text(&mut out, proved.as_ref(), digits),
         }
         out
     }
@@ -56,6 +56,14 @@ impl TuneAnswer {
         }
         out.extend(list.list.iter().map(jurist_engine::response::Requirement::text));
         out
+    }
+
+    fn open_text(&self, out: &mut String, proved: Option<&Rational>, digits: usize) {
+        writeln!(out, "whether any gains meet this was not decided").expect(TAKES);
+        if let Some(proved) = proved {
+            let value = Reading::of(&self.asked).shown(&Real::from(proved.clone()), digits);
+            writeln!(out, "    {}: none better than {value}", self.asked.wanted()).expect(TAKES);
+        }
     }
 
     fn conflict_text(&self, out: &mut String, conflict: &[String], cells: Option<usize>) {
@@ -109,14 +117,11 @@ impl TuneAnswer {
             let places = asked.gains.iter().zip(&optimum.at).enumerate();
             let is_own = |i: usize| matches!(asked.objective, Objective::Greatest(k) | Objective::Least(k) if k == i);
             let places = places.filter(|(i, _)| !is_own(*i)).map(|(_, (gain, place))| match place {
-                Place::Exact(x) if matches!(optimum.value, Best::Exact(_)) => {
-                    format!("{} = {}", gain.name, rounded(x, digits).decimal)
-                }
                 Place::Exact(x) => format!("{} = {}", gain.name, rounded(x, digits).decimal),
-                Place::Between([low, high]) => format!("{} {}", gain.name, common(low, high, digits)),
-                Place::From((Some(low), Some(high))) => format!("{} {}", gain.name, common(low, high, digits)),
-                Place::From((Some(low), None)) => format!("{} from {}", gain.name, to_decimal(low, 6)),
-                Place::From((None, Some(high))) => format!("{} up to {}", gain.name, to_decimal(high, 6)),
+                Place::Between([low, high]) => format!("{} {}", gain.name, enclosed_number(low, high, digits)),
+                Place::From((Some(low), Some(high))) => format!("any {} {}", gain.name, range(low, high)),
+                Place::From((Some(low), None)) => format!("any {} from {}", gain.name, to_decimal(low, 6)),
+                Place::From((None, Some(high))) => format!("any {} up to {}", gain.name, to_decimal(high, 6)),
                 Place::From((None, None)) => format!("any {}", gain.name),
                 Place::Unbounded => format!("{} without end", gain.name),
             });
@@ -146,11 +151,7 @@ impl TuneAnswer {
                         Objective::Greatest(_) | Objective::Least(_) | Objective::Anything => {}
                     }
                 }
-                match self.lost(optimum) {
-                    Some(lost) => writeln!(out, "{line}, loss {lost} %"),
-                    None => writeln!(out, "{line}, loss at most {} %", percent(&typed.most_lost)),
-                }
-                .expect(TAKES);
+                writeln!(out, "{line}{}", self.loss_text(optimum)).expect(TAKES);
                 for found in &typed.requirements {
                     writeln!(out, "    {}", found.text(digits)).expect(TAKES);
                 }
@@ -167,14 +168,42 @@ impl TuneAnswer {
         }
     }
 
-    /// What the gains that are typed in lose, in per cent; `None` where it is not a number.
+    fn loss_text(&self, optimum: &Optimum) -> String {
+        match (self.share_lost(optimum), &optimum.value) {
+            (None, _) => String::new(),
+            (Some(lost), _) if lost.is_zero() => ", no loss".to_owned(),
+            (Some(lost), Best::Between(_)) => format!(", loss at most {} %", percent_above(&lost)),
+            (Some(lost), _) => format!(", loss {} %", percent(&lost)),
+        }
+    }
+
+    /// What the gains that are typed in lose, in per cent; `None` where it is not a number, and of a bracket.
     pub(crate) fn lost(&self, optimum: &Optimum) -> Option<String> {
-        let value = optimum.typed.as_ref()?.value.as_ref()?.lower().clone();
-        let Best::Exact(best) = &optimum.value else { return None };
-        let (low, high) = best.refined_to_digits(20).enclosure();
-        let best = Reading::of(&self.asked).enclosure(&Enclosure::new(low, high), 64)?.lower().clone();
-        let lost = (&best - value).abs().checked_div(&best.abs())?;
-        Some(percent(&lost))
+        let is_exact = matches!(optimum.value, Best::Exact(_));
+        self.share_lost(optimum).filter(|_| is_exact).map(|lost| percent(&lost))
+    }
+
+    /// What they lose as a share; of a bracket the most that it may be.
+    fn share_lost(&self, optimum: &Optimum) -> Option<Rational> {
+        let typed = optimum.typed.as_ref()?;
+        let is_best =
+            |(place, x): (&Place, &Rational)| matches!(place, Place::Exact(best) if best.compare_rational(x).is_eq());
+        let is_exact = matches!(optimum.value, Best::Exact(_)) && optimum.attained == Some(true);
+        if is_exact && optimum.at.len() == typed.values.len() && optimum.at.iter().zip(&typed.values).all(is_best) {
+            return Some(Rational::ZERO);
+        }
+        let value = typed.value.as_ref()?.lower().clone();
+        let best = match &optimum.value {
+            Best::Exact(best) => {
+                let (low, high) = best.refined_to_digits(20).enclosure();
+                Enclosure::new(low, high)
+            }
+            Best::Between([_, proved]) => Enclosure::from_rational(proved.clone()),
+            Best::Unbounded | Best::Zero | Best::Nothing => return None,
+        };
+        let best = Reading::of(&self.asked).enclosure(&best, 64)?.lower().clone();
+        let lost = (&best - value).abs();
+        if lost.is_zero() { Some(lost) } else { lost.checked_div(&best.abs()) }
     }
 }
 
@@ -193,6 +222,16 @@ fn percent(share: &Rational) -> String {
     to_decimal(&(share * &Rational::from(100)), FEW)
 }
 
+/// The same, not less than the share.
+fn percent_above(share: &Rational) -> String {
+    let text = percent(share);
+    let shown = parse_number(&text).map(|x| x * Rational::new(1.into(), 100.into()));
+    if shown.is_ok_and(|shown| shown >= *share) {
+        return text;
+    }
+    percent(&(share * &Rational::new(201.into(), 200.into())))
+}
+
 /// A bracket, ascending, in so many digits that its ends differ.
 fn bracket(reading: &Reading, found: &Rational, proved: &Rational) -> [String; 2] {
     let text = |x: &Rational, digits: usize| reading.shown(&Real::from(x.clone()), digits);
@@ -208,24 +247,20 @@ fn bracket(reading: &Reading, found: &Rational, proved: &Rational) -> [String; 2
     ends
 }
 
-/// The digits that two numbers have in common, or both.
-fn common(low: &Rational, high: &Rational, digits: usize) -> String {
-    let tiny = Rational::from(10).pow(-(digits as i64)).expect("ten is not zero");
-    let width = high - low;
-    let same = (3..=digits).rev().find(|n| to_decimal(low, *n) == to_decimal(high, *n));
-    match same {
-        Some(n) => format!("= {}..", to_decimal(low, n)),
-        // Numbers on both sides of a short one have no digits in common.
-        None if width < tiny => {
-            let middle = (low + high) * Rational::new(1.into(), 2.into());
-            let near = jurist_algebra::poly::simplest_between(&(low - &width), &(high + &width)).unwrap_or(middle);
-            format!("= {} (within {})", short(&near), to_decimal(&width, 1))
-        }
-        None => {
-            let n = (6..20).find(|n| to_decimal(low, *n) != to_decimal(high, *n)).unwrap_or(20);
-            format!("from {} to {}", to_decimal(low, n), to_decimal(high, n))
-        }
-    }
+/// A number between two others, in the digits that are known; what it lies between where no digits are.
+fn enclosed_number(low: &Rational, high: &Rational, digits: usize) -> String {
+    let known = (3..=digits).rev().find(|n| to_decimal(low, *n) == to_decimal(high, *n));
+    known.map_or_else(|| format!("between {}", ends(low, high, "and")), |n| format!("= {}", to_decimal(low, n)))
+}
+
+/// All numbers from one to another.
+fn range(low: &Rational, high: &Rational) -> String {
+    format!("from {}", ends(low, high, "to"))
+}
+
+fn ends(low: &Rational, high: &Rational, word: &str) -> String {
+    let digits = (6..20).find(|n| to_decimal(low, *n) != to_decimal(high, *n)).unwrap_or(20);
+    format!("{} {word} {}", to_decimal(low, digits), to_decimal(high, digits))
 }
 
 /// The polynomial of an algebraic number, if it is short.

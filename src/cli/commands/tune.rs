@@ -8,6 +8,7 @@ use crate::cli::input::{known_names, load, question};
 use crate::cli::requirements::RequirementOptions;
 use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
+use jurist_algebra::limits::apart;
 use jurist_algebra::number::{Rational, parse_number};
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Span};
 use jurist_engine::model::Model;
@@ -126,8 +127,13 @@ fn run(options: &Options, context: &Context) -> Outcome {
     if let Some(stopped) = answer.stopped() {
         return context.undecided(output, stopped, || Some(answer.text(digits)), || answer.json(digits));
     }
+    if answer.is_feasible() == Some(false) {
+        // The search for what excludes each other may have taken all of the budget.
+        context.answer(output, || apart(|| answer.text(digits)), || apart(|| answer.json(digits)))?;
+        return Ok(Status::DoesNotHold);
+    }
     context.answer(output, || answer.text(digits), || answer.json(digits))?;
-    Ok(if answer.is_feasible() == Some(false) { Status::DoesNotHold } else { Status::Holds })
+    Ok(Status::Holds)
 }
 
 /// The error with its place in the model, where it has one.
