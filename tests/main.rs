@@ -168,6 +168,7 @@ mod tune {
     mod gains;
     mod laws;
     mod norms;
+    mod robust;
     mod settling;
     mod told;
 }

@@ -249,8 +249,8 @@ fn within_bounds(lines: &Lines<'_>) -> Option<Rational> {
 /// The best of what is asked, by the method that fits.
 fn best(lines: &Lines<'_>) -> Result<Outcome, Error> {
     match lines.asked.gains.len() {
-        1 => one_gain::best(lines),
         _ if lines.are_boxes_asked()? => many_gains::best(lines),
+        1 => one_gain::best(lines),
         _ => two_gains::best(lines),
     }
 }

@@ -4,7 +4,7 @@ use crate::reading::SETTLING_TIME;
 use jurist_algebra::number::Rational;
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Error, Source, Span};
 use jurist_engine::model::{Between, Expression, Model, Time, nearest_name};
-use jurist_engine::response::{Level, Requirements};
+use jurist_engine::response::{AllOf, Level, Requirements};
 
 /// A gain that is free.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,6 +70,8 @@ pub struct Asked {
     pub loss: Option<Rational>,
     /// Whether boxes are searched where the answer of two gains would be exact.
     pub by_boxes: bool,
+    /// Names of the plant with their ranges: gains have to be good for all values in them.
+    pub for_all: Vec<AllOf>,
     /// The sample time, of a settling time in discrete time; it is found out when the question is answered.
     pub sample_time: Option<Rational>,
 }
@@ -101,7 +103,8 @@ impl Asked {
         check_gains(&gains)?;
         let objective = self::objective(model, &gains, objective)?;
         let gap = Rational::new(GAP.0.into(), GAP.1.into());
-        Ok(Asked { gains, objective, requirements, gap, loss: None, by_boxes: false, sample_time: None })
+        let for_all = Vec::new();
+        Ok(Asked { gains, objective, requirements, gap, loss: None, by_boxes: false, for_all, sample_time: None })
     }
 
     /// The level that is to be best, if it is one.

@@ -4,7 +4,9 @@ use crate::answer::{Best, Optimum, Outcome, Place, TuneAnswer};
 use crate::reading::Reading;
 use jurist_algebra::number::Rational;
 use jurist_algebra::real::Real;
-use jurist_engine::show::documents::{Enclosure, Exact, Named, Number, PointQuestion, RequirementFound, Undecided};
+use jurist_engine::show::documents::{
+    AllValues, Enclosure, Exact, Named, Number, PointQuestion, RequirementFound, Undecided,
+};
 use serde::{Deserialize, Serialize};
 
 /// `jurist/tune/1`.
@@ -32,6 +34,8 @@ pub struct Tune {
     pub objective: String,
     /// What is required, in words.
     pub require: Vec<String>,
+    /// Names of the plant for all of whose values, from one to another, gains are to be good.
+    pub for_all: Vec<AllValues>,
     /// Whether some gains meet what is required; `null` where it is open.
     pub feasible: Option<bool>,
     /// The best value; `null` where nothing was to be best, and where there are no gains.
@@ -123,6 +127,7 @@ impl TuneAnswer {
             free: asked.gains.iter().map(|gain| gain.name.clone()).collect(),
             objective: asked.objective_text(),
             require: self.required(),
+            for_all: asked.for_all.iter().map(AllValues::from).collect(),
             feasible: self.is_feasible(),
             optimum: optimum.filter(|o| !matches!(o.value, Best::Nothing)).map(|o| self.optimum(o, digits)),
             found: optimum.map(|optimum| PointFound {

@@ -23,6 +23,7 @@ mod conflict;
 mod critical;
 pub mod decimals;
 pub mod document;
+mod for_all;
 mod formula;
 mod formula_of_one;
 mod level_of_one;

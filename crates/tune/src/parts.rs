@@ -1,5 +1,6 @@
 //! Whether any gains of a box meet what is asked: the box is cut into parts until no point of any part meets it, or a point is found that does.
 
+use crate::for_all::{Everywhere, Plants, Sides, as_box, everywhere, middle};
 use crate::formula::Formula;
 use crate::lines::Lines;
 use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
@@ -27,7 +28,7 @@ pub(crate) struct Part {
 
 impl Part {
     fn middle(&self) -> Vec<Rational> {
-        self.sides.iter().map(|[low, high]| low.midpoint(high)).collect()
+        middle(&self.sides)
     }
 
     /// What is left of it where a gain has at least a value, or at most one; `None` where nothing is.
@@ -97,8 +98,7 @@ impl Beside<'_> {
             Beside::Level(boxes) => return boxes.look(sides, budget),
             Beside::Formula { formula, goal, is_greatest } => (formula, goal, *is_greatest),
         };
-        let middle: Vec<Rational> = sides.iter().map(|[low, high]| low.midpoint(high)).collect();
-        let value = formula.at(&middle);
+        let value = formula.at(&middle(sides));
         let Some(goal) = goal else { return Ok(OverPoints::Open { middle: Some(value.is_some()) }) };
         Ok(match budget.enter(|| formula.is_above(sides, goal))? {
             Some(is_above) if is_above == is_greatest => OverPoints::All,
@@ -112,6 +112,7 @@ impl Beside<'_> {
 pub(crate) struct Parts<'l, 'a> {
     pub lines: &'l Lines<'a>,
     pub whole: Vec<[Rational; 2]>,
+    plants: Plants,
     near: Vec<Rational>,
     tests: Vec<RequirementBoxes>,
     /// So many parts were looked at.
@@ -129,8 +130,9 @@ impl<'l, 'a> Parts<'l, 'a> {
     /// `E-tune-bounds` where a gain has no bounds, `E-require` for a requirement that is not asked of boxes.
     pub fn new(lines: &'l Lines<'a>, most: usize) -> Result<Parts<'l, 'a>, Error> {
         let whole = sides(lines)?;
-        let near: Vec<Rational> = whole.iter().map(|[low, high]| low.midpoint(high)).collect();
-        let mut parts = Parts { lines, whole, near, tests: Vec::new(), looked: 0, cells: 0, most };
+        let plants = Plants::new(&lines.asked.for_all);
+        let near: Vec<Rational> = middle(&whole).into_iter().chain(middle(&plants.sides)).collect();
+        let mut parts = Parts { lines, whole, plants, near, tests: Vec::new(), looked: 0, cells: 0, most };
         let problem = lines.problem()?;
         let stability = RequirementBoxes::of_stability(&problem, &parts.near, lines.budget)?;
         parts.tests.push(stability.ok_or_else(|| not_in_boxes("stability"))?);
@@ -170,7 +172,10 @@ impl<'l, 'a> Parts<'l, 'a> {
     /// # Errors
     /// When the budget runs out.
     pub fn is_met(&self, point: &[Rational], scale: Option<&Rational>) -> Result<bool, Error> {
-        let sides: Vec<[Rational; 2]> = point.iter().map(|x| [x.clone(), x.clone()]).collect();
+        if !self.plants.is_one() {
+            return self.is_met_for_all(point, scale);
+        }
+        let sides = as_box(point);
         // Margins at a point take longer than a look at a box that is one point.
         let is_unmet = |test: &RequirementBoxes| test.certain(&sides) == Some(Certain::Unmet);
         if self.lines.budget.enter(|| self.tests[1..].iter().any(is_unmet))? {
@@ -182,6 +187,37 @@ impl<'l, 'a> Parts<'l, 'a> {
             Err(_) => Ok(false),
             found => found,
         }
+    }
+
+    /// Whether a point meets all with every plant, as far as boxes of plants prove it.
+    fn is_met_for_all(&self, point: &[Rational], scale: Option<&Rational>) -> Result<bool, Error> {
+        let level = match (self.lines.asked.level(), scale) {
+            (Some(level), Some(scale)) => Some(self.level(level, scale)?),
+            _ => None,
+        };
+        let tests: Vec<&RequirementBoxes> = self.tests.iter().chain(&level).collect();
+        // A plant that was bad for others is soonest bad for this one.
+        for plant in self.plants.tried() {
+            let sides = as_box(&[point, &plant].concat());
+            for test in &tests {
+                if matches!(
+                    test.look(&sides, self.lines.budget)?,
+                    OverPoints::None | OverPoints::Open { middle: Some(false) }
+                ) {
+                    self.plants.refuted_by(&plant);
+                    return Ok(false);
+                }
+            }
+        }
+        let whole = as_box(point).into_iter().chain(self.plants.sides.iter().cloned()).collect();
+        Ok(match everywhere(&tests, whole, self.lines.budget)? {
+            Everywhere::All => true,
+            Everywhere::NotAt(bad) => {
+                self.plants.refuted_by(&bad[point.len()..]);
+                false
+            }
+            Everywhere::Open => false,
+        })
     }
 
     /// Looks at parts, the widest ones first, and sooner at those with a stable point in the middle, until each is refuted or a point is found that meets all.
@@ -246,6 +282,9 @@ impl<'l, 'a> Parts<'l, 'a> {
     /// What is met everywhere leaves the list of the part.
     fn look(&self, part: &mut Part, asked: Option<&Beside<'_>>) -> Result<Seen, Exhausted> {
         self.lines.budget.check()?;
+        if !self.plants.is_one() {
+            return self.look_with_plants(part, asked);
+        }
         let (mut open, mut is_middle) = (Vec::new(), true);
         for &k in &part.open {
             match self.tests[k].look(&part.sides, self.lines.budget)? {
@@ -266,6 +305,39 @@ impl<'l, 'a> Parts<'l, 'a> {
             }
         }
         Ok(Seen::Open { is_middle })
+    }
+
+    /// The same with each of some plants: one of them is enough to refute a part.
+    fn look_with_plants(&self, part: &Part, asked: Option<&Beside<'_>>) -> Result<Seen, Exhausted> {
+        let budget = self.lines.budget;
+        let (mut is_middle, mut is_beside) = (true, false);
+        let formula = asked.filter(|asked| matches!(asked, Beside::Formula { .. }));
+        match formula.map(|formula| formula.look(&part.sides, budget)).transpose()? {
+            Some(OverPoints::None) => return Ok(Seen::Beside),
+            Some(OverPoints::Open { middle }) => is_middle &= middle != Some(false),
+            Some(OverPoints::All) | None => {}
+        }
+        for plant in self.plants.tried() {
+            let sides: Sides = part.sides.iter().cloned().chain(as_box(&plant)).collect();
+            for test in &self.tests {
+                match test.look(&sides, budget)? {
+                    OverPoints::None => {
+                        self.plants.refuted_by(&plant);
+                        return Ok(Seen::Refuted);
+                    }
+                    OverPoints::Open { middle } => is_middle &= middle != Some(false),
+                    OverPoints::All => {}
+                }
+            }
+            if let Some(Beside::Level(level)) = asked {
+                match level.look(&sides, budget)? {
+                    OverPoints::None => is_beside = true,
+                    OverPoints::Open { middle } => is_middle &= middle != Some(false),
+                    OverPoints::All => {}
+                }
+            }
+        }
+        Ok(if is_beside { Seen::Beside } else { Seen::Open { is_middle } })
     }
 
     /// Both halves of a part along the side that is the widest one as a share of the bounds.

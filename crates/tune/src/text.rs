@@ -8,6 +8,7 @@ use jurist_algebra::poly::{MultiPoly, RealAlgebraic};
 use jurist_algebra::real::Real;
 use jurist_engine::problem::Bound;
 use jurist_engine::response::Level;
+use jurist_engine::show::for_all_text;
 use jurist_engine::show::intervals::heading;
 use jurist_engine::show::layout::short;
 use jurist_engine::show::real::{enclosed, rounded};
@@ -36,6 +37,9 @@ impl TuneAnswer {
         let whole =
             if required.is_empty() { "stability".to_owned() } else { format!("stability, {}", required.join(", ")) };
         writeln!(out, "{} free, required: {whole}", names.join(", ")).expect(TAKES);
+        if let Some(all) = for_all_text(&asked.for_all, digits) {
+            writeln!(out, "{all}").expect(TAKES);
+        }
         match &self.outcome {
             Outcome::Infeasible { conflict, cells } => self.conflict_text(&mut out, conflict, *cells),
             Outcome::Optimum(optimum) => self.optimum_text(&mut out, optimum, digits),

@@ -4,6 +4,7 @@ use crate::answer::{Best, Optimum, Place};
 use crate::asked::Objective;
 use crate::decimals::{first_power, power, shortest};
 use crate::lines::Lines;
+use crate::parts::Parts;
 use crate::reading::Reading;
 use crate::sets::outer;
 use jurist_algebra::number::{Enclosure, Rational};
@@ -34,6 +35,11 @@ pub(crate) fn typed(lines: &Lines<'_>, optimum: &Optimum) -> Result<Option<Typed
     let loss = lines.asked.loss.clone().unwrap_or_else(|| Rational::new(LOSS.0.into(), LOSS.1.into()));
     let (Some(inside), Some(best)) = (&optimum.found_value, best_of(optimum)) else { return Ok(None) };
     for values in candidates(lines, optimum, (inside, &best), &loss)? {
+        if !lines.asked.for_all.is_empty() {
+            // What a level is with the worst plant is not known.
+            let value = if lines.asked.level().is_none() { value_at(lines, &values)? } else { None };
+            return Ok(Some(Typed { values, value, requirements: Vec::new() }));
+        }
         let named = named(lines, &values);
         if !lines.is_met(&named, None)? {
             continue;
@@ -240,6 +246,11 @@ fn by_trial(
     };
     /// Significant digits.
     const DIGITS: std::ops::RangeInclusive<i64> = 1..=8;
+    let parts = if lines.asked.for_all.is_empty() { None } else { Some(Parts::new(lines, 0)?) };
+    let is_met = |values: &[Rational]| match &parts {
+        Some(parts) => parts.is_met(values, scale),
+        None => lines.is_met_in_order(&named(lines, values), scale),
+    };
     for digits in DIGITS {
         let near: Vec<Vec<Rational>> = found.iter().map(|x| rounded(x, digits)).collect();
         let mut points: Vec<Vec<Rational>> = vec![Vec::new()];
@@ -250,7 +261,7 @@ fn by_trial(
             points = longer.collect();
         }
         for values in points {
-            if is_within(&values) && is_good(&values) && lines.is_met_in_order(&named(lines, &values), scale)? {
+            if is_within(&values) && is_good(&values) && is_met(&values)? {
                 return Ok(Some(values));
             }
         }

@@ -1,5 +1,6 @@
 //! `jurist tune`: the best gains within what is required.
 
+use super::map::ranges;
 use super::{Context, Runs, decided};
 use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions, RunOptions};
 use crate::cli::assignments::{bound, in_line, plain_number};
@@ -10,8 +11,11 @@ use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
 use jurist_algebra::limits::apart;
 use jurist_algebra::number::{Rational, parse_number};
+use jurist_engine::answer::ToleranceRequest;
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Span};
 use jurist_engine::model::Model;
+use jurist_engine::problem::Question;
+use jurist_engine::response::AllOf;
 use jurist_engine::show::documents;
 use jurist_tune::answer::TuneAnswer;
 use jurist_tune::asked::{Asked, Gain};
@@ -44,6 +48,12 @@ pub(in crate::cli) struct Options {
     /// What may be given up for gains of few digits: a share, or per cent such as 2% [default: 1%]
     #[arg(long, value_name = "SHARE", allow_hyphen_values = true)]
     pub loss: Option<String>,
+    /// Gains that are good for all values of another name in a range, both ends included, within bounds [repeatable]
+    #[arg(long = "for-all", value_name = "NAME=LO..HI")]
+    pub for_all: Vec<String>,
+    /// Gains that are good for all values within the tolerances of the model
+    #[arg(long)]
+    pub robust: bool,
     #[command(flatten)]
     pub output: OutputOptions,
 }
@@ -75,6 +85,9 @@ fn run(options: &Options, context: &Context) -> Outcome {
         let error = Diagnostic::error(Code::KeptAndSet, format!("'{}' is free and has a value", gain.name));
         return Err(error.help("leave out --set, or free another gain").into());
     }
+    let for_all = plants(options, (&model, &question), &gains, context)?;
+    let question =
+        for_all.iter().fold(question, |question, all| question.set(&all.name, all.range[0].midpoint(&all.range[1])));
     // What is required may not depend on what is free.
     let free =
         gains.iter().fold(question.clone(), |question, gain| question.without_value(&gain.name).free(&gain.name));
@@ -113,6 +126,7 @@ fn run(options: &Options, context: &Context) -> Outcome {
         let error = Diagnostic::error(Code::TuneObjective, "'gap' is a share above 0 and below 1");
         return Err(placed(written.map(|tuning| tuning.span), Error::from(error.help("for example gap = 1e-3"))));
     }
+    asked.for_all = for_all;
     let digits = output.digits() as usize;
     let answer = match decided(TuneAnswer::of(&question, asked, &context.budget))? {
         Ok(answer) => answer,
@@ -134,6 +148,42 @@ fn run(options: &Options, context: &Context) -> Outcome {
     }
     context.answer(output, || answer.text(digits), || answer.json(digits))?;
     Ok(Status::Holds)
+}
+
+/// The names of the plant with their ranges: those that are given, and those that have a tolerance.
+fn plants(
+    options: &Options,
+    (model, question): (&Model, &Question),
+    gains: &[Gain],
+    context: &Context,
+) -> Result<Vec<AllOf>, Error> {
+    let free: Vec<&str> = gains.iter().map(|gain| gain.name.as_str()).collect();
+    let mut all = ranges(&options.for_all, &free, model, context)?;
+    if !options.robust {
+        return Ok(all);
+    }
+    for (name, tolerance) in ToleranceRequest::of_model(model).tolerances {
+        if free.contains(&name.as_str()) || all.iter().any(|known| known.name == name) {
+            continue;
+        }
+        let nominal = match question.values_set().get(&name) {
+            Some(value) => Some(value.clone()),
+            None => question.nominal(&name)?,
+        };
+        let Some(nominal) = nominal else {
+            let error = Diagnostic::error(Code::NoValue, format!("'{name}' has a tolerance and no value"));
+            return Err(error.help(format!("give it one: --set {name}=VALUE")).into());
+        };
+        let [below, above] = tolerance.widths(&nominal).map_err(|why| {
+            Error::from(Diagnostic::error(Code::Tolerance, format!("the tolerance of '{name}': {why}")))
+        })?;
+        all.extend(AllOf::new(name, &nominal - below, &nominal + above));
+    }
+    if all.is_empty() {
+        let error = Diagnostic::error(Code::Tolerance, "no name beside the gains has a tolerance");
+        return Err(error.help("give tolerances in the model, or ranges: --for-all NAME=LO..HI").into());
+    }
+    Ok(all)
 }
 
 /// The error with its place in the model, where it has one.
