@@ -164,6 +164,7 @@ mod ship {
 /// The best gains within what is required.
 mod tune {
     mod cases;
+    mod centre;
     mod formulas;
     mod gains;
     mod laws;

@@ -152,6 +152,10 @@ impl TuneAnswer {
         let lines = Lines::new(question, &asked, budget)?;
         let problem = lines.problem()?;
         problem.refuse_written_complex().map_err(|_| of_complex_loops())?;
+        if matches!(asked.objective, Objective::Tolerance(_)) && !asked.for_all.is_empty() {
+            let error = Diagnostic::error(Code::TuneObjective, "a tolerance of the gains is not asked for all plants");
+            return Err(error.help("ask for another number, or leave out --for-all and --robust").into());
+        }
         let found = match lines.part(|| best(&lines)) {
             // Bounds hold without any work.
             Err(Error::Stopped(stopped)) => Outcome::open(stopped),

@@ -1,5 +1,6 @@
 //! What is asked: which gains are free, within which bounds, and what is to be best.
 
+use crate::centre::Measure;
 use crate::reading::SETTLING_TIME;
 use jurist_algebra::number::Rational;
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Error, Source, Span};
@@ -48,6 +49,8 @@ pub enum Objective {
     Level(Level),
     /// The peak gain of the closed loop from an input to an output.
     Norm(Between),
+    /// How far all gains may go while all is met.
+    Tolerance(Measure),
     /// The settling time, by the decay in continuous time, by the radius in discrete time.
     SettlingTime(Level),
     /// Nothing: whether any gains meet the requirements.
@@ -135,6 +138,7 @@ impl Asked {
             Objective::Level(level) => format!("smallest {}", level.name()),
             Objective::SettlingTime(_) => format!("smallest {SETTLING_TIME}"),
             Objective::Norm(between) => format!("smallest norm {}", between.name()),
+            Objective::Tolerance(measure) => format!("largest {} tolerance", measure.name()),
             Objective::Anything => "any gains".into(),
         }
     }
@@ -150,6 +154,8 @@ impl Asked {
             Objective::Level(level) => format!("min {}", level.name()),
             Objective::SettlingTime(_) => format!("min {SETTLING_TIME}"),
             Objective::Norm(between) => format!("min norm {}", between.name()),
+            Objective::Tolerance(Measure::Relative) => format!("max {TOLERANCE}"),
+            Objective::Tolerance(measure) => format!("max {TOLERANCE} {}", measure.name()),
             Objective::Anything => "none".into(),
         }
     }
@@ -197,7 +203,7 @@ fn objective(model: &Model, gains: &[Gain], text: &str) -> Result<Objective, Err
             return Err(refused(
                 format!("the objective '{text}' is not understood"),
                 "write 'max NAME' or 'min NAME', NAME a free gain, an expression of free gains or one of decay, radius, damping, settling_time, \
-                 gain_margin, phase_margin, modulus_margin, complementary_peak, disk_margin; 'min norm INPUT OUTPUT'; or 'none'"
+                 gain_margin, phase_margin, modulus_margin, complementary_peak, disk_margin; 'min norm INPUT OUTPUT'; 'max tolerance'; or 'none'"
                     .into(),
             ));
         }
@@ -209,6 +215,12 @@ fn objective(model: &Model, gains: &[Gain], text: &str) -> Result<Objective, Err
         return match is_greatest {
             false => Ok(Objective::Norm(between)),
             true => Err(refused(format!("'{text}' asks for the worst norm"), format!("write 'min {name}'"))),
+        };
+    }
+    if let Some(measure) = tolerance(name)? {
+        return match is_greatest {
+            true => Ok(Objective::Tolerance(measure)),
+            false => Err(refused(format!("'{text}' asks for the worst {name}"), format!("write 'max {name}'"))),
         };
     }
     if name == SETTLING_TIME && !is_greatest {
@@ -225,7 +237,7 @@ fn objective(model: &Model, gains: &[Gain], text: &str) -> Result<Objective, Err
         if name == SETTLING_TIME {
             return Err(refused(format!("'{text}' asks for the worst {name}"), format!("write 'min {name}'")));
         }
-        let levels = Level::ALL.map(Level::name).into_iter().chain([SETTLING_TIME]);
+        let levels = Level::ALL.map(Level::name).into_iter().chain([SETTLING_TIME, TOLERANCE]);
         let known = gains.iter().map(|gain| gain.name.as_str()).chain(levels);
         let known: Vec<&str> = known.collect();
         let help = match nearest_name(name, known.iter().copied()) {
@@ -247,6 +259,25 @@ fn objective(model: &Model, gains: &[Gain], text: &str) -> Result<Objective, Err
         return Err(refused(format!("'{text}' asks for the worst {name}"), format!("write '{word} {name}'")));
     }
     Ok(Objective::Level(level))
+}
+
+/// The name of a tolerance.
+const TOLERANCE: &str = "tolerance";
+
+/// What `tolerance KIND` is counted in; `None` of another text.
+fn tolerance(text: &str) -> Result<Option<Measure>, Error> {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    match words[..] {
+        [TOLERANCE] => Ok(Some(Measure::Relative)),
+        [TOLERANCE, kind] => match Measure::ALL.into_iter().find(|measure| measure.name() == kind) {
+            Some(measure) => Ok(Some(measure)),
+            None => {
+                let error = Diagnostic::error(Code::TuneObjective, format!("a tolerance is not counted in '{kind}'"));
+                Err(error.help("write 'max tolerance', 'max tolerance absolute' or 'max tolerance ratio'").into())
+            }
+        },
+        _ => Ok(None),
+    }
 }
 
 /// The signals of `norm INPUT OUTPUT`; `None` of another text.

@@ -18,6 +18,8 @@
 
 pub mod answer;
 pub mod asked;
+pub mod centre;
+mod centre_of_one;
 mod climb;
 mod conflict;
 mod critical;

@@ -183,7 +183,7 @@ impl<'a> Lines<'a> {
         if self.asked.gains.len() != 2 || self.asked.by_boxes || self.formula.is_some() {
             return Ok(self.asked.gains.len() > 1);
         }
-        if self.asked.between().is_some() {
+        if self.asked.between().is_some() || matches!(self.asked.objective, Objective::Tolerance(_)) {
             return Ok(true);
         }
         let is_simple = self.asked.requirements.list.is_empty() && self.asked.level().is_none();

@@ -9,6 +9,7 @@ use crate::target::{Target, Value};
 use jurist_algebra::limits::{Exhausted, apart};
 use jurist_algebra::number::Rational;
 use jurist_engine::error::Error;
+use std::rc::Rc;
 
 /// More parts are not looked at.
 const MOST_PARTS: usize = 1 << 20;
@@ -26,6 +27,9 @@ pub(crate) fn best(lines: &Lines<'_>) -> Result<Outcome, Error> {
     lines.budget.step("gains that meet all requirements");
     let whole = vec![parts.all()];
     let target = Target::of(lines, &parts.whole)?;
+    if let Some(Target::Centre(centre)) = &target {
+        parts.centre = Some(Rc::clone(centre));
+    }
     let asked = target.as_ref().map(|target| target.beside(&parts, None)).transpose()?.flatten();
     let (point, rest) = match parts.sweep(whole, None, asked.as_ref())? {
         Sweep::Refuted(_) => {
@@ -175,6 +179,10 @@ impl Search<'_, '_> {
                 let (best, stopped) = bracketed(*level, &found, proved, stopped);
                 (best, stopped, None)
             }
+            Target::Centre(_) => match proved {
+                Some(proved) => (Best::Between([found.clone(), proved]), stopped, None),
+                None => (Best::Nothing, stopped.or_else(|| Some(not_found())), None),
+            },
             Target::Gain { end, .. } | Target::Formula { end, .. } if found == *end => {
                 (Best::Exact(end.clone().into()), None, Some(true))
             }
@@ -187,7 +195,7 @@ impl Search<'_, '_> {
             Target::Level { level, .. } => on_bounds.into_iter().chain([level.name().to_owned()]).collect(),
             // Other gains may be on their bounds by chance.
             Target::Gain { gain, .. } if attained.is_some() => vec![bound_of(&parts, *gain)],
-            Target::Gain { .. } | Target::Formula { .. } => on_bounds,
+            Target::Gain { .. } | Target::Formula { .. } | Target::Centre(_) => on_bounds,
         };
         Optimum { attained, binding, stopped, cells, ..Optimum::new(best, places(), point.clone(), Some(found)) }
     }

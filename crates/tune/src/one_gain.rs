@@ -2,6 +2,7 @@
 
 use crate::answer::{Best, Optimum, Outcome, Place};
 use crate::asked::Objective;
+use crate::centre_of_one;
 use crate::formula_of_one;
 use crate::level_of_one::best_level;
 use crate::lines::Lines;
@@ -24,6 +25,7 @@ pub(crate) fn best(lines: &Lines<'_>) -> Result<Outcome, Error> {
         (Objective::Least(_), _) => best_gain(lines, false),
         (Objective::Level(level) | Objective::SettlingTime(level), _) => best_level(lines, *level),
         (Objective::Norm(_), _) => best_level(lines, Level::Norm),
+        (Objective::Tolerance(measure), _) => centre_of_one::best(lines, *measure),
         (Objective::Formula { .. }, Some(formula)) => formula_of_one::best(lines, formula),
         (Objective::Formula { .. } | Objective::Anything, _) => anything(lines),
     }

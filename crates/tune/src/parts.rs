@@ -1,5 +1,6 @@
 //! Whether any gains of a box meet what is asked: the box is cut into parts until no point of any part meets it, or a point is found that does.
 
+use crate::centre::Centre;
 use crate::for_all::{Everywhere, Plants, Sides, as_box, everywhere, middle};
 use crate::formula::Formula;
 use crate::lines::Lines;
@@ -9,6 +10,7 @@ use jurist_engine::error::{Code, Diagnostic, Error};
 use jurist_engine::problem::Problem;
 use jurist_engine::response::{Certain, Level, LevelAsked, OverPoints, Requirement, RequirementBoxes};
 use std::collections::VecDeque;
+use std::rc::Rc;
 use std::sync::Arc;
 
 /// A side is not halved more often.
@@ -90,12 +92,18 @@ pub(crate) enum Beside<'l> {
     Level(Box<RequirementBoxes>),
     /// At least a value of an expression, or at most one; any value where there is none.
     Formula { formula: &'l Formula, goal: Option<Rational>, is_greatest: bool },
+    /// A tolerance of all gains.
+    Centre { centre: Rc<Centre>, goal: Rational },
 }
 
 impl Beside<'_> {
     fn look(&self, sides: &[[Rational; 2]], budget: &Budget) -> Result<OverPoints, Exhausted> {
         let (formula, goal, is_greatest) = match self {
             Beside::Level(boxes) => return boxes.look(sides, budget),
+            Beside::Centre { centre, goal } => {
+                let is_refuted = budget.enter(|| centre.is_refuted(sides, goal))?;
+                return Ok(if is_refuted { OverPoints::None } else { OverPoints::Open { middle: None } });
+            }
             Beside::Formula { formula, goal, is_greatest } => (formula, goal, *is_greatest),
         };
         let value = formula.at(&middle(sides));
@@ -113,6 +121,8 @@ pub(crate) struct Parts<'l, 'a> {
     pub lines: &'l Lines<'a>,
     pub whole: Vec<[Rational; 2]>,
     plants: Plants,
+    /// Where a tolerance is to be best.
+    pub centre: Option<Rc<Centre>>,
     near: Vec<Rational>,
     tests: Vec<RequirementBoxes>,
     /// So many parts were looked at.
@@ -132,7 +142,8 @@ impl<'l, 'a> Parts<'l, 'a> {
         let whole = sides(lines)?;
         let plants = Plants::new(&lines.asked.for_all);
         let near: Vec<Rational> = middle(&whole).into_iter().chain(middle(&plants.sides)).collect();
-        let mut parts = Parts { lines, whole, plants, near, tests: Vec::new(), looked: 0, cells: 0, most };
+        let mut parts =
+            Parts { lines, whole, plants, centre: None, near, tests: Vec::new(), looked: 0, cells: 0, most };
         let problem = lines.problem()?;
         let stability = RequirementBoxes::of_stability(&problem, &parts.near, lines.budget)?;
         parts.tests.push(stability.ok_or_else(|| not_in_boxes("stability"))?);
@@ -172,6 +183,9 @@ impl<'l, 'a> Parts<'l, 'a> {
     /// # Errors
     /// When the budget runs out.
     pub fn is_met(&self, point: &[Rational], scale: Option<&Rational>) -> Result<bool, Error> {
+        if let (Some(centre), Some(value)) = (&self.centre, scale) {
+            return self.is_met_around(point, centre, value);
+        }
         if !self.plants.is_one() {
             return self.is_met_for_all(point, scale);
         }
@@ -186,6 +200,34 @@ impl<'l, 'a> Parts<'l, 'a> {
             Err(Error::Stopped(stopped)) if !stopped.stop.is_precision() => Err(Error::Stopped(stopped)),
             Err(_) => Ok(false),
             found => found,
+        }
+    }
+
+    /// Whether all gains within a tolerance of a point meet all, as far as boxes prove it.
+    fn is_met_around(&self, point: &[Rational], centre: &Centre, value: &Rational) -> Result<bool, Error> {
+        if self.lines.budget.enter(|| centre.is_refuted(&as_box(point), value))? {
+            return Ok(false);
+        }
+        let Some(sides) = centre.around(point, value) else { return Ok(false) };
+        let tests: Vec<&RequirementBoxes> = self.tests.iter().collect();
+        Ok(match everywhere(&tests, sides, self.lines.budget)? {
+            Everywhere::All => true,
+            Everywhere::NotAt(bad) => {
+                if self.is_proved_unmet(&bad)? {
+                    centre.is_bad_at(bad);
+                }
+                false
+            }
+            Everywhere::Open => false,
+        })
+    }
+
+    /// Whether a point is known not to meet all.
+    fn is_proved_unmet(&self, point: &[Rational]) -> Result<bool, Error> {
+        match self.lines.is_met_in_order(&crate::typed::named(self.lines, point), None) {
+            Err(Error::Stopped(stopped)) if !stopped.stop.is_precision() => Err(Error::Stopped(stopped)),
+            Err(_) => Ok(false),
+            Ok(is_met) => Ok(!is_met),
         }
     }
 

@@ -99,6 +99,9 @@ impl TuneAnswer {
                     "{wanted}: no phase limits the loop, since the open loop is smaller than 1 at all frequencies"
                 )
             }
+            Best::Unbounded if matches!(asked.objective, Objective::Tolerance(_)) && optimum.at.is_empty() => {
+                writeln!(out, "{wanted}: it has no bound, since gains near to 0 may be multiplied by any factor")
+            }
             Best::Unbounded => writeln!(out, "{wanted}: it has no bound"),
             Best::Zero => writeln!(out, "{wanted}: 0"),
             Best::Exact(value) => {
@@ -152,7 +155,10 @@ impl TuneAnswer {
                             line.push_str(&format!(": {} {}{}", reading.name(), value(), reading.unit()));
                         }
                         Objective::Formula { text, .. } => line.push_str(&format!(": {text} = {}", value())),
-                        Objective::Greatest(_) | Objective::Least(_) | Objective::Anything => {}
+                        Objective::Greatest(_)
+                        | Objective::Least(_)
+                        | Objective::Tolerance(_)
+                        | Objective::Anything => {}
                     }
                 }
                 writeln!(out, "{line}{}", self.loss_text(optimum)).expect(TAKES);

@@ -22,8 +22,10 @@ pub(crate) fn best(lines: &Lines<'_>) -> Result<Outcome, Error> {
         Objective::Greatest(gain) => best_gain(lines, gain, true),
         Objective::Least(gain) => best_gain(lines, gain, false),
         Objective::Level(level) | Objective::SettlingTime(level) => best_level(lines, level),
-        // Of an expression and of a peak gain boxes are searched.
-        Objective::Norm(_) | Objective::Formula { .. } | Objective::Anything => anything(lines),
+        // Of an expression, a peak gain and a tolerance boxes are searched.
+        Objective::Norm(_) | Objective::Tolerance(_) | Objective::Formula { .. } | Objective::Anything => {
+            anything(lines)
+        }
     }
 }
 

@@ -2,15 +2,17 @@
 
 use crate::answer::{Best, Optimum, Place};
 use crate::asked::Objective;
+use crate::centre::{Centre, Measure};
 use crate::decimals::{first_power, power, shortest};
 use crate::lines::Lines;
 use crate::parts::Parts;
 use crate::reading::Reading;
-use crate::sets::outer;
+use crate::sets::{inner, outer};
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::real::Real;
 use jurist_engine::error::Error;
 use jurist_engine::response::{Level, RequiredEnd, RequiredInterval, RequirementMet};
+use std::rc::Rc;
 
 /// Gains of few digits that meet all requirements.
 #[derive(Clone, Debug)]
@@ -96,6 +98,13 @@ fn candidates(
             }
             by_trial(lines, &optimum.found, Some(&scale), |_| true)?
         }
+        (Objective::Tolerance(measure), _) => {
+            let value = best - (best - measure.least()) * loss;
+            if lines.asked.gains.len() == 1 {
+                return Ok(middle_of_one(lines, *measure, (&value, &optimum.found[0]))?.into_iter().collect());
+            }
+            by_trial(lines, &optimum.found, Some(&value.min(inside.clone())), |_| true)?
+        }
         (Objective::Anything, _) => None,
     };
     Ok(found.into_iter().collect())
@@ -116,8 +125,33 @@ fn value_at(lines: &Lines<'_>, values: &[Rational]) -> Result<Option<Enclosure>,
             let found = level_at(lines, level, &named)?;
             found.and_then(|x| Reading::of(lines.asked).enclosure(&x, BITS))
         }
-        Objective::Anything => None,
+        // How far its neighbours are good is not looked up again.
+        Objective::Tolerance(_) | Objective::Anything => None,
     })
+}
+
+/// The shortest gain that has a tolerance, near to one that does.
+fn middle_of_one(
+    lines: &Lines<'_>,
+    measure: Measure,
+    (value, near): (&Rational, &Rational),
+) -> Result<Option<Vec<Rational>>, Error> {
+    let set = lines.set(0, None, None)?;
+    let interval = set.value().intervals.iter().find(|interval| interval.contains(near));
+    let Some((Some(low), Some(high))) = interval.map(inner) else { return Ok(None) };
+    // What has exactly this tolerance at either end.
+    let other = |share: Rational, x: &Rational| x.checked_div(&share);
+    let ends = match measure {
+        Measure::Absolute => [Some(&low + value), Some(&high - value)],
+        Measure::Ratio if high.sign().is_gt() => [Some(&low * value), other(value.clone(), &high)],
+        Measure::Ratio => [other(value.clone(), &low), Some(&high * value)],
+        Measure::Relative if high.sign().is_gt() => {
+            [other(Rational::ONE - value, &low), other(Rational::ONE + value, &high)]
+        }
+        Measure::Relative => [other(Rational::ONE + value, &low), other(Rational::ONE - value, &high)],
+    };
+    let [Some(from), Some(to)] = ends else { return Ok(None) };
+    Ok(shortest(&from, &to, near).filter(|_| from <= to).map(|x| vec![x]))
 }
 
 pub(crate) fn named(lines: &Lines<'_>, values: &[Rational]) -> Vec<(String, Rational)> {
@@ -246,7 +280,15 @@ fn by_trial(
     };
     /// Significant digits.
     const DIGITS: std::ops::RangeInclusive<i64> = 1..=8;
-    let parts = if lines.asked.for_all.is_empty() { None } else { Some(Parts::new(lines, 0)?) };
+    let parts = match (lines.asked.for_all.is_empty(), &lines.asked.objective) {
+        (_, Objective::Tolerance(measure)) => {
+            let mut parts = Parts::new(lines, 0)?;
+            parts.centre = Some(Rc::new(Centre::new(*measure, &parts.whole)));
+            Some(parts)
+        }
+        (true, _) => None,
+        (false, _) => Some(Parts::new(lines, 0)?),
+    };
     let is_met = |values: &[Rational]| match &parts {
         Some(parts) => parts.is_met(values, scale),
         None => lines.is_met_in_order(&named(lines, values), scale),
