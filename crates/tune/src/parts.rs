@@ -214,12 +214,32 @@ impl<'l, 'a> Parts<'l, 'a> {
             Everywhere::All => true,
             Everywhere::NotAt(bad) => {
                 if self.is_proved_unmet(&bad)? {
-                    centre.is_bad_at(bad);
+                    centre.is_bad_at(self.nearer(bad, point)?);
                 }
                 false
             }
             Everywhere::Open => false,
         })
+    }
+
+    /// A bad point that is nearer to a middle, so that more boxes of middles have it within their tolerance.
+    fn nearer(&self, bad: Vec<Rational>, middle: &[Rational]) -> Result<Vec<Rational>, Error> {
+        /// Halvings of the way.
+        const HALVINGS: usize = 6;
+        let mut bad = bad;
+        for i in 0..bad.len() {
+            let mut other = bad.clone();
+            other[i] = middle[i].clone();
+            if self.is_proved_unmet(&other)? {
+                bad = other;
+            }
+        }
+        let mut good = middle.to_vec();
+        for _ in 0..HALVINGS {
+            let half: Vec<Rational> = bad.iter().zip(&good).map(|(a, b)| a.midpoint(b)).collect();
+            if self.is_proved_unmet(&half)? { bad = half } else { good = half }
+        }
+        Ok(bad)
     }
 
     /// Whether a point is known not to meet all.
