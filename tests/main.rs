@@ -163,6 +163,7 @@ mod ship {
 
 /// The best gains within what is required.
 mod tune {
+    mod campaign;
     mod cases;
     mod centre;
     mod formulas;
