@@ -100,3 +100,16 @@ fn the_refusal_of_complex_loops_says_what_to_ask() {
     assert!(status == 2 && err.contains("the best gains of a loop with complex coefficients are not known"), "{err}");
     assert!(err.contains("'jurist intervals' says which values of one gain are good"), "{err}");
 }
+
+/// A report has the best gains of a model that asks for them, in the words of the command.
+#[test]
+fn a_report_has_the_best_gains() {
+    let run = jurist(&["report", PI, "-o", "-", "-q"]);
+    let begin = run.stdout.find("<section id=\"best\">").expect("the model has a section [tune]");
+    let part = &run.stdout[begin..begin + run.stdout[begin..].find("</section>").unwrap()];
+    let (_, out, _) = told(&[PI]);
+    for line in out.lines().skip(2) {
+        assert!(part.contains(&line.replace('>', "&gt;")), "{line}: {part}");
+    }
+    assert!(!jurist(&["report", "examples/de-gaston-safonov.toml", "-o", "-", "-q"]).stdout.contains("id=\"best\""));
+}

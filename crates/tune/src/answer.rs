@@ -1,6 +1,6 @@
 //! The answer: no gains at all, or the best ones.
 
-use crate::asked::{Asked, Objective};
+use crate::asked::{Asked, Gain, Objective};
 use crate::conflict::conflict;
 use crate::lines::Lines;
 use crate::typed::{Typed, typed};
@@ -187,6 +187,20 @@ impl TuneAnswer {
         Ok(TuneAnswer { problem, outcome, asked })
     }
 
+    /// The best gains as the section `[tune]` of the model asks for them, with the values of the question for all other names.
+    ///
+    /// # Errors
+    /// As [`TuneAnswer::of`]; `E-tune-free` for a model without such a section, or with one that frees no gain.
+    pub fn of_model(question: &Question, budget: &Budget) -> Result<TuneAnswer, Error> {
+        let model = question.model();
+        let gains = model.tuning().into_iter().flat_map(|tuning| &tuning.free).map(|name| name.name.clone());
+        let gains: Vec<Gain> = gains.map(Gain::new).collect();
+        let free = gains.iter().fold(question.clone(), |question, gain| question.without_value(&gain.name));
+        let requirements = model.requirements(&[], &values(&free), budget)?;
+        let asked = Asked::of_model(model, gains, requirements)?;
+        TuneAnswer::of(&free, asked, budget)
+    }
+
     /// Whether some gains meet what is required; `None` where it is open.
     pub fn is_feasible(&self) -> Option<bool> {
         match &self.outcome {
@@ -234,6 +248,11 @@ fn sample_time(question: &Question, asked: &Asked, budget: &Budget) -> Result<Ra
                 .into()
         }),
     }
+}
+
+/// The values that were set.
+fn values(question: &Question) -> Vec<(String, Rational)> {
+    question.values_set().iter().map(|(name, value)| (name.clone(), value.clone())).collect()
 }
 
 /// A value of the objective that the bounds of the gains alone do not let be better.

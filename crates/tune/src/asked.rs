@@ -2,7 +2,7 @@
 
 use crate::centre::Measure;
 use crate::reading::SETTLING_TIME;
-use jurist_algebra::number::Rational;
+use jurist_algebra::number::{Rational, parse_number};
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Error, Source, Span};
 use jurist_engine::model::{Between, Expression, Model, Time, nearest_name};
 use jurist_engine::response::{AllOf, Level, Requirements};
@@ -110,6 +110,27 @@ impl Asked {
         Ok(Asked { gains, objective, requirements, gap, loss: None, by_boxes: false, for_all, sample_time: None })
     }
 
+    /// What the section `[tune]` of a model says of these gains: their bounds, the objective, the gap and the loss.
+    ///
+    /// # Errors
+    /// As [`Asked::of`].
+    pub fn of_model(model: &Model, gains: Vec<Gain>, requirements: Requirements) -> Result<Asked, Error> {
+        let tuning = model.tuning();
+        let objective = tuning.and_then(|tuning| tuning.objective.as_ref());
+        let bounded = |gain: Gain| {
+            let own = tuning.and_then(|tuning| tuning.bounds.iter().find(|(name, _)| name.name == gain.name));
+            match own {
+                Some((_, [low, high])) => gain.within([Some(low.clone()), Some(high.clone())]),
+                None => gain,
+            }
+        };
+        let gains = gains.into_iter().map(bounded).collect();
+        let mut asked = Asked::of(model, gains, objective.map_or("none", |name| &name.name), requirements)?;
+        asked.gap = tuning.and_then(|tuning| tuning.gap.clone()).filter(is_share).unwrap_or(asked.gap);
+        asked.loss = tuning.and_then(|tuning| tuning.loss.as_ref()).and_then(|loss| share(&loss.name));
+        Ok(asked)
+    }
+
     /// The level that is to be best, if it is one.
     pub fn level(&self) -> Option<Level> {
         match self.objective {
@@ -159,6 +180,28 @@ impl Asked {
             Objective::Anything => "none".into(),
         }
     }
+}
+
+/// A share above 0 and below 1: a number, or per cent; `None` of any other text.
+///
+/// ```
+/// use jurist_algebra::number::Rational;
+/// use jurist_tune::asked::share;
+/// assert_eq!(share("1%"), Some(Rational::new(1.into(), 100.into())));
+/// assert_eq!((share("2"), share("x")), (None, None));
+/// ```
+pub fn share(text: &str) -> Option<Rational> {
+    let text = text.trim();
+    let value = match text.strip_suffix('%') {
+        Some(number) => parse_number(number.trim()).ok()? * Rational::new(1.into(), 100.into()),
+        None => parse_number(text).ok()?,
+    };
+    is_share(&value).then_some(value)
+}
+
+/// Whether a number is above 0 and below 1.
+pub fn is_share(value: &Rational) -> bool {
+    value.sign().is_gt() && *value < Rational::ONE
 }
 
 fn check_gains(gains: &[Gain]) -> Result<(), Error> {

@@ -10,7 +10,7 @@ use crate::cli::requirements::RequirementOptions;
 use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
 use jurist_algebra::limits::apart;
-use jurist_algebra::number::{Rational, parse_number};
+use jurist_algebra::number::Rational;
 use jurist_engine::answer::ToleranceRequest;
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Span};
 use jurist_engine::model::Model;
@@ -18,7 +18,7 @@ use jurist_engine::problem::Question;
 use jurist_engine::response::AllOf;
 use jurist_engine::show::documents;
 use jurist_tune::answer::TuneAnswer;
-use jurist_tune::asked::{Asked, Gain};
+use jurist_tune::asked::{self, Asked, Gain, is_share};
 use std::sync::Arc;
 
 /// Options of `jurist tune`.
@@ -112,11 +112,7 @@ fn run(options: &Options, context: &Context) -> Outcome {
     if let Some(text) = &options.loss {
         asked.loss = Some(share(context, "--loss", text)?);
     } else if let Some(loss) = written.and_then(|tuning| tuning.loss.as_ref()) {
-        let (number, is_percent) = percent(&loss.name);
-        let value = parse_number(number)
-            .ok()
-            .map(|value| if is_percent { value * Rational::new(1.into(), 100.into()) } else { value });
-        let Some(value) = value.filter(is_share) else {
+        let Some(value) = asked::share(&loss.name) else {
             let error = Diagnostic::error(Code::TuneObjective, "'loss' is a share above 0 and below 1, or per cent");
             return Err(placed(Some(loss.span), Error::from(error.help("for example loss = \"1%\""))));
         };
@@ -225,10 +221,6 @@ fn percent(text: &str) -> (&str, bool) {
         Some(number) => (number.trim(), true),
         None => (text.trim(), false),
     }
-}
-
-fn is_share(value: &Rational) -> bool {
-    value.sign().is_gt() && *value < Rational::ONE
 }
 
 /// A share above 0 and below 1: a number, or per cent.
