@@ -272,25 +272,33 @@ fn objective(model: &Model, gains: &[Gain], text: &str) -> Result<Objective, Err
             Time::Discrete => Level::Radius,
         }));
     }
-    let Some(level) = Level::named(name) else {
-        if !name.chars().all(|c| c.is_alphanumeric() || c == '_') {
-            check_names(model, gains, name)?;
-            return Ok(Objective::Formula { text: name.to_owned(), is_greatest });
-        }
-        if name == SETTLING_TIME {
-            return Err(refused(format!("'{text}' asks for the worst {name}"), format!("write 'min {name}'")));
-        }
-        let levels = Level::ALL.map(Level::name).into_iter().chain([SETTLING_TIME, TOLERANCE]);
-        let known = gains.iter().map(|gain| gain.name.as_str()).chain(levels);
-        let known: Vec<&str> = known.collect();
-        let help = match nearest_name(name, known.iter().copied()) {
-            Some(near) => format!("did you mean '{near}'?"),
-            None => format!("known here: {}", known.join(", ")),
-        };
-        return Err(refused(format!("'{name}' is no free gain and no number of a loop that can be made best"), help));
+    if let Some(level) = Level::named(name) {
+        return level_of(model.time(), level, (text, is_greatest));
+    }
+    if !name.chars().all(|c| c.is_alphanumeric() || c == '_') {
+        check_names(model, gains, name)?;
+        return Ok(Objective::Formula { text: name.to_owned(), is_greatest });
+    }
+    if name == SETTLING_TIME {
+        return Err(refused(format!("'{text}' asks for the worst {name}"), format!("write 'min {name}'")));
+    }
+    let levels = Level::ALL.map(Level::name).into_iter().chain([SETTLING_TIME, TOLERANCE]);
+    let known = gains.iter().map(|gain| gain.name.as_str()).chain(levels);
+    let known: Vec<&str> = known.collect();
+    let help = match nearest_name(name, known.iter().copied()) {
+        Some(near) => format!("did you mean '{near}'?"),
+        None => format!("known here: {}", known.join(", ")),
     };
-    if !level.fits(model.time()) {
-        let (kind, help) = match (model.time(), level) {
+    Err(refused(format!("'{name}' is no free gain and no number of a loop that can be made best"), help))
+}
+
+/// A number of the loop, if a loop of this kind of time has it and it is not the worst one that is asked for.
+fn level_of(time: Time, level: Level, (text, is_greatest): (&str, bool)) -> Result<Objective, Error> {
+    let refused =
+        |message: String, help: String| -> Error { Diagnostic::error(Code::TuneObjective, message).help(help).into() };
+    let name = level.name();
+    if !level.fits(time) {
+        let (kind, help) = match (time, level) {
             (Time::Discrete, Level::Damping) => ("discrete", "require it: --damping, and make another number best"),
             (Time::Discrete, _) => ("discrete", "did you mean 'radius'?"),
             (Time::Continuous, _) => ("continuous", "did you mean 'decay'?"),

@@ -17,6 +17,7 @@
 #![warn(missing_docs)]
 
 pub mod answer;
+mod around;
 pub mod asked;
 pub mod centre;
 mod centre_of_one;

@@ -85,6 +85,15 @@ impl TuneAnswer {
     }
 
     fn optimum_text(&self, out: &mut String, optimum: &Optimum, digits: usize) {
+        self.value_text(out, optimum, digits);
+        self.places_text(out, optimum, digits);
+        if !optimum.binding.is_empty() {
+            writeln!(out, "    binds: {}", optimum.binding.join(", ")).expect(TAKES);
+        }
+        self.typed_text(out, optimum, digits);
+    }
+
+    fn value_text(&self, out: &mut String, optimum: &Optimum, digits: usize) {
         let asked = &self.asked;
         let wanted = asked.wanted();
         let reading = Reading::of(asked);
@@ -120,27 +129,34 @@ impl TuneAnswer {
         {
             writeln!(out, "    exactly a root of {polynomial}").expect(TAKES);
         }
-        if !matches!(asked.objective, Objective::Anything) {
-            let places = asked.gains.iter().zip(&optimum.at).enumerate();
-            let is_own = |i: usize| matches!(asked.objective, Objective::Greatest(k) | Objective::Least(k) if k == i);
-            let places = places.filter(|(i, _)| !is_own(*i)).map(|(_, (gain, place))| match place {
-                Place::Exact(x) => format!("{} = {}", gain.name, rounded(x, digits).decimal),
-                Place::Between([low, high]) => format!("{} {}", gain.name, enclosed_number(low, high, digits)),
-                Place::From((Some(low), Some(high))) => format!("any {} {}", gain.name, range(low, high)),
-                Place::From((Some(low), None)) => format!("any {} from {}", gain.name, to_decimal(low, 6)),
-                Place::From((None, Some(high))) => format!("any {} up to {}", gain.name, to_decimal(high, 6)),
-                Place::From((None, None)) => format!("any {}", gain.name),
-                Place::Unbounded => format!("{} without end", gain.name),
-            });
-            let places: Vec<String> = places.collect();
-            if !places.is_empty() {
-                let word = if matches!(optimum.value, Best::Between(_)) { "found" } else { "at" };
-                writeln!(out, "    {word} {}", places.join(", ")).expect(TAKES);
-            }
+    }
+
+    fn places_text(&self, out: &mut String, optimum: &Optimum, digits: usize) {
+        let asked = &self.asked;
+        if matches!(asked.objective, Objective::Anything) {
+            return;
         }
-        if !optimum.binding.is_empty() {
-            writeln!(out, "    binds: {}", optimum.binding.join(", ")).expect(TAKES);
+        let places = asked.gains.iter().zip(&optimum.at).enumerate();
+        let is_own = |i: usize| matches!(asked.objective, Objective::Greatest(k) | Objective::Least(k) if k == i);
+        let places = places.filter(|(i, _)| !is_own(*i)).map(|(_, (gain, place))| match place {
+            Place::Exact(x) => format!("{} = {}", gain.name, rounded(x, digits).decimal),
+            Place::Between([low, high]) => format!("{} {}", gain.name, enclosed_number(low, high, digits)),
+            Place::From((Some(low), Some(high))) => format!("any {} {}", gain.name, range(low, high)),
+            Place::From((Some(low), None)) => format!("any {} from {}", gain.name, to_decimal(low, 6)),
+            Place::From((None, Some(high))) => format!("any {} up to {}", gain.name, to_decimal(high, 6)),
+            Place::From((None, None)) => format!("any {}", gain.name),
+            Place::Unbounded => format!("{} without end", gain.name),
+        });
+        let places: Vec<String> = places.collect();
+        if !places.is_empty() {
+            let word = if matches!(optimum.value, Best::Between(_)) { "found" } else { "at" };
+            writeln!(out, "    {word} {}", places.join(", ")).expect(TAKES);
         }
+    }
+
+    fn typed_text(&self, out: &mut String, optimum: &Optimum, digits: usize) {
+        let asked = &self.asked;
+        let reading = Reading::of(asked);
         let values = |values: &[Rational]| -> String {
             let named = asked.gains.iter().zip(values);
             named.map(|(gain, x)| format!("{} = {}", gain.name, short(x))).collect::<Vec<_>>().join(", ")

@@ -15,10 +15,10 @@ use jurist_engine::answer::ToleranceRequest;
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Span};
 use jurist_engine::model::Model;
 use jurist_engine::problem::Question;
-use jurist_engine::response::AllOf;
+use jurist_engine::response::{AllOf, Requirements};
 use jurist_engine::show::documents;
 use jurist_tune::answer::TuneAnswer;
-use jurist_tune::asked::{self, Asked, Gain, is_share};
+use jurist_tune::asked::{Asked, Gain, is_share};
 use std::sync::Arc;
 
 /// Options of `jurist tune`.
@@ -96,32 +96,7 @@ fn run(options: &Options, context: &Context) -> Outcome {
         Some(region) => question.within(region),
         None => question,
     };
-    let written = model.tuning();
-    let placed = |place: Option<Span>, error: Error| in_model(&model, place, error);
-    let objective = match (&options.objective, written.and_then(|tuning| tuning.objective.as_ref())) {
-        (Some(text), _) => (text.as_str(), None),
-        (None, Some(name)) => (name.name.as_str(), Some(name.span)),
-        (None, None) => ("none", None),
-    };
-    let mut asked = Asked::of(&model, gains, objective.0, required).map_err(|error| placed(objective.1, error))?;
-    if let Some(text) = &options.gap {
-        asked.gap = share(context, "--gap", text)?;
-    } else if let Some(gap) = written.and_then(|tuning| tuning.gap.clone()) {
-        asked.gap = gap;
-    }
-    if let Some(text) = &options.loss {
-        asked.loss = Some(share(context, "--loss", text)?);
-    } else if let Some(loss) = written.and_then(|tuning| tuning.loss.as_ref()) {
-        let Some(value) = asked::share(&loss.name) else {
-            let error = Diagnostic::error(Code::TuneObjective, "'loss' is a share above 0 and below 1, or per cent");
-            return Err(placed(Some(loss.span), Error::from(error.help("for example loss = \"1%\""))));
-        };
-        asked.loss = Some(value);
-    }
-    if !is_share(&asked.gap) {
-        let error = Diagnostic::error(Code::TuneObjective, "'gap' is a share above 0 and below 1");
-        return Err(placed(written.map(|tuning| tuning.span), Error::from(error.help("for example gap = 1e-3"))));
-    }
+    let mut asked = asked(options, (&model, gains), required, context)?;
     asked.for_all = for_all;
     let digits = output.digits() as usize;
     let answer = match decided(TuneAnswer::of(&question, asked, &context.budget))? {
@@ -144,6 +119,42 @@ fn run(options: &Options, context: &Context) -> Outcome {
     }
     context.answer(output, || answer.text(digits), || answer.json(digits))?;
     Ok(Status::Holds)
+}
+
+/// What is to be best, how narrow a bracket is to be and what may be given up: as the command line says, else as the model does.
+fn asked(
+    options: &Options,
+    (model, gains): (&Model, Vec<Gain>),
+    required: Requirements,
+    context: &Context,
+) -> Result<Asked, Error> {
+    let written = model.tuning();
+    let placed = |place: Option<Span>, error: Error| in_model(model, place, error);
+    let objective = match (&options.objective, written.and_then(|tuning| tuning.objective.as_ref())) {
+        (Some(text), _) => (text.as_str(), None),
+        (None, Some(name)) => (name.name.as_str(), Some(name.span)),
+        (None, None) => ("none", None),
+    };
+    let mut asked = Asked::of(model, gains, objective.0, required).map_err(|error| placed(objective.1, error))?;
+    if let Some(text) = &options.gap {
+        asked.gap = share(context, "--gap", text)?;
+    } else if let Some(gap) = written.and_then(|tuning| tuning.gap.clone()) {
+        asked.gap = gap;
+    }
+    if let Some(text) = &options.loss {
+        asked.loss = Some(share(context, "--loss", text)?);
+    } else if let Some(loss) = written.and_then(|tuning| tuning.loss.as_ref()) {
+        let Some(value) = jurist_tune::asked::share(&loss.name) else {
+            let error = Diagnostic::error(Code::TuneObjective, "'loss' is a share above 0 and below 1, or per cent");
+            return Err(placed(Some(loss.span), Error::from(error.help("for example loss = \"1%\""))));
+        };
+        asked.loss = Some(value);
+    }
+    if !is_share(&asked.gap) {
+        let error = Diagnostic::error(Code::TuneObjective, "'gap' is a share above 0 and below 1");
+        return Err(placed(written.map(|tuning| tuning.span), Error::from(error.help("for example gap = 1e-3"))));
+    }
+    Ok(asked)
 }
 
 /// The names of the plant with their ranges: those that are given, and those that have a tolerance.
