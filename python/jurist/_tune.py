@@ -155,14 +155,16 @@ class Tune(Document):
         """The question of the map, and its axes."""
         words, bounds, rest = ["map"], {}, iter(self._words[1:])
         for word in rest:
-            if word in ("--free", "--objective", "--gap", "--loss"):
-                next(rest)
-            elif word == "--bound":
-                name, _, range = next(rest).partition("=")
-                bounds[name] = range
-            elif word != "--robust":
+            option, is_joined, value = word.partition("=")
+            if option in ("--free", "--bound"):
+                name, _, range = (value if is_joined else next(rest)).partition("=")
+                bounds[name] = range or bounds.get(name, "")
+            elif option not in ("--objective", "--gap", "--loss", "--for-all", "--robust"):
                 words.append(word)
-        axes = [f"{name}={bounds[name]}" if name in bounds else name for name in self.free]
+            elif option != "--robust" and not is_joined:
+                next(rest)
+        words += [f"--for-all={name}={low}..{high}" for name, (low, high) in self.for_all.items()]
+        axes = [f"{name}={bounds[name]}" if bounds.get(name) else name for name in self.free]
         return words, ["-x", axes[0], "-y", axes[1]]
 
     def __repr__(self) -> str:
