@@ -153,7 +153,8 @@ class Tune(Document):
 
     def _map_words(self) -> tuple[list[str], list[str]]:
         """The question of the map, and its axes."""
-        words, bounds, rest = ["map"], {}, iter(self._words[1:])
+        words, rest = ["map"], iter(self._words[1:])
+        bounds: dict[str, str] = {}
         for word in rest:
             option, is_joined, value = word.partition("=")
             if option in ("--free", "--bound"):
