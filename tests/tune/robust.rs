@@ -97,6 +97,12 @@ fn plants_that_cannot_be_asked() {
         let run = folder.jurist(&[&["tune", "loop.toml"], options].concat());
         assert!(run.status == 2 && run.stderr.contains(words), "{options:?}: {}", run.stderr);
     }
+    // What is required would be another number for each plant.
+    let depends = format!("{model}[require]\nsettling_time = '40*a'\n");
+    let folder = Folder::new(&[("loop.toml", &depends)]);
+    let options = ["--free", "K", "--bound", "K=1..5", "--for-all", "a=1..2", "--objective", "max K"];
+    let run = folder.jurist(&[&["tune", "loop.toml"], &options[..]].concat());
+    assert!(run.status == 2 && run.stderr.contains("E-require"), "{}{}", run.stdout, run.stderr);
 }
 
 proptest! {

@@ -88,9 +88,9 @@ fn run(options: &Options, context: &Context) -> Outcome {
     let for_all = plants(options, (&model, &question), &gains, context)?;
     let question =
         for_all.iter().fold(question, |question, all| question.set(&all.name, all.range[0].midpoint(&all.range[1])));
-    // What is required may not depend on what is free.
-    let free =
-        gains.iter().fold(question.clone(), |question, gain| question.without_value(&gain.name).free(&gain.name));
+    // What is required may not depend on what is free, nor on a name whose values are all of a range.
+    let names = gains.iter().map(|gain| &gain.name).chain(for_all.iter().map(|all| &all.name));
+    let free = names.fold(question.clone(), |question, name| question.without_value(name).free(name));
     let (required, _) = options.require.asked(&model, free.clone(), &options.region, context)?;
     let question = match required.region.clone() {
         Some(region) => question.within(region),
