@@ -164,12 +164,16 @@ mod ship {
 
 /// The best gains within what is required.
 mod tune {
+    mod campaign;
     mod cases;
+    mod centre;
     mod formulas;
     mod gains;
     mod laws;
     mod norms;
+    mod robust;
     mod settling;
+    mod told;
 }
 
 /// Responses and root loci in floating point, against exact answers.

@@ -236,6 +236,8 @@ class ResponseQuestions(Asker):
         bounds: Mapping[str, Bounds] | None = None,
         gap: Exact | None = None,
         loss: Exact | None = None,
+        for_all: Mapping[str, Bounds] | None = None,
+        robust: bool = False,
         **question: Unpack[Asking],
     ) -> Tune:
         """The best gains within what is required, exactly or in a certified bracket; or that no gains meet it.
@@ -246,7 +248,7 @@ class ResponseQuestions(Asker):
         ----------
         objective : str, optional
             ``"max NAME"`` or ``"min NAME"``: a free gain, a rational expression of free gains, or ``decay``, ``radius``, ``settling_time``, ``damping``, ``gain_margin``, ``phase_margin``,
-            ``modulus_margin``, ``complementary_peak``, ``disk_margin``, ``norm INPUT OUTPUT``; ``"none"`` asks whether there are any gains.
+            ``modulus_margin``, ``complementary_peak``, ``disk_margin``, ``norm INPUT OUTPUT``, ``tolerance``; ``"none"`` asks whether there are any gains.
         free : sequence of str, optional
             Up to five gains.
         values : mapping, optional
@@ -257,6 +259,10 @@ class ResponseQuestions(Asker):
             A bracket is narrow enough where it is less than this share; 1e-3 where nothing says it.
         loss : exact number, optional
             What may be given up for gains of few digits, as a share; one per cent where nothing says it.
+        for_all : mapping from names to pairs of exact numbers, optional
+            Gains that are good for every value of these names in their closed ranges.
+        robust : bool
+            Gains that are good for every value within the tolerances of the model.
         **question
             What every question takes; see `intervals`.
 
@@ -278,6 +284,7 @@ class ResponseQuestions(Asker):
         >>> loop.tune("min radius", ["K"]).value
         Real('1/4')
         """
+        from ._stability import _for_all
         from ._tune import Tune
 
         asked = self._asked(values, **question)
@@ -289,6 +296,7 @@ class ResponseQuestions(Asker):
             words += ["--bound", f"{name}={ends[0]}..{ends[1]}"]
         given = {"objective": objective, "gap": None if gap is None else text_of(gap), "loss": None if loss is None else text_of(loss)}
         words += [f"--{name}={text}" for name, text in given.items() if text is not None]
+        words += [*_for_all(for_all), *(["--robust"] if robust else [])]
         return Tune(self._document(words, asked), self._itself, tuple(words))
 
     def bode(

@@ -4,12 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ._answers import Document
+from ._curves import Map
 from ._exact import fraction
 from ._real import Real
 from ._ship import Required
+
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 
 class Tune(Document):
@@ -136,6 +141,49 @@ class Tune(Document):
     def conflict(self) -> tuple[str, ...]:
         """Requirements and bounds that exclude each other; empty where there are gains."""
         return tuple(self._document["conflict"])
+
+    @property
+    def for_all(self) -> dict[str, tuple[Fraction, Fraction]]:
+        """Names for all of whose values, from one to another, the gains are good."""
+        return {found["name"]: (fraction(found["lower"]), fraction(found["upper"])) for found in self._document["for_all"]}
+
+    def plot(self, ax: Axes | None = None, **kw: Any) -> Axes:
+        """The gains that meet what is required, with those that are typed in, or were found, as a point; of two gains.
+
+        Parameters
+        ----------
+        ax : matplotlib axes, optional
+        **kw
+            What `Map.plot` takes.
+        """
+        if len(self.free) != 2 or self._loop is None:
+            raise ValueError("a picture needs two free gains")
+        words, axes = self._map_words()
+        asked = self._loop._asked_by(words)
+        words += axes
+        ax = Map(self._loop._document(words, asked), self._loop, tuple(words)).plot(ax, **kw)
+        point = self.rounded or self.found
+        if point is not None:
+            x, y = (float(point[name]) for name in self.free)
+            ax.plot([x], [y], marker="*", markersize=12, color="black", linestyle="none", label=repr(self)[1:-1])
+        return ax
+
+    def _map_words(self) -> tuple[list[str], list[str]]:
+        """The question of the map, and its axes."""
+        words, rest = ["map"], iter(self._words[1:])
+        bounds: dict[str, str] = {}
+        for word in rest:
+            option, is_joined, value = word.partition("=")
+            if option in ("--free", "--bound"):
+                name, _, range = (value if is_joined else next(rest)).partition("=")
+                bounds[name] = range or bounds.get(name, "")
+            elif option not in ("--objective", "--gap", "--loss", "--for-all", "--robust"):
+                words.append(word)
+            elif option != "--robust" and not is_joined:
+                next(rest)
+        words += [f"--for-all={name}={low}..{high}" for name, (low, high) in self.for_all.items()]
+        axes = [f"{name}={bounds[name]}" if bounds.get(name) else name for name in self.free]
+        return words, ["-x", axes[0], "-y", axes[1]]
 
     def __repr__(self) -> str:
         if not self:

@@ -66,3 +66,32 @@ def test_what_cannot_be_asked(loop):
         loop.tune("max k")
     with pytest.raises(jurist.Undecided):
         loop.tune("max ki", ["k", "ki"], timeout=0)
+
+
+def test_gains_for_all_plants():
+    loop = jurist.Loop.from_toml(
+        "time = 'continuous'\nparameters = { K = 1, a = { nominal = 1.5, tolerance = '1/2' } }\nloop.characteristic = 's*(s + a)*(s + 2) + K'\n"
+    )
+    # K < 2 a (a + 2).
+    for best in (
+        loop.tune("max K", ["K"], bounds={"K": (0, 100)}, for_all={"a": (1, 2)}),
+        loop.tune("max K", ["K"], bounds={"K": (0, 100)}, robust=True),
+    ):
+        assert best.for_all == {"a": (1, 2)}
+        assert best.found["K"] < 6 <= Fraction(best.proved)
+
+
+def test_the_middle_of_the_good_gains():
+    best = jurist.Loop.from_line("K/(s*(s+1)*(s+2))").tune("max tolerance absolute", ["K"])
+    assert (best.value.exact, best.at["K"].exact) == (3, 3)
+
+
+def test_a_picture_of_two_gains(loop):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    best = loop.tune("max ki", ["k", "ki"], bounds={"k": (0, 5), "ki": (0, 5)}, modulus_margin=Fraction(1, 2))
+    ax = best.plot()
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("k", "ki")
+    assert tuple(ax.lines[-1].get_xdata()) == (float(best.rounded["k"]),)
+    with pytest.raises(ValueError, match="two free gains"):
+        loop.tune("max k", "k", {"ki": "1/10"}).plot()

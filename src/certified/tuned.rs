@@ -57,6 +57,10 @@ const TOWARDS_TYPED: [u64; 4] = [10, 7, 4, 0];
 /// [`Error::Stopped`] when the budget runs out.
 pub fn certify_tune(answer: &TuneAnswer, budget: &Budget) -> Result<String, Error> {
     budget.step("certificate");
+    if !answer.asked.for_all.is_empty() {
+        let help = "'--set' gives those names values, and then there is one";
+        return Err(refused("there are none of gains that are good for all values of other names", help));
+    }
     match &answer.outcome {
         Outcome::Infeasible { conflict, .. } => {
             let all = claim(answer)?;
@@ -71,7 +75,7 @@ pub fn certify_tune(answer: &TuneAnswer, budget: &Budget) -> Result<String, Erro
         }
         Outcome::Optimum(optimum) if answer.asked.objective == Objective::Anything => of_point(answer, optimum, budget),
         Outcome::Optimum(optimum) => of_optimum(answer, &claim(answer)?, optimum, budget),
-        Outcome::Open(stopped) => Err(stopped.clone().into()),
+        Outcome::Open { stopped, .. } => Err(stopped.clone().into()),
     }
 }
 

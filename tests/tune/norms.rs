@@ -149,7 +149,10 @@ fn what_has_no_peak_gain_is_refused() {
         (line, "min norm r z", "no output 'z'"),
         (line, "min norm q y", "known here: r"),
         (line, "max norm r y", "write 'min norm r y'"),
-        (line, "min norm", "write 'min norm INPUT OUTPUT'"),
+        (line, "min norm", "write 'min norm r y'"),
+        (line, "min norm y", "'y' is one signal"),
+        (line, "min norm y", "write 'min norm r y' (inputs: r; outputs: y)"),
+        (line, "min norm r y y", "from one input to one output"),
         ("delayed.toml", "min norm d y", "dead time"),
     ] {
         let run = folder.jurist(&["tune", model, "--free", "K", "--objective", objective]);

@@ -1,11 +1,11 @@
 //! The answer: no gains at all, or the best ones.
 
-use crate::asked::{Asked, Objective};
+use crate::asked::{Asked, Gain, Objective};
 use crate::conflict::conflict;
 use crate::lines::Lines;
 use crate::typed::{Typed, typed};
 use crate::{many_gains, one_gain, two_gains};
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, apart};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::MultiPoly;
 use jurist_algebra::real::Real;
@@ -41,7 +41,12 @@ pub enum Outcome {
     /// The best.
     Optimum(Box<Optimum>),
     /// The work ended before it was known whether there are any gains.
-    Open(Exhausted),
+    Open {
+        /// Why.
+        stopped: Exhausted,
+        /// No gains have a better value of the objective than this; `None` where nothing bounds it.
+        proved: Option<Rational>,
+    },
 }
 
 /// The best value and its gains.
@@ -62,7 +67,7 @@ pub struct Optimum {
     pub found_value: Option<Rational>,
     /// The gains that are typed in.
     pub typed: Option<Typed>,
-    /// Why the bracket is wider than the gap.
+    /// Why the bracket is wider than the gap, or something else is not known.
     pub stopped: Option<Exhausted>,
     /// So many boxes of gains prove the bracket; `None` where sets or maps do.
     pub cells: Option<usize>,
@@ -87,6 +92,13 @@ impl Optimum {
     /// Gains that meet what is required, where the best ones are not known.
     pub(crate) fn some(found: Vec<Rational>) -> Optimum {
         Optimum::new(Best::Nothing, Vec::new(), found, None)
+    }
+}
+
+impl Outcome {
+    /// Nothing is known of any gains.
+    pub(crate) fn open(stopped: Exhausted) -> Outcome {
+        Outcome::Open { stopped, proved: None }
     }
 }
 
@@ -142,8 +154,16 @@ impl TuneAnswer {
         }
         let lines = Lines::new(question, &asked, budget)?;
         let problem = lines.problem()?;
-        problem.refuse_written_complex()?;
-        let found = best(&lines)?;
+        problem.refuse_written_complex().map_err(|_| of_complex_loops())?;
+        if matches!(asked.objective, Objective::Tolerance(_)) && !asked.for_all.is_empty() {
+            let error = Diagnostic::error(Code::TuneObjective, "a tolerance of the gains is not asked for all plants");
+            return Err(error.help("ask for another number, or leave out --for-all and --robust").into());
+        }
+        let found = match lines.part(|| best(&lines)) {
+            // Bounds hold without any work.
+            Err(Error::Stopped(stopped)) => Outcome::open(stopped),
+            found => found?,
+        };
         let outcome = match found {
             Outcome::Infeasible { cells, .. } => Outcome::Infeasible { conflict: conflict(&lines, cells)?, cells },
             Outcome::Optimum(mut optimum) => {
@@ -152,18 +172,37 @@ impl TuneAnswer {
                     optimum.value = Best::Zero;
                 }
                 if asked.objective != Objective::Anything {
-                    optimum.typed = match typed(&lines, &optimum) {
-                        // The bracket so far is an answer without them.
-                        Err(Error::Stopped(_)) if optimum.cells.is_some() => None,
+                    optimum.typed = match lines.part(|| typed(&lines, &optimum)) {
+                        // What is known is an answer without them.
+                        Err(Error::Stopped(stopped)) => {
+                            optimum.stopped.get_or_insert(stopped);
+                            None
+                        }
                         found => found?,
                     };
                 }
                 Outcome::Optimum(optimum)
             }
-            open => open,
+            Outcome::Open { stopped, proved } => {
+                Outcome::Open { stopped, proved: proved.or_else(|| apart(|| within_bounds(&lines))) }
+            }
         };
         let formula = lines.formula.as_ref().map(|formula| formula.parts().map(Clone::clone));
         Ok(TuneAnswer { problem, outcome, asked, formula })
+    }
+
+    /// The best gains as the section `[tune]` of the model asks for them, with the values of the question for all other names.
+    ///
+    /// # Errors
+    /// As [`TuneAnswer::of`]; `E-tune-free` for a model without such a section, or with one that frees no gain.
+    pub fn of_model(question: &Question, budget: &Budget) -> Result<TuneAnswer, Error> {
+        let model = question.model();
+        let gains = model.tuning().into_iter().flat_map(|tuning| &tuning.free).map(|name| name.name.clone());
+        let gains: Vec<Gain> = gains.map(Gain::new).collect();
+        let free = gains.iter().fold(question.clone(), |question, gain| question.without_value(&gain.name));
+        let requirements = model.requirements(&[], &values(&free), budget)?;
+        let asked = Asked::of_model(model, gains, requirements)?;
+        TuneAnswer::of(&free, asked, budget)
     }
 
     /// Whether some gains meet what is required; `None` where it is open.
@@ -171,7 +210,7 @@ impl TuneAnswer {
         match &self.outcome {
             Outcome::Infeasible { .. } => Some(false),
             Outcome::Optimum(_) => Some(true),
-            Outcome::Open(_) => None,
+            Outcome::Open { .. } => None,
         }
     }
 
@@ -180,7 +219,7 @@ impl TuneAnswer {
         match &self.outcome {
             Outcome::Optimum(optimum) => optimum.cells,
             Outcome::Infeasible { cells, .. } => *cells,
-            Outcome::Open(_) => None,
+            Outcome::Open { .. } => None,
         }
     }
 
@@ -188,10 +227,17 @@ impl TuneAnswer {
     pub fn stopped(&self) -> Option<&Exhausted> {
         match &self.outcome {
             Outcome::Optimum(optimum) => optimum.stopped.as_ref(),
-            Outcome::Open(stopped) => Some(stopped),
+            Outcome::Open { stopped, .. } => Some(stopped),
             Outcome::Infeasible { .. } => None,
         }
     }
+}
+
+fn of_complex_loops() -> Error {
+    let message = "the best gains of a loop with complex coefficients are not known";
+    let help = "'jurist intervals' says which values of one gain are good, 'jurist map' which of two; in real form, with two signals for each \
+                complex one, the loop has best gains";
+    Diagnostic::error(Code::Complex, message).help(help).into()
 }
 
 /// The sample time that a settling time is counted in.
@@ -208,11 +254,30 @@ fn sample_time(question: &Question, asked: &Asked, budget: &Budget) -> Result<Ra
     }
 }
 
+/// The values that were set.
+fn values(question: &Question) -> Vec<(String, Rational)> {
+    question.values_set().iter().map(|(name, value)| (name.clone(), value.clone())).collect()
+}
+
+/// A value of the objective that the bounds of the gains alone do not let be better.
+fn within_bounds(lines: &Lines<'_>) -> Option<Rational> {
+    match (&lines.asked.objective, &lines.formula) {
+        (Objective::Greatest(gain), _) => lines.range(*gain).upper.clone(),
+        (Objective::Least(gain), _) => lines.range(*gain).lower.clone(),
+        (Objective::Formula { is_greatest, .. }, Some(formula)) => {
+            let ends = |gain: usize| Some([lines.range(gain).lower.clone()?, lines.range(gain).upper.clone()?]);
+            let sides: Vec<[Rational; 2]> = (0..lines.asked.gains.len()).map(ends).collect::<Option<_>>()?;
+            formula.range(&sides).map(|ends| ends[usize::from(*is_greatest)].clone())
+        }
+        _ => None,
+    }
+}
+
 /// The best of what is asked, by the method that fits.
 fn best(lines: &Lines<'_>) -> Result<Outcome, Error> {
     match lines.asked.gains.len() {
-        1 => one_gain::best(lines),
         _ if lines.are_boxes_asked()? => many_gains::best(lines),
+        1 => one_gain::best(lines),
         _ => two_gains::best(lines),
     }
 }

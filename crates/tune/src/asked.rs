@@ -1,10 +1,11 @@
 //! What is asked: which gains are free, within which bounds, and what is to be best.
 
+use crate::centre::Measure;
 use crate::reading::SETTLING_TIME;
-use jurist_algebra::number::Rational;
+use jurist_algebra::number::{Rational, parse_number};
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Error, Source, Span};
 use jurist_engine::model::{Between, Expression, Model, Time, nearest_name};
-use jurist_engine::response::{Level, Requirements};
+use jurist_engine::response::{AllOf, Level, Requirements};
 
 /// A gain that is free.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,6 +49,8 @@ pub enum Objective {
     Level(Level),
     /// The peak gain of the closed loop from an input to an output.
     Norm(Between),
+    /// How far all gains may go while all is met.
+    Tolerance(Measure),
     /// The settling time, by the decay in continuous time, by the radius in discrete time.
     SettlingTime(Level),
     /// Nothing: whether any gains meet the requirements.
@@ -70,6 +73,8 @@ pub struct Asked {
     pub loss: Option<Rational>,
     /// Whether boxes are searched where the answer of two gains would be exact.
     pub by_boxes: bool,
+    /// Names of the plant with their ranges: gains have to be good for all values in them.
+    pub for_all: Vec<AllOf>,
     /// The sample time, of a settling time in discrete time; it is found out when the question is answered.
     pub sample_time: Option<Rational>,
 }
@@ -101,7 +106,29 @@ impl Asked {
         check_gains(&gains)?;
         let objective = self::objective(model, &gains, objective)?;
         let gap = Rational::new(GAP.0.into(), GAP.1.into());
-        Ok(Asked { gains, objective, requirements, gap, loss: None, by_boxes: false, sample_time: None })
+        let for_all = Vec::new();
+        Ok(Asked { gains, objective, requirements, gap, loss: None, by_boxes: false, for_all, sample_time: None })
+    }
+
+    /// What the section `[tune]` of a model says of these gains: their bounds, the objective, the gap and the loss.
+    ///
+    /// # Errors
+    /// As [`Asked::of`].
+    pub fn of_model(model: &Model, gains: Vec<Gain>, requirements: Requirements) -> Result<Asked, Error> {
+        let tuning = model.tuning();
+        let objective = tuning.and_then(|tuning| tuning.objective.as_ref());
+        let bounded = |gain: Gain| {
+            let own = tuning.and_then(|tuning| tuning.bounds.iter().find(|(name, _)| name.name == gain.name));
+            match own {
+                Some((_, [low, high])) => gain.within([Some(low.clone()), Some(high.clone())]),
+                None => gain,
+            }
+        };
+        let gains = gains.into_iter().map(bounded).collect();
+        let mut asked = Asked::of(model, gains, objective.map_or("none", |name| &name.name), requirements)?;
+        asked.gap = tuning.and_then(|tuning| tuning.gap.clone()).filter(is_share).unwrap_or(asked.gap);
+        asked.loss = tuning.and_then(|tuning| tuning.loss.as_ref()).and_then(|loss| share(&loss.name));
+        Ok(asked)
     }
 
     /// The level that is to be best, if it is one.
@@ -132,6 +159,7 @@ impl Asked {
             Objective::Level(level) => format!("smallest {}", level.name()),
             Objective::SettlingTime(_) => format!("smallest {SETTLING_TIME}"),
             Objective::Norm(between) => format!("smallest norm {}", between.name()),
+            Objective::Tolerance(measure) => format!("largest {} tolerance", measure.name()),
             Objective::Anything => "any gains".into(),
         }
     }
@@ -147,9 +175,33 @@ impl Asked {
             Objective::Level(level) => format!("min {}", level.name()),
             Objective::SettlingTime(_) => format!("min {SETTLING_TIME}"),
             Objective::Norm(between) => format!("min norm {}", between.name()),
+            Objective::Tolerance(Measure::Relative) => format!("max {TOLERANCE}"),
+            Objective::Tolerance(measure) => format!("max {TOLERANCE} {}", measure.name()),
             Objective::Anything => "none".into(),
         }
     }
+}
+
+/// A share above 0 and below 1: a number, or per cent; `None` of any other text.
+///
+/// ```
+/// use jurist_algebra::number::Rational;
+/// use jurist_tune::asked::share;
+/// assert_eq!(share("1%"), Some(Rational::new(1.into(), 100.into())));
+/// assert_eq!((share("2"), share("x")), (None, None));
+/// ```
+pub fn share(text: &str) -> Option<Rational> {
+    let text = text.trim();
+    let value = match text.strip_suffix('%') {
+        Some(number) => parse_number(number.trim()).ok()? * Rational::new(1.into(), 100.into()),
+        None => parse_number(text).ok()?,
+    };
+    is_share(&value).then_some(value)
+}
+
+/// Whether a number is above 0 and below 1.
+pub fn is_share(value: &Rational) -> bool {
+    value.sign().is_gt() && *value < Rational::ONE
 }
 
 fn check_gains(gains: &[Gain]) -> Result<(), Error> {
@@ -194,7 +246,7 @@ fn objective(model: &Model, gains: &[Gain], text: &str) -> Result<Objective, Err
             return Err(refused(
                 format!("the objective '{text}' is not understood"),
                 "write 'max NAME' or 'min NAME', NAME a free gain, an expression of free gains or one of decay, radius, damping, settling_time, \
-                 gain_margin, phase_margin, modulus_margin, complementary_peak, disk_margin; 'min norm INPUT OUTPUT'; or 'none'"
+                 gain_margin, phase_margin, modulus_margin, complementary_peak, disk_margin; 'min norm INPUT OUTPUT'; 'max tolerance'; or 'none'"
                     .into(),
             ));
         }
@@ -208,31 +260,45 @@ fn objective(model: &Model, gains: &[Gain], text: &str) -> Result<Objective, Err
             true => Err(refused(format!("'{text}' asks for the worst norm"), format!("write 'min {name}'"))),
         };
     }
+    if let Some(measure) = tolerance(name)? {
+        return match is_greatest {
+            true => Ok(Objective::Tolerance(measure)),
+            false => Err(refused(format!("'{text}' asks for the worst {name}"), format!("write 'max {name}'"))),
+        };
+    }
     if name == SETTLING_TIME && !is_greatest {
         return Ok(Objective::SettlingTime(match model.time() {
             Time::Continuous => Level::Decay,
             Time::Discrete => Level::Radius,
         }));
     }
-    let Some(level) = Level::named(name) else {
-        if !name.chars().all(|c| c.is_alphanumeric() || c == '_') {
-            check_names(model, gains, name)?;
-            return Ok(Objective::Formula { text: name.to_owned(), is_greatest });
-        }
-        if name == SETTLING_TIME {
-            return Err(refused(format!("'{text}' asks for the worst {name}"), format!("write 'min {name}'")));
-        }
-        let levels = Level::ALL.map(Level::name).into_iter().chain([SETTLING_TIME]);
-        let known = gains.iter().map(|gain| gain.name.as_str()).chain(levels);
-        let known: Vec<&str> = known.collect();
-        let help = match nearest_name(name, known.iter().copied()) {
-            Some(near) => format!("did you mean '{near}'?"),
-            None => format!("known here: {}", known.join(", ")),
-        };
-        return Err(refused(format!("'{name}' is no free gain and no number of a loop that can be made best"), help));
+    if let Some(level) = Level::named(name) {
+        return level_of(model.time(), level, (text, is_greatest));
+    }
+    if !name.chars().all(|c| c.is_alphanumeric() || c == '_') {
+        check_names(model, gains, name)?;
+        return Ok(Objective::Formula { text: name.to_owned(), is_greatest });
+    }
+    if name == SETTLING_TIME {
+        return Err(refused(format!("'{text}' asks for the worst {name}"), format!("write 'min {name}'")));
+    }
+    let levels = Level::ALL.map(Level::name).into_iter().chain([SETTLING_TIME, TOLERANCE]);
+    let known = gains.iter().map(|gain| gain.name.as_str()).chain(levels);
+    let known: Vec<&str> = known.collect();
+    let help = match nearest_name(name, known.iter().copied()) {
+        Some(near) => format!("did you mean '{near}'?"),
+        None => format!("known here: {}", known.join(", ")),
     };
-    if !level.fits(model.time()) {
-        let (kind, help) = match (model.time(), level) {
+    Err(refused(format!("'{name}' is no free gain and no number of a loop that can be made best"), help))
+}
+
+/// A number of the loop, if a loop of this kind of time has it and it is not the worst one that is asked for.
+fn level_of(time: Time, level: Level, (text, is_greatest): (&str, bool)) -> Result<Objective, Error> {
+    let refused =
+        |message: String, help: String| -> Error { Diagnostic::error(Code::TuneObjective, message).help(help).into() };
+    let name = level.name();
+    if !level.fits(time) {
+        let (kind, help) = match (time, level) {
             (Time::Discrete, Level::Damping) => ("discrete", "require it: --damping, and make another number best"),
             (Time::Discrete, _) => ("discrete", "did you mean 'radius'?"),
             (Time::Continuous, _) => ("continuous", "did you mean 'decay'?"),
@@ -246,19 +312,35 @@ fn objective(model: &Model, gains: &[Gain], text: &str) -> Result<Objective, Err
     Ok(Objective::Level(level))
 }
 
+/// The name of a tolerance.
+const TOLERANCE: &str = "tolerance";
+
+/// What `tolerance KIND` is counted in; `None` of another text.
+fn tolerance(text: &str) -> Result<Option<Measure>, Error> {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    match words[..] {
+        [TOLERANCE] => Ok(Some(Measure::Relative)),
+        [TOLERANCE, kind] => match Measure::ALL.into_iter().find(|measure| measure.name() == kind) {
+            Some(measure) => Ok(Some(measure)),
+            None => {
+                let error = Diagnostic::error(Code::TuneObjective, format!("a tolerance is not counted in '{kind}'"));
+                Err(error.help("write 'max tolerance', 'max tolerance absolute' or 'max tolerance ratio'").into())
+            }
+        },
+        _ => Ok(None),
+    }
+}
+
 /// The signals of `norm INPUT OUTPUT`; `None` of another text.
 fn norm(model: &Model, text: &str) -> Result<Option<Between>, Error> {
     let words: Vec<&str> = text.split_whitespace().collect();
-    let (input, output) = match words[..] {
-        ["norm", input, output] => (input, output),
-        ["norm"] => {
-            let error = Diagnostic::error(Code::TuneObjective, "a norm is from an input to an output");
-            return Err(error.help("write 'min norm INPUT OUTPUT'").into());
-        }
-        _ => return Ok(None),
-    };
     let inputs: Vec<&str> = model.inputs().iter().map(|name| name.name.as_str()).collect();
     let outputs: Vec<&str> = model.outputs().iter().map(|output| output.name.name.as_str()).collect();
+    let (input, output) = match words[..] {
+        ["norm", input, output] => (input, output),
+        ["norm", ..] => return Err(norm_of(&inputs, &outputs, &words[1..])),
+        _ => return Ok(None),
+    };
     for (known, name, what) in [(inputs, input, "input"), (outputs, output, "output")] {
         if !known.contains(&name) {
             let error = Diagnostic::error(Code::TuneObjective, format!("the loop has no {what} '{name}'"));
@@ -266,6 +348,26 @@ fn norm(model: &Model, text: &str) -> Result<Option<Between>, Error> {
         }
     }
     Ok(Some(Between::new(input, output)))
+}
+
+/// That a norm is between two signals: with what is to be written.
+fn norm_of(inputs: &[&str], outputs: &[&str], written: &[&str]) -> Error {
+    let given = written.iter().map(|word| format!("'{word}'")).collect::<Vec<_>>().join(", ");
+    let message = match written {
+        [] => "a norm is from an input to an output".to_owned(),
+        [_] => format!("a norm is from an input to an output, and {given} is one signal"),
+        _ => format!("a norm is from one input to one output, not of {given}"),
+    };
+    // What is written already is kept where it is a signal of that kind.
+    let kept = |known: &[&str]| written.iter().find(|word| known.contains(word)).map(|word| (*word).to_owned());
+    let or_only = |known: &[&str], name: &str| match known {
+        [only] => (*only).to_owned(),
+        _ => name.to_owned(),
+    };
+    let input = kept(inputs).unwrap_or_else(|| or_only(inputs, "INPUT"));
+    let output = kept(outputs).unwrap_or_else(|| or_only(outputs, "OUTPUT"));
+    let known = format!("inputs: {}; outputs: {}", inputs.join(", "), outputs.join(", "));
+    Diagnostic::error(Code::TuneObjective, message).help(format!("write 'min norm {input} {output}' ({known})")).into()
 }
 
 /// An error where an expression has a name that is no gain and none of the model's, or no gain at all.

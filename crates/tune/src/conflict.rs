@@ -32,9 +32,9 @@ pub(crate) fn conflict(lines: &Lines<'_>, cells: Option<usize>) -> Result<Vec<St
     for k in (0..parts.len()).rev() {
         lines.budget.step("which requirements exclude each other");
         let without: Vec<Part> = kept.iter().enumerate().filter(|(i, _)| *i != k).map(|(_, part)| *part).collect();
-        let is_infeasible = match is_infeasible(lines, &without, cells) {
+        let is_infeasible = match lines.part(|| is_infeasible(lines, &without, cells)) {
             // It is not known.
-            Err(Error::Stopped(_)) if cells.is_some() => false,
+            Err(Error::Stopped(_)) => false,
             found => found?,
         };
         if is_infeasible {

@@ -4,7 +4,9 @@ use crate::answer::{Best, Optimum, Outcome, Place, TuneAnswer};
 use crate::reading::Reading;
 use jurist_algebra::number::Rational;
 use jurist_algebra::real::Real;
-use jurist_engine::show::documents::{Enclosure, Exact, Named, Number, PointQuestion, RequirementFound, Undecided};
+use jurist_engine::show::documents::{
+    AllValues, Enclosure, Exact, Named, Number, PointQuestion, RequirementFound, Undecided,
+};
 use serde::{Deserialize, Serialize};
 
 /// `jurist/tune/1`.
@@ -32,13 +34,16 @@ pub struct Tune {
     pub objective: String,
     /// What is required, in words.
     pub require: Vec<String>,
+    /// Names of the plant for all of whose values, from one to another, gains are to be good.
+    pub for_all: Vec<AllValues>,
     /// Whether some gains meet what is required; `null` where it is open.
     pub feasible: Option<bool>,
     /// The best value; `null` where nothing was to be best, and where there are no gains.
     pub optimum: Option<OptimumFound>,
     /// Gains that meet what is required; `null` where there are none.
     pub found: Option<PointFound>,
-    /// No gains have this value of the objective, or a better one, rounded away from the best one; `null` where the optimum is exact or without end.
+    /// No gains have this value of the objective, or a better one, rounded away from the best one; where it is open whether there are any gains, none have a
+    /// better one. `null` where the optimum is exact or without end.
     pub proved: Option<String>,
     /// So many boxes of gains prove the bracket, or that no gains meet what is required; `null` where sets or maps do.
     pub cells: Option<u64>,
@@ -91,6 +96,18 @@ pub struct PointFound {
 }
 
 impl TuneAnswer {
+    /// No gains have this value, or a better one.
+    fn proved(&self) -> Option<&Rational> {
+        match &self.outcome {
+            Outcome::Optimum(optimum) => match &optimum.value {
+                Best::Between([_, proved]) => Some(proved),
+                _ => None,
+            },
+            Outcome::Open { proved, .. } => proved.as_ref(),
+            Outcome::Infeasible { .. } => None,
+        }
+    }
+
     /// The document, with so many digits of decimals.
     pub fn json(&self, digits: usize) -> Tune {
         let asked = &self.asked;
@@ -110,16 +127,14 @@ impl TuneAnswer {
             free: asked.gains.iter().map(|gain| gain.name.clone()).collect(),
             objective: asked.objective_text(),
             require: self.required(),
+            for_all: asked.for_all.iter().map(AllValues::from).collect(),
             feasible: self.is_feasible(),
             optimum: optimum.filter(|o| !matches!(o.value, Best::Nothing)).map(|o| self.optimum(o, digits)),
             found: optimum.map(|optimum| PointFound {
                 point: named(&optimum.found),
                 value: optimum.found_value.as_ref().map(|x| number_text(&reading, x, digits)),
             }),
-            proved: optimum.and_then(|optimum| match &optimum.value {
-                Best::Between([_, proved]) => Some(number_text(&reading, proved, digits)),
-                _ => None,
-            }),
+            proved: self.proved().map(|x| number_text(&reading, x, digits)),
             cells: self.cells().map(|cells| cells as u64),
             rounded: typed.map(|typed| named(&typed.values)),
             loss_percent: optimum.and_then(|optimum| self.lost(optimum)),

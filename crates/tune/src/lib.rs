@@ -17,14 +17,19 @@
 #![warn(missing_docs)]
 
 pub mod answer;
+mod around;
 pub mod asked;
+pub mod centre;
+mod centre_of_one;
 mod climb;
 mod conflict;
 mod critical;
 pub mod decimals;
 pub mod document;
+mod for_all;
 mod formula;
 mod formula_of_one;
+mod level_of_one;
 mod lines;
 mod many_gains;
 mod near;

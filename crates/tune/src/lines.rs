@@ -10,7 +10,7 @@ use jurist_engine::answer::{Answer, PointVerdict, Verdict};
 use jurist_engine::coverage::CoefficientRing;
 use jurist_engine::error::Error;
 use jurist_engine::problem::{Bound, Problem, Question, Region};
-use jurist_engine::response::{Level, LevelAsked, RequiredSet, Requirement, RequirementMet};
+use jurist_engine::response::{AllOf, Level, LevelAsked, RequiredSet, Requirement, RequirementMet};
 use jurist_stability::Range;
 use jurist_stability::plane::Strip;
 use std::sync::Arc;
@@ -32,6 +32,9 @@ impl<'a> Lines<'a> {
     pub fn new(question: &Question, asked: &'a Asked, budget: &'a Budget) -> Result<Lines<'a>, Error> {
         let names = || asked.gains.iter().map(|gain| gain.name.as_str());
         let base = names().fold(question.clone(), Question::without_value);
+        // Where one plant stands for all of them.
+        let middle = |base: Question, all: &AllOf| base.set(&all.name, all.range[0].midpoint(&all.range[1]));
+        let base = asked.for_all.iter().fold(base, middle);
         let whole = names().fold(base.clone(), |question, name| question.free(name)).problem()?;
         let within = |gain: &crate::asked::Gain, range: &Range| {
             let [low, high] = gain.bounds.clone();
@@ -86,12 +89,20 @@ impl<'a> Lines<'a> {
         Ok((list, region))
     }
 
+    /// Work after whose end by the budget something is known all the same.
+    ///
+    /// # Errors
+    /// Those of the work, and the end of the budget.
+    pub fn part<T>(&self, work: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
+        self.budget.enter(work)?
+    }
+
     fn free(&self, question: Question, gain: usize) -> Question {
         let name = &self.asked.gains[gain].name;
         question.free(name).domain(name, self.ranges[gain].clone())
     }
 
-    /// All gains free.
+    /// All gains free, and behind them the names whose values are all of a range.
     pub fn problem(&self) -> Result<Arc<Problem>, Error> {
         self.problem_within(self.region.clone())
     }
@@ -99,7 +110,11 @@ impl<'a> Lines<'a> {
     /// The same in another region.
     pub fn problem_within(&self, region: Region) -> Result<Arc<Problem>, Error> {
         let question = (0..self.asked.gains.len()).fold(self.base.clone(), |question, gain| self.free(question, gain));
-        question.within(region).problem()
+        let all = |question: Question, all: &AllOf| {
+            let [least, greatest] = all.range.clone().map(Some);
+            question.without_value(&all.name).free(&all.name).domain(&all.name, Range::between(least, greatest))
+        };
+        self.asked.for_all.iter().fold(question, all).within(region).problem()
     }
 
     /// The values of a gain that meet what is asked, with a value for the other one.
@@ -159,13 +174,16 @@ impl<'a> Lines<'a> {
         Ok(problem.requirements_met(&list, self.at(), self.budget)?.iter().all(|found| found.met))
     }
 
-    /// Whether boxes of gains are searched: of three gains or more, and of two behind a hold where the map takes minutes, and of
+    /// Whether boxes of gains are searched: for all plants, of three gains or more, and of two behind a hold where the map takes minutes, and of
     /// two with dead time, where there is none; of an expression, and of a peak gain.
     pub fn are_boxes_asked(&self) -> Result<bool, Error> {
+        if !self.asked.for_all.is_empty() {
+            return Ok(true);
+        }
         if self.asked.gains.len() != 2 || self.asked.by_boxes || self.formula.is_some() {
             return Ok(self.asked.gains.len() > 1);
         }
-        if self.asked.between().is_some() {
+        if self.asked.between().is_some() || matches!(self.asked.objective, Objective::Tolerance(_)) {
             return Ok(true);
         }
         let is_simple = self.asked.requirements.list.is_empty() && self.asked.level().is_none();

@@ -2,13 +2,14 @@
 
 use crate::answer::{Best, Optimum, Outcome, Place};
 use crate::climb::climb;
+use crate::level_of_one::{bracketed, not_found};
 use crate::lines::Lines;
-use crate::one_gain::{bracketed, not_found};
 use crate::parts::{Part, Parts, Sweep};
 use crate::target::{Target, Value};
-use jurist_algebra::limits::Exhausted;
+use jurist_algebra::limits::{Exhausted, apart};
 use jurist_algebra::number::Rational;
 use jurist_engine::error::Error;
+use std::rc::Rc;
 
 /// More parts are not looked at.
 const MOST_PARTS: usize = 1 << 20;
@@ -26,22 +27,28 @@ pub(crate) fn best(lines: &Lines<'_>) -> Result<Outcome, Error> {
     lines.budget.step("gains that meet all requirements");
     let whole = vec![parts.all()];
     let target = Target::of(lines, &parts.whole)?;
+    if let Some(Target::Centre(centre)) = &target {
+        parts.centre = Some(Rc::clone(centre));
+    }
     let asked = target.as_ref().map(|target| target.beside(&parts, None)).transpose()?.flatten();
     let (point, rest) = match parts.sweep(whole, None, asked.as_ref())? {
         Sweep::Refuted(_) => {
             return Ok(Outcome::Infeasible { conflict: Vec::new(), cells: Some(parts.cells) });
         }
-        Sweep::Stopped(stopped, _) => return Ok(Outcome::Open(stopped)),
+        Sweep::Stopped(stopped, rest) => {
+            let proved = apart(|| target.as_ref().and_then(|target| target.best_within(&rest)));
+            return Ok(Outcome::Open { stopped, proved });
+        }
         Sweep::Found(point, rest) => (point, rest),
     };
     let Some(target) = target else { return Ok(Optimum::some(point).into()) };
     let mut search = Search { parts, target, point, value: None, proved: None };
-    let stopped = match search.narrow(rest) {
+    let stopped = match lines.part(|| search.narrow(rest)) {
         Ok(stopped) => stopped,
         Err(Error::Stopped(stopped)) => Some(stopped),
         Err(error) => return Err(error),
     };
-    Ok(search.outcome(stopped).into())
+    Ok(apart(|| search.outcome(stopped)).into())
 }
 
 /// Whether no gains meet all; `None` where so many parts do not tell.
@@ -126,7 +133,7 @@ impl Search<'_, '_> {
                     open.append(&mut aside);
                 }
                 Sweep::Stopped(stopped, rest) => {
-                    self.seen_so_far(&rest, &goal);
+                    apart(|| self.seen_so_far(&rest, &goal));
                     return Ok(Err(stopped));
                 }
             }
@@ -166,23 +173,40 @@ impl Search<'_, '_> {
             return Optimum { stopped, cells, ..Optimum::some(point) };
         };
         let places = || point.iter().map(|x| Place::Exact(x.clone().into())).collect();
-        let (best, stopped, binding, attained) = match &target {
+        let on_bounds = on_bounds(&parts, &point);
+        let (best, stopped, attained) = match &target {
             Target::Level { level, .. } => {
                 let (best, stopped) = bracketed(*level, &found, proved, stopped);
-                (best, stopped, vec![level.name().to_owned()], None)
+                (best, stopped, None)
             }
-            Target::Gain { gain, end, .. } if found == *end => {
-                let bound = format!("bound of {}", parts.lines.asked.gains[*gain].name);
-                (Best::Exact(end.clone().into()), None, vec![bound], Some(true))
-            }
-            Target::Formula { end, .. } if found == *end => {
-                (Best::Exact(end.clone().into()), None, vec!["bounds".to_owned()], Some(true))
+            Target::Centre(_) => match proved {
+                Some(proved) => (Best::Between([found.clone(), proved]), stopped, None),
+                None => (Best::Nothing, stopped.or_else(|| Some(not_found())), None),
+            },
+            Target::Gain { end, .. } | Target::Formula { end, .. } if found == *end => {
+                (Best::Exact(end.clone().into()), None, Some(true))
             }
             Target::Gain { .. } | Target::Formula { .. } => {
                 let proved = proved.unwrap_or_else(|| target.beyond_end());
-                (Best::Between([found.clone(), proved]), stopped, Vec::new(), None)
+                (Best::Between([found.clone(), proved]), stopped, None)
             }
+        };
+        let binding = match &target {
+            Target::Level { level, .. } => on_bounds.into_iter().chain([level.name().to_owned()]).collect(),
+            // Other gains may be on their bounds by chance.
+            Target::Gain { gain, .. } if attained.is_some() => vec![bound_of(&parts, *gain)],
+            Target::Gain { .. } | Target::Formula { .. } | Target::Centre(_) => on_bounds,
         };
         Optimum { attained, binding, stopped, cells, ..Optimum::new(best, places(), point.clone(), Some(found)) }
     }
+}
+
+/// The gains of a point that are on their bounds.
+fn on_bounds(parts: &Parts<'_, '_>, point: &[Rational]) -> Vec<String> {
+    let all = point.iter().zip(&parts.whole).enumerate();
+    all.filter(|(_, (x, sides))| sides.contains(x)).map(|(gain, _)| bound_of(parts, gain)).collect()
+}
+
+fn bound_of(parts: &Parts<'_, '_>, gain: usize) -> String {
+    format!("bound of {}", parts.lines.asked.gains[gain].name)
 }

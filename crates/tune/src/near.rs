@@ -21,6 +21,26 @@ pub(crate) struct Near {
     pub place: Place,
 }
 
+/// An enclosure narrower than this, as a share, is of one gain.
+const NARROW: i64 = 6;
+
+impl Near {
+    /// Whether one gain alone has the best value, known exactly or by an enclosure.
+    pub fn is_point(&self) -> bool {
+        match &self.place {
+            Place::Exact(_) => true,
+            Place::Between([low, high]) => is_narrow(low, high),
+            Place::From(_) | Place::Unbounded => false,
+        }
+    }
+}
+
+/// Whether two numbers enclose one.
+pub(crate) fn is_narrow(low: &Rational, high: &Rational) -> bool {
+    let unit = Rational::from(10).pow(-NARROW).expect("ten is not zero");
+    high - low <= low.abs().max(high.abs()) * unit
+}
+
 /// Whether the gain is in the set in which everything but the level is met: then it has the best value. `None` where the gain is not known exactly.
 pub(crate) fn is_attained(lines: &Lines<'_>, place: &Place, plain: &RequiredSet) -> Result<Option<bool>, Error> {
     let Place::Exact(x) = place else { return Ok(None) };

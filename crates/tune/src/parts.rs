@@ -1,5 +1,7 @@
 //! Whether any gains of a box meet what is asked: the box is cut into parts until no point of any part meets it, or a point is found that does.
 
+use crate::centre::Centre;
+use crate::for_all::{Plants, as_box, middle};
 use crate::formula::Formula;
 use crate::lines::Lines;
 use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
@@ -8,6 +10,7 @@ use jurist_engine::error::{Code, Diagnostic, Error};
 use jurist_engine::problem::Problem;
 use jurist_engine::response::{Certain, Level, LevelAsked, OverPoints, Requirement, RequirementBoxes};
 use std::collections::VecDeque;
+use std::rc::Rc;
 use std::sync::Arc;
 
 /// A side is not halved more often.
@@ -27,7 +30,7 @@ pub(crate) struct Part {
 
 impl Part {
     fn middle(&self) -> Vec<Rational> {
-        self.sides.iter().map(|[low, high]| low.midpoint(high)).collect()
+        middle(&self.sides)
     }
 
     /// What is left of it where a gain has at least a value, or at most one; `None` where nothing is.
@@ -73,7 +76,7 @@ impl Queue {
 }
 
 /// How a part is seen.
-enum Seen {
+pub(crate) enum Seen {
     Refuted,
     /// Only by what is asked beside the requirements.
     Beside,
@@ -89,16 +92,21 @@ pub(crate) enum Beside<'l> {
     Level(Box<RequirementBoxes>),
     /// At least a value of an expression, or at most one; any value where there is none.
     Formula { formula: &'l Formula, goal: Option<Rational>, is_greatest: bool },
+    /// A tolerance of all gains.
+    Centre { centre: Rc<Centre>, goal: Rational },
 }
 
 impl Beside<'_> {
-    fn look(&self, sides: &[[Rational; 2]], budget: &Budget) -> Result<OverPoints, Exhausted> {
+    pub fn look(&self, sides: &[[Rational; 2]], budget: &Budget) -> Result<OverPoints, Exhausted> {
         let (formula, goal, is_greatest) = match self {
             Beside::Level(boxes) => return boxes.look(sides, budget),
+            Beside::Centre { centre, goal } => {
+                let is_refuted = budget.enter(|| centre.is_refuted(sides, goal))?;
+                return Ok(if is_refuted { OverPoints::None } else { OverPoints::Open { middle: None } });
+            }
             Beside::Formula { formula, goal, is_greatest } => (formula, goal, *is_greatest),
         };
-        let middle: Vec<Rational> = sides.iter().map(|[low, high]| low.midpoint(high)).collect();
-        let value = formula.at(&middle);
+        let value = formula.at(&middle(sides));
         let Some(goal) = goal else { return Ok(OverPoints::Open { middle: Some(value.is_some()) }) };
         Ok(match budget.enter(|| formula.is_above(sides, goal))? {
             Some(is_above) if is_above == is_greatest => OverPoints::All,
@@ -112,8 +120,11 @@ impl Beside<'_> {
 pub(crate) struct Parts<'l, 'a> {
     pub lines: &'l Lines<'a>,
     pub whole: Vec<[Rational; 2]>,
+    pub plants: Plants,
+    /// Where a tolerance is to be best.
+    pub centre: Option<Rc<Centre>>,
     near: Vec<Rational>,
-    tests: Vec<RequirementBoxes>,
+    pub tests: Vec<RequirementBoxes>,
     /// So many parts were looked at.
     pub looked: usize,
     /// So many parts are refuted.
@@ -129,8 +140,10 @@ impl<'l, 'a> Parts<'l, 'a> {
     /// `E-tune-bounds` where a gain has no bounds, `E-require` for a requirement that is not asked of boxes.
     pub fn new(lines: &'l Lines<'a>, most: usize) -> Result<Parts<'l, 'a>, Error> {
         let whole = sides(lines)?;
-        let near: Vec<Rational> = whole.iter().map(|[low, high]| low.midpoint(high)).collect();
-        let mut parts = Parts { lines, whole, near, tests: Vec::new(), looked: 0, cells: 0, most };
+        let plants = Plants::new(&lines.asked.for_all);
+        let near: Vec<Rational> = middle(&whole).into_iter().chain(middle(&plants.sides)).collect();
+        let mut parts =
+            Parts { lines, whole, plants, centre: None, near, tests: Vec::new(), looked: 0, cells: 0, most };
         let problem = lines.problem()?;
         let stability = RequirementBoxes::of_stability(&problem, &parts.near, lines.budget)?;
         parts.tests.push(stability.ok_or_else(|| not_in_boxes("stability"))?);
@@ -170,7 +183,13 @@ impl<'l, 'a> Parts<'l, 'a> {
     /// # Errors
     /// When the budget runs out.
     pub fn is_met(&self, point: &[Rational], scale: Option<&Rational>) -> Result<bool, Error> {
-        let sides: Vec<[Rational; 2]> = point.iter().map(|x| [x.clone(), x.clone()]).collect();
+        if let (Some(centre), Some(value)) = (&self.centre, scale) {
+            return self.is_met_around(point, centre, value);
+        }
+        if !self.plants.is_one() {
+            return self.is_met_for_all(point, scale);
+        }
+        let sides = as_box(point);
         // Margins at a point take longer than a look at a box that is one point.
         let is_unmet = |test: &RequirementBoxes| test.certain(&sides) == Some(Certain::Unmet);
         if self.lines.budget.enter(|| self.tests[1..].iter().any(is_unmet))? {
@@ -246,6 +265,9 @@ impl<'l, 'a> Parts<'l, 'a> {
     /// What is met everywhere leaves the list of the part.
     fn look(&self, part: &mut Part, asked: Option<&Beside<'_>>) -> Result<Seen, Exhausted> {
         self.lines.budget.check()?;
+        if !self.plants.is_one() {
+            return self.look_with_plants(part, asked);
+        }
         let (mut open, mut is_middle) = (Vec::new(), true);
         for &k in &part.open {
             match self.tests[k].look(&part.sides, self.lines.budget)? {

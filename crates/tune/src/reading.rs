@@ -29,9 +29,11 @@ impl Reading {
             Objective::Level(level) => Reading::Level(*level),
             Objective::Norm(_) => Reading::Level(Level::Norm),
             Objective::SettlingTime(_) => Reading::Settling { sample_time: asked.sample_time.clone() },
-            Objective::Greatest(_) | Objective::Least(_) | Objective::Formula { .. } | Objective::Anything => {
-                Reading::Plain
-            }
+            Objective::Greatest(_)
+            | Objective::Least(_)
+            | Objective::Formula { .. }
+            | Objective::Tolerance(_)
+            | Objective::Anything => Reading::Plain,
         }
     }
 

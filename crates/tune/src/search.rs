@@ -72,7 +72,7 @@ impl Search {
         for _ in 0..2 * DOUBLINGS {
             lines.budget.step("a bracket of the best value");
             let value = self.at(&next);
-            match met(&value) {
+            match lines.part(|| met(&value)) {
                 Ok(Some(found)) => {
                     out.met = Some((value, found));
                     low = Some(next.clone());
@@ -81,10 +81,8 @@ impl Search {
                     out.not = Some(value);
                     high = Some(next.clone());
                 }
-                Err(Error::Stopped(stopped)) => {
-                    out.stopped = Some(stopped);
-                    return Ok(out);
-                }
+                // What was seen is known all the same.
+                Err(Error::Stopped(stopped)) => return Ok(Bracketed { stopped: Some(stopped), ..out }),
                 Err(error) => return Err(error),
             }
             next = match (&low, &high) {

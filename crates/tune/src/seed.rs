@@ -1,7 +1,8 @@
 //! A good gain by its margins at some points: they are asked sooner than sets.
 
+use crate::level_of_one::is_without_end;
 use crate::lines::Lines;
-use crate::one_gain::{GAIN, is_without_end};
+use crate::one_gain::GAIN;
 use crate::sets::{inner, widest};
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::poly::simplest_between;

@@ -1,13 +1,15 @@
 //! What is to be best over many gains: one of them, an expression, or a level. Each is a number that is compared, and from which one goes on by a share.
 
 use crate::asked::Objective;
+use crate::centre::Centre;
 use crate::formula::Formula;
+use crate::level_of_one::{is_without_end, scale};
 use crate::lines::Lines;
-use crate::one_gain::{is_without_end, scale};
 use crate::parts::{Beside, Part, Parts};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_engine::error::Error;
 use jurist_engine::response::Level;
+use std::rc::Rc;
 
 /// A value of the gain, or of the level in its scale.
 pub(crate) type Value = Rational;
@@ -31,6 +33,7 @@ pub(crate) enum Target<'l> {
         level: Level,
         ends: [Rational; 2],
     },
+    Centre(Rc<Centre>),
 }
 
 /// The first distance of a level from its worst end is halved, or grows, so often.
@@ -67,6 +70,7 @@ impl<'l> Target<'l> {
                 let (is_greatest, end) = (*is_greatest, if *is_greatest { high } else { low });
                 Target::Formula { formula, is_greatest, end, width }
             }
+            (Objective::Tolerance(measure), _) => Target::Centre(Rc::new(Centre::new(*measure, &whole.to_vec()))),
             (Objective::Formula { .. } | Objective::Anything, _) => return Ok(None),
         }))
     }
@@ -81,7 +85,10 @@ impl<'l> Target<'l> {
             (Target::Formula { formula, is_greatest, .. }, goal) => {
                 Some(Beside::Formula { formula, goal: goal.cloned(), is_greatest: *is_greatest })
             }
-            (Target::Gain { .. }, _) | (Target::Level { .. }, None) => None,
+            (Target::Centre(centre), Some(goal)) => {
+                Some(Beside::Centre { centre: Rc::clone(centre), goal: goal.clone() })
+            }
+            (Target::Gain { .. }, _) | (Target::Level { .. } | Target::Centre(_), None) => None,
         })
     }
 
@@ -89,6 +96,16 @@ impl<'l> Target<'l> {
         match self {
             Target::Gain { is_greatest, .. } | Target::Formula { is_greatest, .. } => *is_greatest,
             Target::Level { level, .. } => level.is_rising(),
+            Target::Centre(_) => true,
+        }
+    }
+
+    /// The value from which shares of a level, or of a tolerance, are counted.
+    fn worst(&self) -> Rational {
+        match self {
+            Target::Level { level, ends } => if level.is_rising() { &ends[0] } else { &ends[1] }.clone(),
+            Target::Centre(centre) => centre.measure.least(),
+            Target::Gain { .. } | Target::Formula { .. } => Rational::ZERO,
         }
     }
 
@@ -112,6 +129,7 @@ impl<'l> Target<'l> {
                 let goal = self.step(value, gap);
                 (ends[0] < goal && goal < ends[1]).then_some(goal)
             }
+            Target::Centre(_) => Some(self.step(value, gap)),
         }
     }
 
@@ -120,7 +138,7 @@ impl<'l> Target<'l> {
             Target::Gain { width, .. } | Target::Formula { width, .. } => {
                 value.abs().max(width * &Rational::dyadic(&Integer::ONE, SMALL))
             }
-            Target::Level { ends, .. } => (value - if self.is_rising() { &ends[0] } else { &ends[1] }).abs(),
+            Target::Level { .. } | Target::Centre(_) => (value - self.worst()).abs(),
         };
         let by = size * gap;
         let (goal, near) = (self.farther(value, &by), &by * &Rational::dyadic(&Integer::ONE, NEAR));
@@ -134,12 +152,13 @@ impl<'l> Target<'l> {
                 self.step(end, &Rational::dyadic(&Integer::ONE, SMALL))
             }
             Target::Level { ends, .. } => ends[usize::from(self.is_rising())].clone(),
+            Target::Centre(centre) => centre.measure.least(),
         }
     }
 
     /// The value as one of the level's scale.
     pub fn scale<'v>(&self, value: &'v Value) -> Option<&'v Rational> {
-        matches!(self, Target::Level { .. }).then_some(value)
+        matches!(self, Target::Level { .. } | Target::Centre(_)).then_some(value)
     }
 
     /// What of the parts has at least a value, and what has less.
@@ -163,10 +182,19 @@ impl<'l> Target<'l> {
                 let end = |part: &Part| Some(formula.range(&part.sides)?[usize::from(*is_greatest)].clone());
                 parts.iter().map(end).collect::<Option<_>>()?
             }
-            Target::Level { .. } => return None,
+            Target::Level { .. } | Target::Centre(_) => return None,
         };
         let best = if self.is_rising() { ends.iter().max() } else { ends.iter().min() }?;
         Some(self.step(best, &Rational::dyadic(&Integer::ONE, SMALL)))
+    }
+
+    /// The same, and no value beyond the bounds.
+    pub fn best_within(&self, parts: &[Part]) -> Option<Value> {
+        let best = self.best_of(parts)?;
+        match self {
+            Target::Gain { end, .. } | Target::Formula { end, .. } if self.is_better(&best, end) => Some(end.clone()),
+            _ => Some(best),
+        }
     }
 
     /// The value of a point; `None` of a level, and where there is none.
@@ -174,7 +202,7 @@ impl<'l> Target<'l> {
         match self {
             Target::Gain { gain, .. } => Some(point[*gain].clone()),
             Target::Formula { formula, .. } => formula.at(point),
-            Target::Level { .. } => None,
+            Target::Level { .. } | Target::Centre(_) => None,
         }
     }
 
@@ -200,7 +228,7 @@ impl<'l> Target<'l> {
                 let is_good = self.is_better(&own, known) && parts.is_met(point, None)?;
                 Ok(is_good.then_some(own))
             }
-            Target::Level { .. } => {
+            Target::Level { .. } | Target::Centre(_) => {
                 let quarter = gap * &Rational::dyadic(&Integer::ONE, 2);
                 let Some(next) = self.beyond(known, &quarter) else { return Ok(None) };
                 if !parts.is_met(point, Some(&next))? {
@@ -230,14 +258,17 @@ impl<'l> Target<'l> {
     /// # Errors
     /// When the budget runs out.
     pub fn first_value(&self, parts: &Parts<'_, '_>, point: &[Rational]) -> Result<Option<Value>, Error> {
-        let Target::Level { level, ends } = self else { return Ok(self.own_value(point)) };
-        let worst = if level.is_rising() { &ends[0] } else { &ends[1] };
-        let whole = &ends[1] - &ends[0];
         let half = Rational::dyadic(&Integer::ONE, 1);
-        let mut distance = if is_without_end(*level) { Rational::ONE } else { &whole * &half };
+        let (mut distance, ends) = match self {
+            Target::Gain { .. } | Target::Formula { .. } => return Ok(self.own_value(point)),
+            Target::Level { level, ends } if !is_without_end(*level) => ((&ends[1] - &ends[0]) * &half, Some(ends)),
+            Target::Level { ends, .. } => (Rational::ONE, Some(ends)),
+            Target::Centre(_) => (Rational::ONE, None),
+        };
         for _ in 0..DOUBLINGS {
-            let value = self.farther(worst, &distance);
-            if ends[0] < value && value < ends[1] && parts.is_met(point, Some(&value))? {
+            let value = self.farther(&self.worst(), &distance);
+            let is_inside = ends.is_none_or(|ends| ends[0] < value && value < ends[1]);
+            if is_inside && parts.is_met(point, Some(&value))? {
                 let eighth = Rational::dyadic(&Integer::ONE, 3);
                 return self.raised(parts, point, value, eighth).map(Some);
             }

@@ -3,11 +3,12 @@
 use crate::answer::{Best, Optimum, Outcome, Place, TuneAnswer};
 use crate::asked::Objective;
 use crate::reading::Reading;
-use jurist_algebra::number::{Enclosure, Rational, to_decimal};
+use jurist_algebra::number::{Enclosure, Rational, parse_number, to_decimal};
 use jurist_algebra::poly::{MultiPoly, RealAlgebraic};
 use jurist_algebra::real::Real;
 use jurist_engine::problem::Bound;
 use jurist_engine::response::Level;
+use jurist_engine::show::for_all_text;
 use jurist_engine::show::intervals::heading;
 use jurist_engine::show::layout::short;
 use jurist_engine::show::real::{enclosed, rounded};
@@ -36,10 +37,13 @@ impl TuneAnswer {
         let whole =
             if required.is_empty() { "stability".to_owned() } else { format!("stability, {}", required.join(", ")) };
         writeln!(out, "{} free, required: {whole}", names.join(", ")).expect(TAKES);
+        if let Some(all) = for_all_text(&asked.for_all, digits) {
+            writeln!(out, "{all}").expect(TAKES);
+        }
         match &self.outcome {
             Outcome::Infeasible { conflict, cells } => self.conflict_text(&mut out, conflict, *cells),
             Outcome::Optimum(optimum) => self.optimum_text(&mut out, optimum, digits),
-            Outcome::Open(_) => writeln!(out, "whether any gains meet this was not decided").expect(TAKES),
+            Outcome::Open { proved, .. } => self.open_text(&mut out, proved.as_ref(), digits),
         }
         out
     }
@@ -58,6 +62,14 @@ impl TuneAnswer {
         out
     }
 
+    fn open_text(&self, out: &mut String, proved: Option<&Rational>, digits: usize) {
+        writeln!(out, "whether any gains meet this was not decided").expect(TAKES);
+        if let Some(proved) = proved {
+            let value = Reading::of(&self.asked).shown(&Real::from(proved.clone()), digits);
+            writeln!(out, "    {}: none better than {value}", self.asked.wanted()).expect(TAKES);
+        }
+    }
+
     fn conflict_text(&self, out: &mut String, conflict: &[String], cells: Option<usize>) {
         let (within, proof) = match cells {
             Some(cells) => (" within the bounds", format!(" (proof: {})", counted(cells))),
@@ -73,6 +85,15 @@ impl TuneAnswer {
     }
 
     fn optimum_text(&self, out: &mut String, optimum: &Optimum, digits: usize) {
+        self.value_text(out, optimum, digits);
+        self.places_text(out, optimum, digits);
+        if !optimum.binding.is_empty() {
+            writeln!(out, "    binds: {}", optimum.binding.join(", ")).expect(TAKES);
+        }
+        self.typed_text(out, optimum, digits);
+    }
+
+    fn value_text(&self, out: &mut String, optimum: &Optimum, digits: usize) {
         let asked = &self.asked;
         let wanted = asked.wanted();
         let reading = Reading::of(asked);
@@ -86,6 +107,9 @@ impl TuneAnswer {
                     out,
                     "{wanted}: no phase limits the loop, since the open loop is smaller than 1 at all frequencies"
                 )
+            }
+            Best::Unbounded if matches!(asked.objective, Objective::Tolerance(_)) && optimum.at.is_empty() => {
+                writeln!(out, "{wanted}: it has no bound, since gains near to 0 may be multiplied by any factor")
             }
             Best::Unbounded => writeln!(out, "{wanted}: it has no bound"),
             Best::Zero => writeln!(out, "{wanted}: 0"),
@@ -105,30 +129,34 @@ impl TuneAnswer {
         {
             writeln!(out, "    exactly a root of {polynomial}").expect(TAKES);
         }
-        if !matches!(asked.objective, Objective::Anything) {
-            let places = asked.gains.iter().zip(&optimum.at).enumerate();
-            let is_own = |i: usize| matches!(asked.objective, Objective::Greatest(k) | Objective::Least(k) if k == i);
-            let places = places.filter(|(i, _)| !is_own(*i)).map(|(_, (gain, place))| match place {
-                Place::Exact(x) if matches!(optimum.value, Best::Exact(_)) => {
-                    format!("{} = {}", gain.name, rounded(x, digits).decimal)
-                }
-                Place::Exact(x) => format!("{} = {}", gain.name, rounded(x, digits).decimal),
-                Place::Between([low, high]) => format!("{} {}", gain.name, common(low, high, digits)),
-                Place::From((Some(low), Some(high))) => format!("{} {}", gain.name, common(low, high, digits)),
-                Place::From((Some(low), None)) => format!("{} from {}", gain.name, to_decimal(low, 6)),
-                Place::From((None, Some(high))) => format!("{} up to {}", gain.name, to_decimal(high, 6)),
-                Place::From((None, None)) => format!("any {}", gain.name),
-                Place::Unbounded => format!("{} without end", gain.name),
-            });
-            let places: Vec<String> = places.collect();
-            if !places.is_empty() {
-                let word = if matches!(optimum.value, Best::Between(_)) { "found" } else { "at" };
-                writeln!(out, "    {word} {}", places.join(", ")).expect(TAKES);
-            }
+    }
+
+    fn places_text(&self, out: &mut String, optimum: &Optimum, digits: usize) {
+        let asked = &self.asked;
+        if matches!(asked.objective, Objective::Anything) {
+            return;
         }
-        if !optimum.binding.is_empty() {
-            writeln!(out, "    binds: {}", optimum.binding.join(", ")).expect(TAKES);
+        let places = asked.gains.iter().zip(&optimum.at).enumerate();
+        let is_own = |i: usize| matches!(asked.objective, Objective::Greatest(k) | Objective::Least(k) if k == i);
+        let places = places.filter(|(i, _)| !is_own(*i)).map(|(_, (gain, place))| match place {
+            Place::Exact(x) => format!("{} = {}", gain.name, rounded(x, digits).decimal),
+            Place::Between([low, high]) => format!("{} {}", gain.name, enclosed_number(low, high, digits)),
+            Place::From((Some(low), Some(high))) => format!("any {} {}", gain.name, range(low, high)),
+            Place::From((Some(low), None)) => format!("any {} from {}", gain.name, to_decimal(low, 6)),
+            Place::From((None, Some(high))) => format!("any {} up to {}", gain.name, to_decimal(high, 6)),
+            Place::From((None, None)) => format!("any {}", gain.name),
+            Place::Unbounded => format!("{} without end", gain.name),
+        });
+        let places: Vec<String> = places.collect();
+        if !places.is_empty() {
+            let word = if matches!(optimum.value, Best::Between(_)) { "found" } else { "at" };
+            writeln!(out, "    {word} {}", places.join(", ")).expect(TAKES);
         }
+    }
+
+    fn typed_text(&self, out: &mut String, optimum: &Optimum, digits: usize) {
+        let asked = &self.asked;
+        let reading = Reading::of(asked);
         let values = |values: &[Rational]| -> String {
             let named = asked.gains.iter().zip(values);
             named.map(|(gain, x)| format!("{} = {}", gain.name, short(x))).collect::<Vec<_>>().join(", ")
@@ -143,14 +171,13 @@ impl TuneAnswer {
                             line.push_str(&format!(": {} {}{}", reading.name(), value(), reading.unit()));
                         }
                         Objective::Formula { text, .. } => line.push_str(&format!(": {text} = {}", value())),
-                        Objective::Greatest(_) | Objective::Least(_) | Objective::Anything => {}
+                        Objective::Greatest(_)
+                        | Objective::Least(_)
+                        | Objective::Tolerance(_)
+                        | Objective::Anything => {}
                     }
                 }
-                match self.lost(optimum) {
-                    Some(lost) => writeln!(out, "{line}, loss {lost} %"),
-                    None => writeln!(out, "{line}, loss at most {} %", percent(&typed.most_lost)),
-                }
-                .expect(TAKES);
+                writeln!(out, "{line}{}", self.loss_text(optimum)).expect(TAKES);
                 for found in &typed.requirements {
                     writeln!(out, "    {}", found.text(digits)).expect(TAKES);
                 }
@@ -167,14 +194,42 @@ impl TuneAnswer {
         }
     }
 
-    /// What the gains that are typed in lose, in per cent; `None` where it is not a number.
+    fn loss_text(&self, optimum: &Optimum) -> String {
+        match (self.share_lost(optimum), &optimum.value) {
+            (None, _) => String::new(),
+            (Some(lost), _) if lost.is_zero() => ", no loss".to_owned(),
+            (Some(lost), Best::Between(_)) => format!(", loss at most {} %", percent_above(&lost)),
+            (Some(lost), _) => format!(", loss {} %", percent(&lost)),
+        }
+    }
+
+    /// What the gains that are typed in lose, in per cent; `None` where it is not a number, and of a bracket.
     pub(crate) fn lost(&self, optimum: &Optimum) -> Option<String> {
-        let value = optimum.typed.as_ref()?.value.as_ref()?.lower().clone();
-        let Best::Exact(best) = &optimum.value else { return None };
-        let (low, high) = best.refined_to_digits(20).enclosure();
-        let best = Reading::of(&self.asked).enclosure(&Enclosure::new(low, high), 64)?.lower().clone();
-        let lost = (&best - value).abs().checked_div(&best.abs())?;
-        Some(percent(&lost))
+        let is_exact = matches!(optimum.value, Best::Exact(_));
+        self.share_lost(optimum).filter(|_| is_exact).map(|lost| percent(&lost))
+    }
+
+    /// What they lose as a share; of a bracket the most that it may be.
+    fn share_lost(&self, optimum: &Optimum) -> Option<Rational> {
+        let typed = optimum.typed.as_ref()?;
+        let is_best =
+            |(place, x): (&Place, &Rational)| matches!(place, Place::Exact(best) if best.compare_rational(x).is_eq());
+        let is_exact = matches!(optimum.value, Best::Exact(_)) && optimum.attained == Some(true);
+        if is_exact && optimum.at.len() == typed.values.len() && optimum.at.iter().zip(&typed.values).all(is_best) {
+            return Some(Rational::ZERO);
+        }
+        let value = typed.value.as_ref()?.lower().clone();
+        let best = match &optimum.value {
+            Best::Exact(best) => {
+                let (low, high) = best.refined_to_digits(20).enclosure();
+                Enclosure::new(low, high)
+            }
+            Best::Between([_, proved]) => Enclosure::from_rational(proved.clone()),
+            Best::Unbounded | Best::Zero | Best::Nothing => return None,
+        };
+        let best = Reading::of(&self.asked).enclosure(&best, 64)?.lower().clone();
+        let lost = (&best - value).abs();
+        if lost.is_zero() { Some(lost) } else { lost.checked_div(&best.abs()) }
     }
 }
 
@@ -193,6 +248,16 @@ fn percent(share: &Rational) -> String {
     to_decimal(&(share * &Rational::from(100)), FEW)
 }
 
+/// The same, not less than the share.
+fn percent_above(share: &Rational) -> String {
+    let text = percent(share);
+    let shown = parse_number(&text).map(|x| x * Rational::new(1.into(), 100.into()));
+    if shown.is_ok_and(|shown| shown >= *share) {
+        return text;
+    }
+    percent(&(share * &Rational::new(201.into(), 200.into())))
+}
+
 /// A bracket, ascending, in so many digits that its ends differ.
 fn bracket(reading: &Reading, found: &Rational, proved: &Rational) -> [String; 2] {
     let text = |x: &Rational, digits: usize| reading.shown(&Real::from(x.clone()), digits);
@@ -208,24 +273,20 @@ fn bracket(reading: &Reading, found: &Rational, proved: &Rational) -> [String; 2
     ends
 }
 
-/// The digits that two numbers have in common, or both.
-fn common(low: &Rational, high: &Rational, digits: usize) -> String {
-    let tiny = Rational::from(10).pow(-(digits as i64)).expect("ten is not zero");
-    let width = high - low;
-    let same = (3..=digits).rev().find(|n| to_decimal(low, *n) == to_decimal(high, *n));
-    match same {
-        Some(n) => format!("= {}..", to_decimal(low, n)),
-        // Numbers on both sides of a short one have no digits in common.
-        None if width < tiny => {
-            let middle = (low + high) * Rational::new(1.into(), 2.into());
-            let near = jurist_algebra::poly::simplest_between(&(low - &width), &(high + &width)).unwrap_or(middle);
-            format!("= {} (within {})", short(&near), to_decimal(&width, 1))
-        }
-        None => {
-            let n = (6..20).find(|n| to_decimal(low, *n) != to_decimal(high, *n)).unwrap_or(20);
-            format!("from {} to {}", to_decimal(low, n), to_decimal(high, n))
-        }
-    }
+/// A number between two others, in the digits that are known; what it lies between where no digits are.
+fn enclosed_number(low: &Rational, high: &Rational, digits: usize) -> String {
+    let known = (3..=digits).rev().find(|n| to_decimal(low, *n) == to_decimal(high, *n));
+    known.map_or_else(|| format!("between {}", ends(low, high, "and")), |n| format!("= {}", to_decimal(low, n)))
+}
+
+/// All numbers from one to another.
+fn range(low: &Rational, high: &Rational) -> String {
+    format!("from {}", ends(low, high, "to"))
+}
+
+fn ends(low: &Rational, high: &Rational, word: &str) -> String {
+    let digits = (6..20).find(|n| to_decimal(low, *n) != to_decimal(high, *n)).unwrap_or(20);
+    format!("{} {word} {}", to_decimal(low, digits), to_decimal(high, digits))
 }
 
 /// The polynomial of an algebraic number, if it is short.

@@ -2,14 +2,17 @@
 
 use crate::answer::{Best, Optimum, Place};
 use crate::asked::Objective;
+use crate::centre::{Centre, Measure};
 use crate::decimals::{first_power, power, shortest};
 use crate::lines::Lines;
+use crate::parts::Parts;
 use crate::reading::Reading;
-use crate::sets::{outer, widest};
+use crate::sets::{inner, outer};
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::real::Real;
 use jurist_engine::error::Error;
-use jurist_engine::response::{Level, RequiredInterval, RequirementMet};
+use jurist_engine::response::{Level, RequiredEnd, RequiredInterval, RequirementMet};
+use std::rc::Rc;
 
 /// Gains of few digits that meet all requirements.
 #[derive(Clone, Debug)]
@@ -19,8 +22,6 @@ pub struct Typed {
     pub values: Vec<Rational>,
     /// What they have of the level, or the gain itself, enclosed; `None` where that is not a number.
     pub value: Option<Enclosure>,
-    /// How much of the best value is given up at most, as a share.
-    pub most_lost: Rational,
     /// The requirements there.
     pub requirements: Vec<RequirementMet>,
 }
@@ -35,14 +36,37 @@ const LOSS: (i64, i64) = (1, 100);
 pub(crate) fn typed(lines: &Lines<'_>, optimum: &Optimum) -> Result<Option<Typed>, Error> {
     let loss = lines.asked.loss.clone().unwrap_or_else(|| Rational::new(LOSS.0.into(), LOSS.1.into()));
     let (Some(inside), Some(best)) = (&optimum.found_value, best_of(optimum)) else { return Ok(None) };
-    let values = match (&lines.asked.objective, lines.asked.gains.len()) {
+    for values in candidates(lines, optimum, (inside, &best), &loss)? {
+        if !lines.asked.for_all.is_empty() {
+            // What a level is with the worst plant is not known.
+            let value = if lines.asked.level().is_none() { value_at(lines, &values)? } else { None };
+            return Ok(Some(Typed { values, value, requirements: Vec::new() }));
+        }
+        let named = named(lines, &values);
+        if !lines.is_met(&named, None)? {
+            continue;
+        }
+        let (_, requirements) = lines.point(&named, None)?;
+        let value = value_at(lines, &values)?;
+        return Ok(Some(Typed { values, value, requirements }));
+    }
+    Ok(None)
+}
+
+/// Short gains that give up a share of the best value at most, the shortest first.
+fn candidates(
+    lines: &Lines<'_>,
+    optimum: &Optimum,
+    (inside, best): (&Rational, &Rational),
+    loss: &Rational,
+) -> Result<Vec<Vec<Rational>>, Error> {
+    let given_up_of_gain = || best - best.abs() * signed(&lines.asked.objective, loss);
+    let found = match (&lines.asked.objective, lines.asked.gains.len()) {
         (Objective::Greatest(gain) | Objective::Least(gain), _) if optimum.cells.is_some() => {
-            let given_up = &best - best.abs() * signed(&lines.asked.objective, &loss);
-            let (low, high) = sorted(given_up, best);
+            let (low, high) = sorted(given_up_of_gain(), best.clone());
             by_trial(lines, &optimum.found, None, |values| low <= values[*gain] && values[*gain] <= high)?
         }
         (Objective::Greatest(gain) | Objective::Least(gain), count) => {
-            let given_up = &best - best.abs() * signed(&lines.asked.objective, &loss);
             // The best value itself, where it is one that gains have.
             let nearest = match &optimum.value {
                 Best::Exact(value) if optimum.attained == Some(true) && count == 1 => {
@@ -50,44 +74,49 @@ pub(crate) fn typed(lines: &Lines<'_>, optimum: &Optimum) -> Result<Option<Typed
                 }
                 _ => inside.clone(),
             };
-            let (low, high) = sorted(given_up, nearest.clone());
-            let Some(height) = shortest(&low, &high, &nearest) else { return Ok(None) };
-            match count {
-                1 => Some(vec![height]),
-                _ => beside(lines, *gain, &height, optimum)?,
+            let (low, high) = sorted(given_up_of_gain(), nearest.clone());
+            let Some(height) = shortest(&low, &high, &nearest) else { return Ok(Vec::new()) };
+            if count > 1 {
+                return beside(lines, *gain, &height, optimum);
             }
+            Some(vec![height])
         }
         (Objective::Formula { is_greatest, .. }, _) => {
-            let given_up = &best - best.abs() * signed(&lines.asked.objective, &loss);
+            let given_up = given_up_of_gain();
             let value = |values: &[Rational]| lines.formula.as_ref().and_then(|formula| formula.at(values));
             let is_enough = |x: Rational| if *is_greatest { x >= given_up } else { x <= given_up };
             by_trial(lines, &optimum.found, None, |values| value(values).is_some_and(is_enough))?
         }
         (Objective::Level(_) | Objective::SettlingTime(_) | Objective::Norm(_), count) => {
             let level = lines.asked.level().expect("one of these");
-            let scale = given_up((level, &Reading::of(lines.asked)), inside, &best, &loss);
-            match count {
-                1 if matches!(optimum.value, Best::Exact(_)) => {
-                    let set = lines.set(0, None, Some(&scale))?;
-                    // Where gains go to infinity the least ones are enough.
-                    let near = middle(&optimum.at[0]).unwrap_or(Rational::ZERO);
-                    short_in(set.value().intervals.iter(), &near).map(|x| vec![x])
-                }
-                _ => by_trial(lines, &optimum.found, Some(&scale), |_| true)?,
+            let scale = given_up((level, &Reading::of(lines.asked)), inside, best, loss);
+            if count == 1 && matches!(optimum.value, Best::Exact(_)) {
+                let set = lines.set(0, None, Some(&scale))?;
+                // Where gains go to infinity the least ones are enough.
+                let near = optimum.at.first().and_then(middle).unwrap_or(Rational::ZERO);
+                return Ok(short_in(&set.value().intervals, &near).into_iter().map(|x| vec![x]).collect());
             }
+            by_trial(lines, &optimum.found, Some(&scale), |_| true)?
+        }
+        (Objective::Tolerance(measure), _) => {
+            let value = best - (best - measure.least()) * loss;
+            if lines.asked.gains.len() == 1 {
+                return Ok(middle_of_one(lines, *measure, (&value, &optimum.found[0]))?.into_iter().collect());
+            }
+            by_trial(lines, &optimum.found, Some(&value.min(inside.clone())), |_| true)?
         }
         (Objective::Anything, _) => None,
     };
-    let Some(values) = values else { return Ok(None) };
-    let named = named(lines, &values);
-    if !lines.is_met(&named, None)? {
-        return Ok(None);
-    }
-    let (_, requirements) = lines.point(&named, None)?;
-    let value = match lines.asked.objective {
+    Ok(found.into_iter().collect())
+}
+
+/// What gains have of the objective, enclosed; `None` where that is not a number.
+fn value_at(lines: &Lines<'_>, values: &[Rational]) -> Result<Option<Enclosure>, Error> {
+    let named = named(lines, values);
+    Ok(match lines.asked.objective {
         Objective::Greatest(gain) | Objective::Least(gain) => Some(Enclosure::from_rational(values[gain].clone())),
         Objective::Formula { .. } => {
-            let value = lines.formula.as_ref().and_then(|formula| formula.at(&values));
+            let value = lines.formula.as_ref().and_then(|formula| formula.at(values));
             value.map(Enclosure::from_rational)
         }
         Objective::Level(level) => level_at(lines, level, &named)?,
@@ -96,9 +125,33 @@ pub(crate) fn typed(lines: &Lines<'_>, optimum: &Optimum) -> Result<Option<Typed
             let found = level_at(lines, level, &named)?;
             found.and_then(|x| Reading::of(lines.asked).enclosure(&x, BITS))
         }
-        Objective::Anything => None,
+        // How far its neighbours are good is not looked up again.
+        Objective::Tolerance(_) | Objective::Anything => None,
+    })
+}
+
+/// The shortest gain that has a tolerance, near to one that does.
+fn middle_of_one(
+    lines: &Lines<'_>,
+    measure: Measure,
+    (value, near): (&Rational, &Rational),
+) -> Result<Option<Vec<Rational>>, Error> {
+    let set = lines.set(0, None, None)?;
+    let interval = set.value().intervals.iter().find(|interval| interval.contains(near));
+    let Some((Some(low), Some(high))) = interval.map(inner) else { return Ok(None) };
+    // What has exactly this tolerance at either end.
+    let other = |share: Rational, x: &Rational| x.checked_div(&share);
+    let ends = match measure {
+        Measure::Absolute => [Some(&low + value), Some(&high - value)],
+        Measure::Ratio if high.sign().is_gt() => [Some(&low * value), other(value.clone(), &high)],
+        Measure::Ratio => [other(value.clone(), &low), Some(&high * value)],
+        Measure::Relative if high.sign().is_gt() => {
+            [other(Rational::ONE - value, &low), other(Rational::ONE + value, &high)]
+        }
+        Measure::Relative => [other(Rational::ONE + value, &low), other(Rational::ONE - value, &high)],
     };
-    Ok(Some(Typed { values, value, most_lost: loss, requirements }))
+    let [Some(from), Some(to)] = ends else { return Ok(None) };
+    Ok(shortest(&from, &to, near).filter(|_| from <= to).map(|x| vec![x]))
 }
 
 pub(crate) fn named(lines: &Lines<'_>, values: &[Rational]) -> Vec<(String, Rational)> {
@@ -168,23 +221,34 @@ fn middle(place: &Place) -> Option<Rational> {
     }
 }
 
-/// The shortest decimal in the interval that holds a number, or in the widest.
-fn short_in<'i>(intervals: impl Iterator<Item = &'i RequiredInterval>, near: &Rational) -> Option<Rational> {
-    let all: Vec<&RequiredInterval> = intervals.collect();
-    let interval = all.iter().find(|interval| interval.contains(near)).or(all.first())?;
+/// The shortest decimals in the interval that holds a number, or in the first one: with its ends, which may be in the set, and strictly inside.
+fn short_in(intervals: &[RequiredInterval], near: &Rational) -> Vec<Rational> {
+    let Some(interval) = intervals.iter().find(|interval| interval.contains(near)).or(intervals.first()) else {
+        return Vec::new();
+    };
+    [true, false].into_iter().filter_map(|with_ends| short_inside(interval, near, with_ends)).collect()
+}
+
+fn short_inside(interval: &RequiredInterval, near: &Rational, with_ends: bool) -> Option<Rational> {
     let (low, high) = outer(interval);
-    // Strictly inside: an end of stability is not in the set.
     let thousandth = Rational::new(1.into(), 1000.into());
+    // How far inside of an end: an end of stability is not in the set, and one that is irrational is no decimal.
+    let off = |end: &Option<RequiredEnd>, step: Rational| {
+        let is_number = end.as_ref().is_some_and(|end| end.value().exact().is_some());
+        if with_ends && is_number { Rational::ZERO } else { step }
+    };
     let (low, high) = match (low, high) {
         (Some(low), Some(high)) => {
             let step = (&high - &low) * thousandth;
-            (low + &step, high - &step)
+            (low + off(&interval.lower, step.clone()), high - off(&interval.upper, step))
         }
         (Some(low), None) => {
-            (&low + low.abs() * &thousandth, near.abs() + low.abs() * Rational::from(2) + Rational::ONE)
+            let from = &low + off(&interval.lower, low.abs() * &thousandth);
+            (from, near.abs() + low.abs() * Rational::from(2) + Rational::ONE)
         }
         (None, Some(high)) => {
-            (-(near.abs() + high.abs() * Rational::from(2) + Rational::ONE), &high - high.abs() * &thousandth)
+            let to = &high - off(&interval.upper, high.abs() * &thousandth);
+            (-(near.abs() + high.abs() * Rational::from(2) + Rational::ONE), to)
         }
         (None, None) => return Some(Rational::ZERO),
     };
@@ -193,19 +257,12 @@ fn short_in<'i>(intervals: impl Iterator<Item = &'i RequiredInterval>, near: &Ra
 }
 
 /// The other gain, short, for a value of the one that is best.
-fn beside(
-    lines: &Lines<'_>,
-    gain: usize,
-    height: &Rational,
-    optimum: &Optimum,
-) -> Result<Option<Vec<Rational>>, Error> {
+fn beside(lines: &Lines<'_>, gain: usize, height: &Rational, optimum: &Optimum) -> Result<Vec<Vec<Rational>>, Error> {
     let set = lines.set(1 - gain, Some((gain, height)), None)?;
-    let near = middle(&optimum.at[1 - gain]).unwrap_or_else(|| optimum.found[1 - gain].clone());
-    if widest(set.value()).is_none() {
-        return Ok(None);
-    }
-    let other = short_in(set.value().intervals.iter(), &near);
-    Ok(other.map(|other| if gain == 0 { vec![height.clone(), other] } else { vec![other, height.clone()] }))
+    let near = optimum.at.get(1 - gain).and_then(middle).unwrap_or_else(|| optimum.found[1 - gain].clone());
+    let others = short_in(&set.value().intervals, &near).into_iter();
+    let both = |other| if gain == 0 { vec![height.clone(), other] } else { vec![other, height.clone()] };
+    Ok(others.map(both).collect())
 }
 
 /// The nearest points of few digits within the bounds, until one is good and meets all.
@@ -223,6 +280,19 @@ fn by_trial(
     };
     /// Significant digits.
     const DIGITS: std::ops::RangeInclusive<i64> = 1..=8;
+    let parts = match (lines.asked.for_all.is_empty(), &lines.asked.objective) {
+        (_, Objective::Tolerance(measure)) => {
+            let mut parts = Parts::new(lines, 0)?;
+            parts.centre = Some(Rc::new(Centre::new(*measure, &parts.whole)));
+            Some(parts)
+        }
+        (true, _) => None,
+        (false, _) => Some(Parts::new(lines, 0)?),
+    };
+    let is_met = |values: &[Rational]| match &parts {
+        Some(parts) => parts.is_met(values, scale),
+        None => lines.is_met_in_order(&named(lines, values), scale),
+    };
     for digits in DIGITS {
         let near: Vec<Vec<Rational>> = found.iter().map(|x| rounded(x, digits)).collect();
         let mut points: Vec<Vec<Rational>> = vec![Vec::new()];
@@ -233,7 +303,7 @@ fn by_trial(
             points = longer.collect();
         }
         for values in points {
-            if is_within(&values) && is_good(&values) && lines.is_met_in_order(&named(lines, &values), scale)? {
+            if is_within(&values) && is_good(&values) && is_met(&values)? {
                 return Ok(Some(values));
             }
         }

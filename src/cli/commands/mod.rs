@@ -43,7 +43,6 @@ pub(super) mod sweep;
 #[cfg(feature = "cli")]
 pub(super) mod test;
 pub(super) mod tolerance;
-#[cfg(feature = "cli")]
 pub(super) mod tune;
 pub(super) mod verdict;
 pub(super) mod verify;
@@ -325,7 +324,7 @@ commands! {
     /// Stable for every value within tolerances: proof or counterexample, and how far they can grow
     tolerance: Tolerance;
     /// The best gains within what is required, exactly or in a bracket; or that no gains meet it
-    tune: Tune in "cli";
+    tune: Tune;
     /// The controller as it is stored and run: rounded coefficients, every rounding, fewest bits, ranges of signals
     ship: Ship in "cli";
     /// One page about one's own loop: verdict, limits and causes, margins, what moves them, worst corner, figures

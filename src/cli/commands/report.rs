@@ -2,7 +2,7 @@
 
 use super::{Context, Runs};
 use crate::certified::certify_intervals;
-use crate::cli::arguments::{ModelOptions, RegionOptions, RunOptions};
+use crate::cli::arguments::{DEFAULT_DIGITS, ModelOptions, RegionOptions, RunOptions};
 use crate::cli::destinations::Files;
 use crate::cli::input::{load, question};
 use crate::cli::output::{ending, finish_answer, unknown_ending};
@@ -14,6 +14,7 @@ use jurist_check::{Limits, check};
 use jurist_draw::report::{ReportRequest, loop_report};
 use jurist_engine::answer::Answer;
 use jurist_engine::stability::StableSet;
+use jurist_tune::answer::TuneAnswer;
 use std::ffi::OsString;
 
 /// Options of `jurist report`.
@@ -67,11 +68,17 @@ fn run(options: &Options, context: &Context) -> Outcome {
         let share = certified.window.as_ref().map(|window| share(name, window, &certified.proved));
         Ok((certified.text, share))
     };
+    let best = |budget: &Budget| -> Result<String, jurist_engine::error::Error> {
+        let answer = TuneAnswer::of_model(&question, budget)?;
+        // The heading of the report is its first line already.
+        Ok(answer.text(DEFAULT_DIGITS as usize).split_once('\n').map(|(_, rest)| rest.to_owned()).unwrap_or_default())
+    };
     let request = ReportRequest {
         file: name.as_deref(),
         at: options.at.as_deref(),
         certify: Some(&certifier),
         check: Some(&checker),
+        best: model.tuning().is_some().then_some(&best),
     };
     let report = loop_report(&question, &request, &context.budget);
     context.reporter.finish();

@@ -1,5 +1,6 @@
 //! `jurist tune`: the best gains within what is required.
 
+use super::map::ranges;
 use super::{Context, Runs, decided};
 use crate::certified::certify_tune;
 use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions, RunOptions};
@@ -10,12 +11,16 @@ use crate::cli::requirements::RequirementOptions;
 use crate::cli::status::{Error, Outcome, Status};
 use crate::cli::written::certify;
 use clap::Args;
-use jurist_algebra::number::{Rational, parse_number};
+use jurist_algebra::limits::apart;
+use jurist_algebra::number::Rational;
+use jurist_engine::answer::ToleranceRequest;
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Span};
 use jurist_engine::model::Model;
+use jurist_engine::problem::Question;
+use jurist_engine::response::{AllOf, Requirements};
 use jurist_engine::show::documents;
 use jurist_tune::answer::TuneAnswer;
-use jurist_tune::asked::{Asked, Gain};
+use jurist_tune::asked::{Asked, Gain, is_share};
 use std::ffi::OsString;
 use std::sync::Arc;
 
@@ -49,6 +54,12 @@ pub(in crate::cli) struct Options {
     /// Writes a certificate that 'jurist verify' re-checks: that no gains within the bounds meet what is required, or none that are better than a value
     #[arg(long, value_name = "FILE")]
     pub certificate: Option<OsString>,
+    /// Gains that are good for all values of another name in a range, both ends included, within bounds [repeatable]
+    #[arg(long = "for-all", value_name = "NAME=LO..HI")]
+    pub for_all: Vec<String>,
+    /// Gains that are good for all values within the tolerances of the model
+    #[arg(long)]
+    pub robust: bool,
     #[command(flatten)]
     pub output: OutputOptions,
 }
@@ -81,44 +92,19 @@ fn run(options: &Options, context: &Context) -> Outcome {
         let error = Diagnostic::error(Code::KeptAndSet, format!("'{}' is free and has a value", gain.name));
         return Err(error.help("leave out --set, or free another gain").into());
     }
-    // What is required may not depend on what is free.
-    let free =
-        gains.iter().fold(question.clone(), |question, gain| question.without_value(&gain.name).free(&gain.name));
+    let for_all = plants(options, (&model, &question), &gains, context)?;
+    let question =
+        for_all.iter().fold(question, |question, all| question.set(&all.name, all.range[0].midpoint(&all.range[1])));
+    // What is required may not depend on what is free, nor on a name whose values are all of a range.
+    let names = gains.iter().map(|gain| &gain.name).chain(for_all.iter().map(|all| &all.name));
+    let free = names.fold(question.clone(), |question, name| question.without_value(name).free(name));
     let (required, _) = options.require.asked(&model, free.clone(), &options.region, context)?;
     let question = match required.region.clone() {
         Some(region) => question.within(region),
         None => question,
     };
-    let written = model.tuning();
-    let placed = |place: Option<Span>, error: Error| in_model(&model, place, error);
-    let objective = match (&options.objective, written.and_then(|tuning| tuning.objective.as_ref())) {
-        (Some(text), _) => (text.as_str(), None),
-        (None, Some(name)) => (name.name.as_str(), Some(name.span)),
-        (None, None) => ("none", None),
-    };
-    let mut asked = Asked::of(&model, gains, objective.0, required).map_err(|error| placed(objective.1, error))?;
-    if let Some(text) = &options.gap {
-        asked.gap = share(context, "--gap", text)?;
-    } else if let Some(gap) = written.and_then(|tuning| tuning.gap.clone()) {
-        asked.gap = gap;
-    }
-    if let Some(text) = &options.loss {
-        asked.loss = Some(share(context, "--loss", text)?);
-    } else if let Some(loss) = written.and_then(|tuning| tuning.loss.as_ref()) {
-        let (number, is_percent) = percent(&loss.name);
-        let value = parse_number(number)
-            .ok()
-            .map(|value| if is_percent { value * Rational::new(1.into(), 100.into()) } else { value });
-        let Some(value) = value.filter(is_share) else {
-            let error = Diagnostic::error(Code::TuneObjective, "'loss' is a share above 0 and below 1, or per cent");
-            return Err(placed(Some(loss.span), Error::from(error.help("for example loss = \"1%\""))));
-        };
-        asked.loss = Some(value);
-    }
-    if !is_share(&asked.gap) {
-        let error = Diagnostic::error(Code::TuneObjective, "'gap' is a share above 0 and below 1");
-        return Err(placed(written.map(|tuning| tuning.span), Error::from(error.help("for example gap = 1e-3"))));
-    }
+    let mut asked = asked(options, (&model, gains), required, context)?;
+    asked.for_all = for_all;
     let digits = output.digits() as usize;
     let answer = match decided(TuneAnswer::of(&question, asked, &context.budget))? {
         Ok(answer) => answer,
@@ -133,10 +119,87 @@ fn run(options: &Options, context: &Context) -> Outcome {
     if let Some(stopped) = answer.stopped() {
         return context.undecided(output, stopped, || Some(answer.text(digits)), || answer.json(digits));
     }
-    context.answer(output, || answer.text(digits), || answer.json(digits))?;
+    if answer.is_feasible() == Some(false) {
+        // The search for what excludes each other may have taken all of the budget.
+        context.answer(output, || apart(|| answer.text(digits)), || apart(|| answer.json(digits)))?;
+    } else {
+        context.answer(output, || answer.text(digits), || answer.json(digits))?;
+    }
     let text = &answer.problem.model().source().text;
     certify(context, &output.run, text, &options.certificate, || certify_tune(&answer, &context.budget))?;
     Ok(if answer.is_feasible() == Some(false) { Status::DoesNotHold } else { Status::Holds })
+}
+
+/// What is to be best, how narrow a bracket is to be and what may be given up: as the command line says, else as the model does.
+fn asked(
+    options: &Options,
+    (model, gains): (&Model, Vec<Gain>),
+    required: Requirements,
+    context: &Context,
+) -> Result<Asked, Error> {
+    let written = model.tuning();
+    let placed = |place: Option<Span>, error: Error| in_model(model, place, error);
+    let objective = match (&options.objective, written.and_then(|tuning| tuning.objective.as_ref())) {
+        (Some(text), _) => (text.as_str(), None),
+        (None, Some(name)) => (name.name.as_str(), Some(name.span)),
+        (None, None) => ("none", None),
+    };
+    let mut asked = Asked::of(model, gains, objective.0, required).map_err(|error| placed(objective.1, error))?;
+    if let Some(text) = &options.gap {
+        asked.gap = share(context, "--gap", text)?;
+    } else if let Some(gap) = written.and_then(|tuning| tuning.gap.clone()) {
+        asked.gap = gap;
+    }
+    if let Some(text) = &options.loss {
+        asked.loss = Some(share(context, "--loss", text)?);
+    } else if let Some(loss) = written.and_then(|tuning| tuning.loss.as_ref()) {
+        let Some(value) = jurist_tune::asked::share(&loss.name) else {
+            let error = Diagnostic::error(Code::TuneObjective, "'loss' is a share above 0 and below 1, or per cent");
+            return Err(placed(Some(loss.span), Error::from(error.help("for example loss = \"1%\""))));
+        };
+        asked.loss = Some(value);
+    }
+    if !is_share(&asked.gap) {
+        let error = Diagnostic::error(Code::TuneObjective, "'gap' is a share above 0 and below 1");
+        return Err(placed(written.map(|tuning| tuning.span), Error::from(error.help("for example gap = 1e-3"))));
+    }
+    Ok(asked)
+}
+
+/// The names of the plant with their ranges: those that are given, and those that have a tolerance.
+fn plants(
+    options: &Options,
+    (model, question): (&Model, &Question),
+    gains: &[Gain],
+    context: &Context,
+) -> Result<Vec<AllOf>, Error> {
+    let free: Vec<&str> = gains.iter().map(|gain| gain.name.as_str()).collect();
+    let mut all = ranges(&options.for_all, &free, model, context)?;
+    if !options.robust {
+        return Ok(all);
+    }
+    for (name, tolerance) in ToleranceRequest::of_model(model).tolerances {
+        if free.contains(&name.as_str()) || all.iter().any(|known| known.name == name) {
+            continue;
+        }
+        let nominal = match question.values_set().get(&name) {
+            Some(value) => Some(value.clone()),
+            None => question.nominal(&name)?,
+        };
+        let Some(nominal) = nominal else {
+            let error = Diagnostic::error(Code::NoValue, format!("'{name}' has a tolerance and no value"));
+            return Err(error.help(format!("give it one: --set {name}=VALUE")).into());
+        };
+        let [below, above] = tolerance.widths(&nominal).map_err(|why| {
+            Error::from(Diagnostic::error(Code::Tolerance, format!("the tolerance of '{name}': {why}")))
+        })?;
+        all.extend(AllOf::new(name, &nominal - below, &nominal + above));
+    }
+    if all.is_empty() {
+        let error = Diagnostic::error(Code::Tolerance, "no name beside the gains has a tolerance");
+        return Err(error.help("give tolerances in the model, or ranges: --for-all NAME=LO..HI").into());
+    }
+    Ok(all)
 }
 
 /// The error with its place in the model, where it has one.
@@ -178,10 +241,6 @@ fn percent(text: &str) -> (&str, bool) {
         Some(number) => (number.trim(), true),
         None => (text.trim(), false),
     }
-}
-
-fn is_share(value: &Rational) -> bool {
-    value.sign().is_gt() && *value < Rational::ONE
 }
 
 /// A share above 0 and below 1: a number, or per cent.

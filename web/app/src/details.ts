@@ -1,5 +1,6 @@
-// The drawer: every end with all its digits, certificates made and checked, the polynomial, tolerances.
+// The drawer: every end with all its digits, certificates made and checked, the polynomial, tolerances, the best gains.
 
+import { gainsOf, objectivesOf, tuning } from "./best.js";
 import { coefficients } from "./formula.js";
 import { by, download, h, table } from "./dom.js";
 import { label } from "./numbers.js";
@@ -13,9 +14,12 @@ export interface Asked {
   text: string;
   values: [string, string][];
   names: string[];
+  /** The parameters in the picture. */
+  chosen: string[];
+  time: string;
 }
 
-const DRAWERS = ["details", "polynomial", "tolerance"];
+const DRAWERS = ["details", "polynomial", "tolerance", "best"];
 
 const program = (text: string, ...args: string[]) => ({ ask: "program", model: text, arguments: args });
 
@@ -23,8 +27,10 @@ function others(values: [string, string][], name: string): string[] {
   return values.filter(([n]) => n !== name).flatMap(([n, v]) => ["--set", `${n}=${v}`]);
 }
 
+const NOTHING: Asked = { text: "", values: [], names: [], chosen: [], time: "" };
+
 export class Details {
-  private asked: Asked = { text: "", values: [], names: [] };
+  private asked: Asked = NOTHING;
   private digits = 30;
   private readonly open: Record<string, boolean> = {};
   /** What the content of each drawer is about, once it is whole. */
@@ -43,7 +49,7 @@ export class Details {
 
   /** Another text: nothing stays of the one before. */
   clear(): void {
-    this.asked = { text: "", values: [], names: [] };
+    this.asked = NOTHING;
     for (const id of DRAWERS) this.empty(id);
   }
 
@@ -77,7 +83,7 @@ export class Details {
     if (id === "polynomial" && this.filled[id]?.text === asked.text) return;
     this.empty(id);
     this.filling[id] = asked;
-    const parts = await (id === "details" ? this.limits(asked) : id === "polynomial" ? this.polynomial(asked) : this.tolerance(asked));
+    const parts = await (id === "details" ? this.limits(asked) : id === "polynomial" ? this.polynomial(asked) : id === "best" ? this.best(asked) : this.tolerance(asked));
     if (this.filling[id] === asked) this.filling[id] = undefined;
     const same = id === "polynomial" ? asked.text === this.asked.text : asked === this.asked;
     if (!parts || !same) return;
@@ -167,6 +173,23 @@ export class Details {
     return [
       h("button", { type: "button", click: () => void latex() }, "Copy as LaTeX"),
       ...(long ? [h("pre", {}, "It is too long to be shown as a formula; the program writes it: jurist charpoly")] : coefficients(document)),
+    ];
+  }
+
+  /** A button that asks for the best gains. */
+  private async best({ text, values, names, chosen, time }: Asked): Promise<Node[]> {
+    const gains = gainsOf(text, chosen.length > 0 ? chosen : names);
+    if (gains.length === 0) return [h("p", {}, "The model has no parameters that could be tuned.")];
+    const objective = h("select", { id: "objective" }, ...objectivesOf(text, gains, time).map((o) => h("option", { value: o }, o)));
+    const said = h("pre", { role: "status" });
+    const find = async () => {
+      said.textContent = "searching …";
+      const reply = await this.ask("best", program(text, ...tuning(gains, (objective as HTMLSelectElement).value, values)));
+      said.textContent = reply ? (no(reply) ?? [reply.output, ...reply.notes].join("\n")) : "undecided: cancelled";
+    };
+    return [
+      h("p", {}, h("label", { for: "objective" }, `Best of ${gains.join(", ")}: `), objective, " ", h("button", { type: "button", id: "find-best", click: () => void find() }, "Best within the region")),
+      said,
     ];
   }
 

@@ -350,7 +350,8 @@ export class Page {
   }
 
   private drawers(): Drawers {
-    return { text: this.text, values: this.given(), names: [...this.rows.keys()] };
+    const chosen = this.mapAxes ?? (this.focus ? [this.focus] : []);
+    return { text: this.text, values: this.given(), names: [...this.rows.keys()], chosen, time: this.model?.time ?? "" };
   }
 
   // --------------------------------------------------------------------------------------- answers

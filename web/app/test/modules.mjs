@@ -215,3 +215,14 @@ test("what stands for a function of the second part traps, until that part puts 
   await WebAssembly.instantiate(await WebAssembly.compile(second), { primary: exports });
   assert.equal(exports.call(), 47);
 });
+
+test("the best gains are those of the text, else those in the picture", async () => {
+  const { gainsOf, objectivesOf, tuning } = await moduleOf("best.ts");
+  const text = ["[parameters]", "free = 1", "[tune]", "free = ['ki', \"k\"]", "objective = \"max ki\"   # as written", "[require]", "objective = 'max other'"].join("\n");
+  assert.deepEqual(gainsOf(text, ["a", "b"]), ["ki", "k"]);
+  assert.deepEqual(gainsOf("[parameters]\nfree = 'x'", ["a", "b", "c"]), ["a", "b"]);
+  assert.equal(objectivesOf(text, ["ki"], "continuous")[0], "max ki");
+  assert.equal(objectivesOf(text, ["ki"], "continuous").filter((o) => o === "max ki").length, 1);
+  assert.ok(objectivesOf("", ["K"], "discrete").includes("min radius") && !objectivesOf("", ["K"], "discrete").includes("max decay"));
+  assert.deepEqual(tuning(["k"], "max k", [["k", "1"], ["T", "1e-4"]]), ["tune", "-", "--free", "k", "--objective", "max k", "--set", "T=1e-4"]);
+});

@@ -289,6 +289,19 @@ test("numbers are written as in the text, and limits are roots of equations", as
   await page.value('document.getElementById("details").open = false');
 });
 
+test("the best gains within what is required come at a press of a button", async () => {
+  await page.open(fromFile);
+  await page.take(readFileSync(join(root, "examples/pi-sensitivity.toml"), "utf8"), { map: false });
+  await page.value('document.getElementById("best").open = true');
+  await page.until('document.getElementById("find-best") !== null');
+  await page.value('document.getElementById("find-best").click()');
+  await page.until('document.querySelector("#best-body pre").textContent.includes("type in")', "an answer");
+  const text = await page.value('document.querySelector("#best-body pre").textContent');
+  assert.match(text, /largest ki: 0\.325317411668\n/);
+  assert.match(text, /at k = 0\.632974269436\n/);
+  await page.value('document.getElementById("best").open = false');
+});
+
 test("on a phone a model is pasted from the first screen, and its answers come into sight", async () => {
   await page.open(fromFile, 390, 844);
   const seen = (id) => page.value(`(() => { const { top, bottom, width } = document.getElementById("${id}").getBoundingClientRect(); return width > 0 && top >= -1 && bottom <= innerHeight + 1; })()`);

@@ -4,6 +4,7 @@
 //! Every number is that of an answer. A part that is undefined, refused, or takes too long is replaced by one sentence
 //! with the reason; no part stops another.
 
+mod best;
 mod certificates;
 mod limit;
 mod limits;
@@ -36,6 +37,9 @@ pub type Checker<'a> = &'a (dyn Fn(&str) -> Result<(), String> + Sync);
 /// Writes the certificate of the limits of one parameter, and how much it says where that is not everything.
 pub type Certifier<'a> = &'a (dyn Fn(&Answer<StableSet>, &Budget) -> Result<(String, Option<String>), Error> + Sync);
 
+/// The best gains of the model's section `[tune]` in words.
+pub type BestGains<'a> = &'a (dyn Fn(&Budget) -> Result<String, Error> + Sync);
+
 /// What a report is to say beside its answers.
 ///
 /// ```
@@ -53,6 +57,8 @@ pub struct ReportRequest<'a> {
     pub certify: Option<Certifier<'a>>,
     /// The independent check of certificates.
     pub check: Option<Checker<'a>>,
+    /// The best gains; `None` for a model that does not ask for them.
+    pub best: Option<BestGains<'a>>,
 }
 
 /// The page, and whether it is all of it.
@@ -110,6 +116,7 @@ pub fn loop_report(question: &Question, request: &ReportRequest<'_>, budget: &Bu
             "How the limits depend on each number",
             Box::new(|| sensitivity::section(question, &limits, &parts)),
         ),
+        ("best", "Best gains", Box::new(|| best::section(request, &parts))),
         ("tolerance", "Worst corner of the tolerances", Box::new(|| tolerance::section(question, &parts))),
         ("locus", "Root locus", Box::new(|| pictures::locus(&limits, &parts))),
         ("bode", "Bode and Nyquist diagrams", Box::new(|| margins::bode_section(&margins, &parts))),
@@ -122,6 +129,8 @@ pub fn loop_report(question: &Question, request: &ReportRequest<'_>, budget: &Bu
         ),
         ("proved", "What is proved, what is drawn, what is left out", Box::new(|| proved::section(model))),
     ];
+    let asks_for_best = |(id, ..): &(&str, &str, Made<'_>)| *id != "best" || request.best.is_some();
+    let sections: Vec<_> = sections.into_iter().filter(asks_for_best).collect();
     let sections: Vec<Section> = parallel_map(sections, |(id, heading, make)| Section { id, heading, html: make() });
     let title = format!("Stability report: {}", called(model.title()));
     let mut lead = format!("At the nominal point <b>{}</b>.", math(&limits::verdict_sentence(&verdict)));

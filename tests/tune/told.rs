@@ -1,0 +1,115 @@
+//! What `jurist tune` tells people: one number as a number, a range as one, what binds, and what is known where the work ended.
+
+use crate::helpers::program::jurist;
+
+/// A PI controller for three equal lags.
+const PI: &str = "examples/pi-sensitivity.toml";
+
+fn told(arguments: &[&str]) -> (i32, String, String) {
+    let run = jurist(&[&["tune"], arguments].concat());
+    (run.status, run.stdout, run.stderr)
+}
+
+fn line(text: &str, objective: &str, options: &[&str]) -> String {
+    let (status, out, err) = told(&[&[text, "--free", "K", "--objective", objective], options].concat());
+    assert_eq!(status, 0, "{text} {objective}: {err}");
+    out
+}
+
+#[test]
+fn a_gain_that_is_one_number_is_printed_as_one() {
+    let (_, out, _) = told(&[PI]);
+    assert!(out.contains("\n    at k = 0.632974269436\n"), "{out}");
+    let (_, out, _) = told(&[PI, "--digits", "16"]);
+    assert!(out.contains("\n    at k = 0.6329742694363943\n"), "{out}");
+}
+
+#[test]
+fn a_best_value_of_a_whole_interval_says_so() {
+    // Below the largest integral gain many proportional gains do.
+    let (_, out, _) = told(&[PI, "--bound", "ki=0..0.2"]);
+    assert!(out.contains("\n    at any k from 0.106519 to 1.07993\n"), "{out}");
+    // From the double root on the decay is half of the damping.
+    let out = line("K/(s^2+0.2*s+1)", "max decay", &["--bound", "K=-0.9..3"]);
+    assert!(out.contains("\n    at any K from -0.9 to 3\n"), "{out}");
+}
+
+#[test]
+fn a_bound_that_is_best_is_named_and_typed_in() {
+    let out = line("K/(s*(s+1)*(s+2))", "max modulus_margin", &["--bound", "K=0.37..1"]);
+    for part in ["at K = 0.37\n", "binds: bound of K\n", "type in K = 0.37: ", ", no loss\n"] {
+        assert!(out.contains(part), "{part}: {out}");
+    }
+    let (_, out, _) = told(&[PI, "--bound", "ki=0..0.2"]);
+    assert!(out.contains("binds: bound of ki\n") && out.contains("type in ki = 0.2, k = 1, no loss\n"), "{out}");
+    // The requirement is what binds where no bound is reached.
+    let (_, out, _) = told(&[PI]);
+    assert!(out.contains("binds: modulus_margin\n"), "{out}");
+}
+
+/// In a bracket the loss is what it may be at most.
+#[test]
+fn the_loss_of_a_bracket_is_an_upper_one() {
+    let (status, out, _) = told(&[PI, "--objective", "max k*ki", "--gap", "0.1"]);
+    let words = ", loss at most ";
+    let share = out.split(words).nth(1).and_then(|rest| rest.split(' ').next()).map(str::parse::<f64>);
+    let Some(Ok(share)) = share else { panic!("{out}") };
+    // One per cent of what was found, and the gap.
+    assert!(status == 0 && share > 0.0 && share < 11.5, "{out}");
+}
+
+/// Wherever the work ends, what is known is said.
+#[test]
+fn an_early_end_leaves_the_bracket_so_far() {
+    let three = [
+        "(kd*s^2+kp*s+ki)/(s*(s+1)^3)",
+        "--free",
+        "kp",
+        "--free",
+        "ki",
+        "--free",
+        "kd",
+        "--bound",
+        "kp=0..4",
+        "--bound",
+        "ki=0..2",
+    ];
+    let three = [&three[..], &["--bound", "kd=0..1", "--objective", "max ki", "--modulus-margin", "0.6"]].concat();
+    let margin =
+        ["K/(s*(s+1)*(s+2)*(s+3)*(s+5))", "--free", "K", "--objective", "max modulus_margin", "--bound", "K=0..100"];
+    for arguments in [&[PI][..], &three, &margin] {
+        let mut ends = 0;
+        for work in (0..9).map(|k| (2000_u64 << (2 * k)).to_string()) {
+            let (status, out, err) = told(&[arguments, &["--work", &work]].concat());
+            if status == 0 {
+                break;
+            }
+            // Reading the model may take what there is.
+            assert!(status == 3 && (out.contains("free, required: ") || ends == 0), "{work}: {out}{err}");
+            ends += 1;
+        }
+        assert!(ends > 1, "{arguments:?}");
+    }
+    let (_, out, _) = told(&[PI, "--work", "100000"]);
+    assert!(out.contains("largest ki: none better than 5\n"), "{out}");
+}
+
+#[test]
+fn the_refusal_of_complex_loops_says_what_to_ask() {
+    let (status, _, err) = told(&["examples/pmsm-frame.toml", "--free", "K_p", "--objective", "min radius"]);
+    assert!(status == 2 && err.contains("the best gains of a loop with complex coefficients are not known"), "{err}");
+    assert!(err.contains("'jurist intervals' says which values of one gain are good"), "{err}");
+}
+
+/// A report has the best gains of a model that asks for them, in the words of the command.
+#[test]
+fn a_report_has_the_best_gains() {
+    let run = jurist(&["report", PI, "-o", "-", "-q"]);
+    let begin = run.stdout.find("<section id=\"best\">").expect("the model has a section [tune]");
+    let part = &run.stdout[begin..begin + run.stdout[begin..].find("</section>").unwrap()];
+    let (_, out, _) = told(&[PI]);
+    for line in out.lines().skip(2) {
+        assert!(part.contains(&line.replace('>', "&gt;")), "{line}: {part}");
+    }
+    assert!(!jurist(&["report", "examples/de-gaston-safonov.toml", "-o", "-", "-q"]).stdout.contains("id=\"best\""));
+}
