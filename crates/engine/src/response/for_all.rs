@@ -263,3 +263,10 @@ pub(super) struct OpenPart {
     test: usize,
     part: BoxPart,
 }
+
+impl OpenPart {
+    /// The values.
+    pub(super) fn sides(&self) -> &[[Rational; 2]] {
+        &self.part.sides
+    }
+}

@@ -26,6 +26,7 @@ mod extreme;
 mod family;
 mod for_all;
 mod for_all_line;
+mod for_all_open;
 pub(crate) mod ground;
 mod held_delay;
 mod level;
