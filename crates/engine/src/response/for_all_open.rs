@@ -28,7 +28,7 @@ pub(super) fn why_open(all: &[AllOf], pieces: &[Piece], line: &Problem, budget: 
         let middle = piece.between[0].midpoint(&piece.between[1]);
         let question = line.model().ask().set_all(line.set().to_vec()).set(&line.parameter().name, middle);
         let problem = question.set_all(values.clone()).problem().ok()?;
-        Some(problem.verdict(budget).ok()?.value().verdict.clone())
+        Some(problem.verdict(budget).ok()?.value().verdict)
     };
     let [first, second] = two.map(verdict);
     match first.filter(|first| second.as_ref() == Some(first))? {
