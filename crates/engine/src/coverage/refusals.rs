@@ -161,12 +161,27 @@ pub(crate) static DELAY_AT_POINTS: Refusal =
     Refusal::new(Code::Require, "a delay margin is decided at points only, not as a set of a parameter", AT_A_POINT);
 pub(crate) static NOT_IN_A_PLANE: Refusal =
     Refusal::new(Code::Require, "the requirement {name} is not decided for two parameters", "{help}");
+pub(crate) static NOT_FOR_ALL: Refusal = Refusal::new(
+    Code::Require,
+    "the requirement {name} is not decided for all values of other names",
+    "ask 'verdict' with a value for every parameter; phase, gain, modulus and disk margins and the peak of T are decided for all values",
+);
 pub(crate) static NOT_OVER_A_BOX: Refusal =
     Refusal::new(Code::Require, "the requirement {name} is not decided over a box of tolerances", "{help}");
 pub(crate) static NOT_ALGEBRAIC: Refusal =
     Refusal::new(Code::NoCertificate, "{what}: the limits are not algebraic numbers", OTHER_CERTIFICATES);
 pub(crate) static NO_CERTIFICATE: Refusal =
     Refusal::new(Code::NoCertificate, "no certificate{of}: {why}", OTHER_CERTIFICATES);
+pub(crate) static REQUIREMENT_NOT_CERTIFIED: Refusal = Refusal::new(
+    Code::NoCertificate,
+    "no certificate of '{asked}': the checkers know margins that are stability for all factors at a cut of the loop",
+    "phase, gain, modulus and disk margins and the peak of T are such, at a signal or a block; the answer is printed without '--certificate'",
+);
+pub(crate) static WIDE_DISK: Refusal = Refusal::new(
+    Code::NoCertificate,
+    "no certificate of '{asked}': the checkers know disk margins below 2, whose factors fill a disc; from 2 on they fill a half plane",
+    "the answer is printed without '--certificate'",
+);
 pub(crate) static CERTIFIED_BESIDE: Refusal = Refusal::new(
     Code::NoCertificate,
     "no certificate of this map by boxes: {why}",
