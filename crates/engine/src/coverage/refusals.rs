@@ -114,11 +114,6 @@ pub(crate) static NO_FIXED_ORDER: Refusal = Refusal::new(
     "the dead time of '{name}' is no fixed number of samples",
     "give it as a multiple of the sample time (delay = \"1.5*T\"), or set all that it depends on",
 );
-pub(crate) static FEEDBACK: Refusal = Refusal::new(
-    Code::DeadTime,
-    "the peak gain is not known where dead time is in the feedback, or in one of several paths to the output",
-    "the peak of the sensitivity 1/(1 + L) is the inverse of the modulus margin: 'jurist margins'",
-);
 pub(crate) static NOT_OF_SAMPLES: Refusal = Refusal::new(
     Code::Discretize,
     "the peak-to-peak gain (l1 norm) is known in discrete time only, and this loop is continuous",

@@ -72,7 +72,7 @@ static ROWS: &[Row] = &[
     Row::new(Asked::Analyze, "analyze", [A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), BESIDE, A(&SEVERAL)]).called("analyze"),
     Row::new(Asked::Charpoly, "charpoly", [A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), NO_ORDER]).called("charpoly"),
     at_a_point(Asked::Margins, "margins", [A(&FREQUENCIES), A(&FREQUENCIES), OPEN_LOOP, BESIDE]).called("margins"),
-    at_a_point(Asked::Norm, "norm", [A(&PEAKS), A(&PEAKS), P(&PEAKS, &FEEDBACK), BESIDE]).called("norm"),
+    at_a_point(Asked::Norm, "norm", [A(&PEAKS), A(&PEAKS), A(&DELAYED_PEAKS), BESIDE]).called("norm"),
     at_a_point(Asked::PeakToPeak, "norm --l1", [A(&IMPULSES), A(&ENCLOSED_IMPULSES), NO_DELAY, NO_DELAY]).in_time(Time::Discrete),
     Row::new(Asked::PeakToPeakContinuous, "norm --l1", [R(&NOT_OF_SAMPLES); 6]).in_time(Time::Continuous),
     at_a_point(Asked::Bode, "bode", [A(&FREQUENCIES), A(&FREQUENCIES), OPEN_LOOP, BESIDE]).called("bode"),

@@ -6,6 +6,7 @@
 //! which the modulus of the open loop tells that there is nothing to find.
 
 use super::crossings::{Crossings, PhaseCrossing};
+use super::delayed_axis::DelayedAxis;
 use super::enclosed::enclosed;
 use super::ground::Integers;
 use super::margins::{GainMargin, PhaseMargin, StableMargins};
@@ -18,20 +19,17 @@ use crate::problem::refused;
 use crate::stability::dead_time::GainLoop;
 use crate::stability::{Range, zeros_in};
 use jurist_algebra::ball::{Ball, tan};
-use jurist_algebra::limits::{Budget, Exhausted, Stop};
+use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
-use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction, UniPoly};
+use jurist_algebra::poly::{Domain, MultiPoly, UniPoly};
 use jurist_algebra::real::Real;
-use jurist_algebra::symbols::{Definition, MovingSymbols};
 use std::cmp::Ordering;
-use std::sync::Arc;
 
 /// The rational factor of the open loop and its dead time.
 pub(super) struct DeadTime<'a> {
     parts: &'a Parts<Integers>,
     tau: &'a Rational,
-    /// `cos(tau omega)` and `sin(tau omega)` of the angular frequency, which is variable 0.
-    turning: Arc<MovingSymbols>,
+    axis: DelayedAxis,
 }
 
 /// Phase crossings are listed where the open loop's modulus is above one over this.
@@ -39,41 +37,21 @@ const LISTED: i64 = 100;
 
 impl<'a> DeadTime<'a> {
     pub fn new(parts: &'a Parts<Integers>, tau: &'a Rational) -> DeadTime<'a> {
-        let time = &RationalFunction::variable(0) * &RationalFunction::from(tau.clone());
-        let polynomial = vec![RationalFunction::one(), RationalFunction::zero(), RationalFunction::one()];
-        let part = |name: &str, index| {
-            (name.to_owned(), Definition::Fundamental { polynomial: polynomial.clone(), index, time: time.clone() })
-        };
-        DeadTime { parts, tau, turning: Arc::new(MovingSymbols::new(vec![part("cos", 0), part("sin", 1)])) }
-    }
-
-    /// A polynomial in `x = -omega^2` as one in `omega`.
-    fn in_omega(p: &UniPoly) -> MultiPoly {
-        let sign = |i: usize| if i.is_multiple_of(2) { Integer::ONE } else { -Integer::ONE };
-        let terms = p.coeffs().iter().enumerate().map(|(i, c)| (vec![2 * i as u32], c * &sign(i)));
-        MultiPoly::from_terms(terms)
+        DeadTime { parts, tau, axis: DelayedAxis::new(tau.clone()) }
     }
 
     /// Twice the real part of `N conj(D0) exp(-j omega tau)`.
     fn twice_real(&self) -> MultiPoly {
         let r = &self.parts.reduced;
-        let turned = DeadTime::in_omega(&r.imaginary).times(&MultiPoly::variable(0)).scaled_by(&Integer::from(2));
-        let along = DeadTime::in_omega(&r.twice_real).times(&MultiPoly::variable(1));
+        let turned = DelayedAxis::of_square(&r.imaginary).times(&MultiPoly::variable(0)).scaled_by(&Integer::from(2));
+        let along = DelayedAxis::of_square(&r.twice_real).times(&MultiPoly::variable(1));
         along.plus(&turned.times(&MultiPoly::variable(2)))
     }
 
     /// Twice its imaginary part, from twice the real part of `N conj(D0)` and from the imaginary part over `omega`.
     fn twice_imaginary(along: &UniPoly, across: &UniPoly) -> MultiPoly {
-        let turned = DeadTime::in_omega(across).times(&MultiPoly::variable(0)).scaled_by(&Integer::from(2));
-        turned.times(&MultiPoly::variable(1)).minus(&DeadTime::in_omega(along).times(&MultiPoly::variable(2)))
-    }
-
-    /// The derivative by `omega`, times the denominator of the dead time.
-    fn derivative(&self, p: &MultiPoly) -> MultiPoly {
-        let (up, down) = (self.tau.numerator(), self.tau.denominator());
-        let by_cos = p.derivative(1).times(&MultiPoly::variable(2)).scaled_by(&(-up.clone()));
-        let by_sin = p.derivative(2).times(&MultiPoly::variable(1)).scaled_by(&up);
-        p.derivative(0).scaled_by(&down).plus(&by_cos).plus(&by_sin)
+        let turned = DelayedAxis::of_square(across).times(&MultiPoly::variable(0)).scaled_by(&Integer::from(2));
+        turned.times(&MultiPoly::variable(1)).minus(&DelayedAxis::of_square(along).times(&MultiPoly::variable(2)))
     }
 
     /// An angular frequency beyond which the modulus of the open loop is below `1/ratio`.
@@ -97,34 +75,6 @@ impl<'a> DeadTime<'a> {
         })
     }
 
-    fn zeros(&self, p: &MultiPoly, end: &Rational, budget: &Budget) -> Result<Vec<Real>, Exhausted> {
-        let found = self.turning.zeros_in(&p.clone().into(), &Rational::ZERO, end, end, budget)?;
-        match found.undecided.is_empty() {
-            true => Ok(found.zeros),
-            false => Err(Exhausted::new(Stop::Separation, "frequencies of a loop with dead time")),
-        }
-    }
-
-    /// `above/below` at an angular frequency.
-    fn quotient(&self, above: &MultiPoly, below: &MultiPoly, at: &Real) -> Real {
-        let (above, below, at, turning) = (above.clone(), below.clone(), at.clone(), Arc::clone(&self.turning));
-        enclosed("quotient at a frequency", move |bits| {
-            let (lo, hi) = at.refined(&Rational::dyadic(&Integer::ONE, bits)).enclosure();
-            let omega = Ball::between(&lo, &hi, bits);
-            let values = turning.enclose(&[above.clone(), below.clone()], &omega)?;
-            Some(values[0].div(&values[1])?.to_enclosure())
-        })
-    }
-
-    /// The frequency as a place.
-    fn place(omega: &Real) -> Place {
-        let omega = omega.clone();
-        Place::Inside(enclosed("minus the square of a frequency", move |bits| {
-            let omega = super::enclosed::within(&omega, bits);
-            Some(omega.mul(&omega, bits).neg())
-        }))
-    }
-
     /// All crossings of modulus one, and those of the negative real axis down to a hundredth.
     pub fn crossings(&self, mut rational: Crossings, budget: &Budget) -> Result<Crossings, Error> {
         for crossing in &mut rational.gain {
@@ -140,11 +90,11 @@ impl<'a> DeadTime<'a> {
             [&r.twice_real, &r.imaginary].map(|p| p.div_exact(&common).expect("a gcd divides both parts"));
         let imaginary = DeadTime::twice_imaginary(&along, &across);
         let real = self.twice_real();
-        let below = DeadTime::in_omega(&self.parts.reduced.denominator_squared).scaled_by(&Integer::from(-2));
-        for omega in self.zeros(&imaginary, &end, budget)? {
-            let factor = self.quotient(&below, &real, &omega);
+        let below = DelayedAxis::of_square(&self.parts.reduced.denominator_squared).scaled_by(&Integer::from(-2));
+        for omega in self.axis.zeros(&imaginary, &end, budget)? {
+            let factor = self.axis.quotient(&below, &real, &omega);
             if budget.enter(|| factor.sign())?.is_gt() {
-                rational.phase.push(PhaseCrossing { place: DeadTime::place(&omega), factor: Value::Number(factor) });
+                rational.phase.push(PhaseCrossing { place: DelayedAxis::place(&omega), factor: Value::Number(factor) });
             }
         }
         Ok(rational)
@@ -163,14 +113,14 @@ impl<'a> DeadTime<'a> {
         let delay = DelayMargin::over(self.parts, crossings, budget)?;
         budget.step("modulus margin");
         let r = &self.parts.reduced;
-        let both = DeadTime::in_omega(&r.numerator_squared.plus(&r.denominator_squared));
+        let both = DelayedAxis::of_square(&r.numerator_squared.plus(&r.denominator_squared));
         let sum = both.plus(&self.twice_real());
-        let denominator = DeadTime::in_omega(&r.denominator_squared);
+        let denominator = DelayedAxis::of_square(&r.denominator_squared);
         let modulus_at = self.extreme([&sum, &denominator], Ordering::Less, |r| Rational::ONE - r, budget)?;
         let modulus = modulus_at.root(budget)?;
         let peak_sensitivity = reciprocal(&modulus, budget)?;
         budget.step("peak of the complementary sensitivity");
-        let numerator = DeadTime::in_omega(&r.numerator_squared);
+        let numerator = DelayedAxis::of_square(&r.numerator_squared);
         let most = |r: &Rational| r / &(Rational::ONE - r);
         let complementary_at = self.extreme([&numerator, &sum], Ordering::Greater, most, budget)?;
         let peak_complementary = complementary_at.root(budget)?;
@@ -230,7 +180,7 @@ impl<'a> DeadTime<'a> {
             let help = "the gain, phase and delay margins of such a loop are limits of 'intervals'";
             return Err(refused("the open loop with dead time has poles on the imaginary axis beside 0", help));
         }
-        let slope = self.derivative(above).times(below).minus(&above.times(&self.derivative(below)));
+        let slope = self.axis.derivative(above).times(below).minus(&above.times(&self.axis.derivative(below)));
         let at_zero = |p: &MultiPoly| {
             let p = p.substitute(0, &Rational::ZERO).0.substitute(1, &Rational::ONE).0;
             p.substitute(2, &Rational::ZERO).0.as_constant().expect("a number")
@@ -243,14 +193,14 @@ impl<'a> DeadTime<'a> {
             if !b.is_zero() {
                 best = Some((Place::Lowest, Real::from(Rational::new(a.clone(), b.clone()))));
             }
-            for omega in self.zeros(&slope, &end, budget)? {
-                let value = self.quotient(above, below, &omega);
+            for omega in self.axis.zeros(&slope, &end, budget)? {
+                let value = self.axis.quotient(above, below, &omega);
                 let better = match &best {
                     None => true,
                     Some((_, known)) => value.compare(known, budget)? == wanted,
                 };
                 if better {
-                    best = Some((DeadTime::place(&omega), value));
+                    best = Some((DelayedAxis::place(&omega), value));
                 }
             }
             let bound = bound(&Rational::new(Integer::ONE, Integer::from(ratio)));
@@ -273,7 +223,7 @@ impl<'a> DeadTime<'a> {
             .denominator_squared
             .scaled(&(&of_one * &of_one))
             .plus(&r.numerator_squared.scaled(&(&of_loop * &of_loop)));
-        let below = DeadTime::in_omega(&squares).minus(&self.twice_real().scaled_by(&(&of_one * &of_loop)));
+        let below = DelayedAxis::of_square(&squares).minus(&self.twice_real().scaled_by(&(&of_one * &of_loop)));
         let four = Integer::from(4) * &(&q * &q);
         let (one, other) = (Rational::from(&of_one), Rational::from(&of_loop).abs());
         if of_one.is_zero() {

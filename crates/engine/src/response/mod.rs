@@ -19,6 +19,8 @@ mod crossings;
 mod damped;
 mod dead_time;
 mod delay;
+mod delayed_axis;
+mod delayed_peak;
 mod delayed_set;
 mod disk;
 mod enclosed;
