@@ -58,9 +58,9 @@ def stable(loop, point, radius=1.0, decay=0.0, n=None):
 def grid(n, both):
     """Angular frequencies."""
     if n.T:
-        w = np.concatenate([np.geomspace(1e-5, 0.03, 1500), np.linspace(0.03, np.pi, 12000)]) / n.T
+        w = np.concatenate([np.geomspace(1e-8, 0.03, 2500), np.linspace(0.03, np.pi, 12000)]) / n.T
     else:
-        w = np.concatenate([np.geomspace(1e-4, 1e4, 16000), np.linspace(0.001, 60, 20000)])
+        w = np.concatenate([np.geomspace(1e-8, 1e4, 20000), np.linspace(0.001, 60, 20000)])
         w.sort()
     return np.concatenate([-w[::-1], w]) if both else w
 

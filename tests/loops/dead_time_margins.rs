@@ -5,7 +5,6 @@ use crate::helpers::number::number;
 use crate::helpers::open_loops::{margins_of, stable};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
-use jurist_engine::error::Error;
 use jurist_engine::model::Model;
 use jurist_engine::response::{DelayMargin, PhaseMargin};
 use jurist_engine::show::real;
@@ -102,15 +101,42 @@ fn dead_time_that_is_no_single_factor_is_refused() {
     assert!(refused.contains("E-dead-time"), "{refused}");
 }
 
-/// With dead time in the feedback the peak gain is refused in its own words.
+/// Poles on the axis, as of a resonant controller, and an open loop that does not fall at high frequencies, against grids of frequencies in floating point.
 #[test]
-fn a_norm_with_dead_time_in_the_feedback_is_refused_as_a_norm() {
-    let text = "time = 'continuous'\n[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\nname = 'P'\ninput = 'r - y'\noutput = 'y'\n\
-        transfer = 'exp(-s)/(s+2)'\n";
-    let Err(Error::Refused(refused)) = load(text).ask().norm("r", "y", &Budget::unlimited()) else { panic!("refused") };
-    let first = &refused.diagnostics()[0];
-    assert!(first.message.starts_with("the peak gain") && !first.message.contains("open loop"), "{}", first.message);
-    assert!(!first.help.as_ref().unwrap().contains("--param GAIN"));
+fn resonant_and_neutral_loops_with_dead_time_have_margins() {
+    type Quotient = fn(f64) -> [[f64; 2]; 2];
+    let resonant: Quotient = |w| {
+        // (1/2 (s^2 + 4) + s/5) over (s^2 + 4)(s + 1)
+        let q = 4.0 - w * w;
+        [[q / 2.0, w / 5.0], [q, q * w]]
+    };
+    let neutral: Quotient = |w| [[2.4, 0.3 * w], [2.0, w]];
+    for (transfer, tau, quotient) in
+        [("(1/2 + s/(5*(s^2 + 4)))*exp(-s/5)/(s + 1)", 0.2, resonant), ("3/10*(s + 8)/(s + 2)*exp(-s/2)", 0.5, neutral)]
+    {
+        let model = load(&format!(
+            "time = 'continuous'\n[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\nname = 'L'\ninput = 'r - y'\n\
+             output = 'y'\ntransfer = '{transfer}'\n"
+        ));
+        let answer = model.ask().margins(None, &Rational::ZERO, &Budget::unlimited()).unwrap_or_else(|e| panic!("{e}"));
+        let margins = stable(&answer);
+        // |D|, |N| and |D + N exp(-j w tau)|, |D - N exp(-j w tau)|.
+        let sizes = |w: f64| {
+            let [n, d] = quotient(w);
+            let (cos, sin) = ((w * tau).cos(), (w * tau).sin());
+            let n = [n[0] * cos + n[1] * sin, n[1] * cos - n[0] * sin];
+            [d[0].hypot(d[1]), n[0].hypot(n[1]), (d[0] + n[0]).hypot(d[1] + n[1]), (d[0] - n[0]).hypot(d[1] - n[1])]
+        };
+        let greatest =
+            |f: &dyn Fn([f64; 4]) -> f64| (0..400_000).map(|k| f(sizes(f64::from(k) * 1e-4))).fold(0.0, f64::max);
+        let number = |x: &jurist_algebra::real::Real| x.decimal(12).parse::<f64>().unwrap();
+        let near =
+            |found: f64, expected: f64| assert!((found - expected).abs() < 1e-6, "{transfer}: {found} {expected}");
+        near(number(&margins.peak_sensitivity), greatest(&|[d, _, sum, _]| d / sum));
+        near(number(&margins.modulus), 1.0 / greatest(&|[d, _, sum, _]| d / sum));
+        near(number(&margins.peak_complementary), greatest(&|[_, n, sum, _]| n / sum));
+        near(number(margins.disk.alpha.as_ref().unwrap()), 2.0 / greatest(&|[_, _, sum, other]| other / sum));
+    }
 }
 
 /// At a zero of the open loop on the axis it is 0, and crosses the negative real axis at no factor.

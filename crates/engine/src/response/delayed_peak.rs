@@ -51,7 +51,12 @@ impl DelayedQuotient {
             delays.iter().position(|(v, _)| *v - symbols.first() == variable).map_or(0, |i| powers[i])
         };
         let [below, above] = [&below, &above].map(|p| by_powers(p, multiple));
-        Ok(DelayedQuotient { axis: DelayedAxis::new(tau), above, below })
+        Ok(DelayedQuotient::new(tau, above, below))
+    }
+
+    /// From the coefficients of `exp(-tau s)^k` at `[k]`; `below` has no root on the axis.
+    pub fn new(tau: Rational, above: Vec<UniPoly>, below: Vec<UniPoly>) -> DelayedQuotient {
+        DelayedQuotient { axis: DelayedAxis::new(tau), above, below }
     }
 
     /// The extreme of the square of the modulus.
