@@ -124,6 +124,11 @@ pub(crate) static ONE_FACTOR: Refusal = Refusal::new(
     "with dead time this is known where one factor of the open loop has it, and all else is rational",
     "the gain margin is the limit of a gain: 'jurist intervals --param GAIN'",
 );
+pub(crate) static NO_DAMPING: Refusal = Refusal::new(
+    Code::DeadTime,
+    "no loop with dead time has a damping: it has infinitely many roots, and theirs goes to 0",
+    "ask for '--settling-time' or a decay rate, or read the damping of the rightmost roots in 'jurist roots'",
+);
 pub(crate) static DECAY: Refusal = Refusal::new(
     Code::DeadTime,
     "a decay rate cannot be asked of {what} in a loop with dead time",

@@ -71,7 +71,9 @@ impl<'a> DeadTime<'a> {
                 help,
             ));
         }
-        let level = &limit + &(&(Rational::ONE - &limit) * &Rational::new(1.into(), (LISTED * LISTED).into()));
+        // Toward a limit that is not 0 crossings go on without end.
+        let part = if limit.is_zero() { LISTED * LISTED } else { LISTED };
+        let level = &limit + &(&(Rational::ONE - &limit) * &Rational::new(1.into(), part.into()));
         let excess = above.scaled(&level.denominator()).minus(&below.scaled(&level.numerator()));
         let zeros = zeros_in(&excess, &Range::between(None, Some(Rational::ZERO)), budget)?;
         Ok(match zeros.first() {

@@ -203,6 +203,7 @@ impl Problem {
     ) -> Result<Answer<RequiredSet>, Error> {
         if !requirements.is_empty() {
             self.refuse_complex(budget)?;
+            self.refuse_undamped(requirements, budget)?;
         }
         budget.enter(|| {
             let stable = self.stable_set(budget)?.into_value();
@@ -293,6 +294,7 @@ impl Problem {
         if requirements.is_empty() {
             return Ok(Vec::new());
         }
+        self.refuse_undamped(requirements, budget)?;
         budget.enter(|| {
             let stable = self.verdict(budget)?.value().verdict == Verdict::Stable;
             let is_at_cut = |r: &Requirement| r.needs_cut() && r.signals().is_none();
