@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Asks random loops over each coefficient ring every question of the table, and counts what becomes of them.
 
-    benches/coverage/campaign.py PROGRAM [-n LOOPS] [--seconds S] [--question TEXT] [--ring RING] [--seed SEED] [--keep FOLDER] [-j JOBS]
+    benches/coverage/campaign.py PROGRAM [-n LOOPS] [--seconds S] [--work UNITS] [--minutes M] [--question TEXT] [--ring RING] [--seed SEED] [--keep FOLDER] [-j JOBS]
 
 The cells are those of docs/explanation/coverage.md, which is made of the table. A cell counts as answered where at most one loop in a hundred stays
-undecided, and none is wrong against numbers that are found another way (plants.py, truth.py). Needs numpy and scipy.
+undecided, and none is wrong against numbers that are found another way (plants.py, truth.py). On a machine that has other work to do a time says little: '--work' counts. Needs numpy and scipy.
 """
 
 import argparse
@@ -14,6 +14,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import time
 from collections import Counter, defaultdict
 from multiprocessing import Pool
 from pathlib import Path
@@ -43,7 +44,7 @@ def is_refused(cell):
     return re.fullmatch("[A-Z]", cell) is not None
 
 
-def loop_of(ring, time, seed):
+def loop_of(ring, kind, seed):
     """A random loop of this kind of time, most often one that is stable."""
     import truth
 
@@ -51,7 +52,7 @@ def loop_of(ring, time, seed):
     kinds = GENERATORS.get(ring, [])
     for attempt in range(200):
         loop = kinds[(r.randrange(1 << 30)) % len(kinds)](r) if kinds else None
-        if loop is None or (time and loop.time != time):
+        if loop is None or (kind and loop.time != kind):
             continue
         wants = attempt > 20 or r.random() < 0.1
         if wants or truth.stable(loop, {k: float(v) for k, v in loop.point.items()}):
@@ -61,11 +62,11 @@ def loop_of(ring, time, seed):
 
 def run(job):
     """One question about one loop: the cell, what became of it, and a remark."""
-    program, (command, time, ring), seed, seconds, memory = job
+    program, (command, kind, ring), seed, (seconds, work, memory) = job
     try:
-        loop, r = loop_of(ring, time, seed)
+        loop, r = loop_of(ring, kind, seed)
         if loop is None:
-            return (command, time, ring), "no generator", "", "", ""
+            return (command, kind, ring), "no generator", "", "", ""
         with tempfile.TemporaryDirectory() as folder:
             words, required, region = arguments(command, loop, r, f"{folder}/out.html")
             if command == "report":
@@ -73,6 +74,7 @@ def run(job):
             else:
                 words.append("--json")
             line = [program, *words, "--timeout", str(seconds), "--memory", str(memory), "-q"]
+            line += ["--work", str(work)] if work else []
             done = subprocess.run(line, input=loop.text, capture_output=True, text=True, timeout=seconds + 20)
         outcome, remark = judge(command, loop, r, required, region, done)
     except subprocess.TimeoutExpired:
@@ -80,7 +82,7 @@ def run(job):
     except Exception as problem:  # a fault of the campaign, shown as such
         outcome, remark = "fault", f"{type(problem).__name__}: {problem}"
     shown = " ".join(words) if loop else ""
-    return (command, time, ring), outcome, f"{loop.kind}: {remark}", shown, loop.text
+    return (command, kind, ring), outcome, f"{loop.kind}: {remark}", shown, loop.text
 
 
 def judge(command, loop, r, required, region, done):
@@ -108,6 +110,8 @@ def main():
     parser.add_argument("program")
     parser.add_argument("-n", type=int, default=3, help="loops for each cell; 300 for a full campaign")
     parser.add_argument("--seconds", type=int, default=5, help="time of a question")
+    parser.add_argument("--work", type=int, help="units of work of a question, beside its time")
+    parser.add_argument("--minutes", type=float, help="begins no more questions after this time")
     parser.add_argument("--memory", type=int, default=800)
     parser.add_argument("--question", help="only rows whose command contains this text")
     parser.add_argument("--ring", help="only this ring")
@@ -116,14 +120,20 @@ def main():
     parser.add_argument("--keep", type=Path, help="a folder for the models of what is not answered")
     parser.add_argument("-j", type=int, default=2)
     options = parser.parse_args()
-    cells = [(command, time, ring) for command, time, row in table() for ring in row
+    cells = [(command, kind, ring) for command, kind, row in table() for ring in row
              if (options.refused or not is_refused(row[ring]))
              and (options.question is None or options.question in command)
              and (options.ring is None or options.ring == ring)]
-    jobs = [(options.program, cell, f"{options.seed}/{cell}/{k}", options.seconds, options.memory) for cell in cells for k in range(options.n)]
+    limits = (options.seconds, options.work, options.memory)
+    end = time.monotonic() + 60 * options.minutes if options.minutes else None
+    # One loop of each cell after the other: what is counted when time is over is about all cells.
+    jobs = [(options.program, cell, f"{options.seed}/{cell}/{k}", limits) for k in range(options.n) for cell in cells]
     counts, remarks = defaultdict(Counter), defaultdict(list)
     with Pool(options.j) as pool:
         for k, (cell, outcome, remark, words, text) in enumerate(pool.imap(run, jobs, chunksize=1)):
+            if end and time.monotonic() > end:
+                pool.terminate()
+                break
             counts[cell][outcome] += 1
             if outcome != "answered":
                 remarks[cell].append((outcome, remark, words))
