@@ -87,7 +87,7 @@ impl DelayedQuotient {
 
     /// A modulus that is not above the greatest one of some frequencies.
     fn known(&self, lowest: &Rational, squares: [&MultiPoly; 2]) -> Rational {
-        let unit = self.axis.tau().recip().expect("a dead time is not 0");
+        let unit = self.unit();
         let frequency = |octave: i64, k: i64| {
             let part = Rational::ONE + Rational::new(k.into(), IN_AN_OCTAVE.into());
             &(&unit * &part) * &Rational::from(2).pow(octave).expect("two is not zero")
@@ -101,20 +101,50 @@ impl DelayedQuotient {
 
     /// A frequency beyond which the modulus is below a value: there `A` and the delayed terms of `B` are outweighed.
     fn end(&self, value: &Rational, budget: &Budget) -> Result<Rational, Exhausted> {
-        let (p, q) = (value.numerator(), value.denominator());
-        let sum = |parts: &[UniPoly]| parts.iter().map(sizes).fold(UniPoly::zero(), |sum, one| sum.plus(&one));
-        let outweighed = sum(&self.above).scaled(&q).plus(&sum(&self.below[1..]).scaled(&p));
-        let [re, im] = along_axis(&self.below[0]);
-        let own = re.times(&re).plus(&im.times(&im)).scaled(&(&p * &p));
-        let excess = own.minus(&outweighed.times(&outweighed));
-        if !excess.leading().is_some_and(|c| c.sign().is_gt()) {
+        // Moduli of polynomials with their weights, those that are multiples of each other together.
+        let mut weights = vec![(&self.below[0], Rational::ZERO)];
+        let all = self.above.iter().map(|p| (p, Rational::ONE));
+        for (p, weight) in all.chain(self.below[1..].iter().map(|p| (p, value.clone()))).filter(|(p, _)| !p.is_zero()) {
+            match weights.iter_mut().find_map(|(own, sum)| Some((multiple(p, own)?, sum))) {
+                Some((ratio, sum)) => *sum += &ratio * &weight,
+                None => weights.push((p, weight)),
+            }
+        }
+        weights[0].1 = value - &weights[0].1;
+        let common = weights.iter().fold(Integer::ONE, |l, (_, weight)| l.lcm(&weight.denominator()));
+        let whole = |weight: &Rational| (weight * &Rational::from(&common)).numerator();
+        let modulus = |(p, weight): &(&UniPoly, Rational)| {
+            let [re, im] = along_axis(p);
+            re.times(&re).plus(&im.times(&im)).scaled(&(&whole(weight) * &whole(weight)))
+        };
+        let outweighed = match &weights[1..] {
+            [one] => modulus(one),
+            several => {
+                let sizes = several.iter().map(|(p, weight)| sizes(p).scaled(&whole(weight)));
+                let sum = sizes.fold(UniPoly::zero(), |sum, one| sum.plus(&one));
+                sum.times(&sum)
+            }
+        };
+        let excess = modulus(&weights[0]).minus(&outweighed);
+        if !weights[0].1.sign().is_gt() || !excess.leading().is_some_and(|c| c.sign().is_gt()) {
             let why = "the peak gain may be approached at high frequencies only";
             return Err(Exhausted::new(Stop::Method(why.into()), "peak gain"));
         }
         let zeros = zeros_in(&excess, &Range::between(Some(Rational::ZERO), None), budget)?;
-        let last = zeros.last().map_or(Rational::ZERO, |x| x.refined(&Rational::ONE).enclosure().1);
-        Ok(last + Rational::ONE)
+        let last = zeros.last().map_or(Rational::ZERO, |x| x.refined_to_digits(2).enclosure().1);
+        Ok(&last + &(&(&last + &self.unit()) * &Rational::new(1.into(), 64.into())))
     }
+
+    /// The inverse of the dead time.
+    fn unit(&self) -> Rational {
+        self.axis.tau().recip().expect("a dead time is not 0")
+    }
+}
+
+/// The size of a factor that makes the first polynomial of the second one.
+fn multiple(p: &UniPoly, own: &UniPoly) -> Option<Rational> {
+    let (a, b) = (p.leading()?, own.leading()?);
+    (p.scaled(b) == own.scaled(a)).then(|| Rational::new(a.clone(), b.clone()).abs())
 }
 
 /// The coefficients of each power of `exp(-tau s)`.
