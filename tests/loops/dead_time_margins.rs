@@ -6,7 +6,7 @@ use crate::helpers::open_loops::{margins_of, stable};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::model::Model;
-use jurist_engine::response::{DelayMargin, PhaseMargin, Requirement};
+use jurist_engine::response::{DelayMargin, PhaseMargin, Place, Requirement};
 use jurist_engine::show::real;
 
 /// `K exp(-tau s)/(s (s/2 + 1))`.
@@ -139,6 +139,22 @@ fn resonant_and_neutral_loops_with_dead_time_have_margins() {
         near(number(&margins.peak_complementary), greatest(&|[_, n, sum, _]| n / sum));
         near(2.0 / number(margins.disk.alpha.as_ref().unwrap()), greatest(&|[_, _, sum, other]| other / sum));
     }
+}
+
+/// `|L|` of `(s + 1)/(2 s + 4) exp(-s)` rises to a half: the least `|1 + L|` is come near to at high frequencies only, and so are the peaks.
+#[test]
+fn a_modulus_margin_may_be_that_of_the_limit_of_high_frequencies() {
+    let model = load(
+        "time = 'continuous'\n[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\nname = 'L'\ninput = 'r - y'\n\
+         output = 'y'\ntransfer = '(s + 1)/(2*s + 4)*exp(-s)'\n",
+    );
+    let answer = model.ask().margins(None, &Rational::ZERO, &Budget::unlimited()).unwrap_or_else(|e| panic!("{e}"));
+    let margins = stable(&answer);
+    assert_eq!(margins.modulus.exact(), Some("1/2".parse().unwrap()));
+    assert_eq!(margins.peak_complementary.exact(), Some(Rational::ONE));
+    // 2 (1 - 1/2)/(1 + 1/2)
+    assert_eq!(margins.disk.alpha.as_ref().unwrap().exact(), Some("2/3".parse().unwrap()));
+    assert!(matches!(margins.modulus_at.place(), Some(Place::Highest)));
 }
 
 /// Roots of a loop with dead time go on without end, with ever less damping: that is said.

@@ -74,13 +74,22 @@ impl DelayedQuotient {
         if slope.is_zero() {
             return Ok(Extreme::Constant(Value::from(lowest)));
         }
-        let end = self.end(&self.known(&lowest, [&above, &below]), budget)?;
+        let (end, limit) = match (self.end(&self.known(&lowest, [&above, &below]), budget), self.limit()) {
+            // Moduli may rise to a limit.
+            (Err(stopped), Some(limit)) if !stopped.stop.is_budget() => (self.end(&limit, budget)?, Some(limit)),
+            (end, _) => (end?, None),
+        };
         let mut best = (Place::Lowest, Real::from(lowest));
         for omega in self.axis.zeros(&slope, &end, budget)? {
             let value = self.axis.quotient(&above, &below, &omega);
             if value.compare(&best.1, budget)? == Ordering::Greater {
                 best = (DelayedAxis::place(&omega), value);
             }
+        }
+        if let Some(square) = limit.map(|limit| &limit * &limit)
+            && best.1.compare_rational(&square).is_le()
+        {
+            return Ok(Extreme::At { place: Place::Highest, value: Value::from(square), attained: false });
         }
         Ok(Extreme::At { place: best.0, value: Value::Number(best.1), attained: true })
     }
@@ -133,6 +142,26 @@ impl DelayedQuotient {
         let zeros = zeros_in(&excess, &Range::between(Some(Rational::ZERO), None), budget)?;
         let last = zeros.last().map_or(Rational::ZERO, |x| x.refined_to_digits(2).enclosure().1);
         Ok(&last + &(&(&last + &self.unit()) * &Rational::new(1.into(), 64.into())))
+    }
+
+    /// The modulus that is come near to, again and again, at high frequencies: there `exp(-j omega tau)` is 1 and -1 in turn. `None` where the terms with the
+    /// highest power of `s` are not all in phase at one of these.
+    fn limit(&self) -> Option<Rational> {
+        let order = self.below[0].degree()?;
+        let highest = |parts: &[UniPoly]| -> Option<Vec<Rational>> {
+            let is_low = parts.iter().all(|p| p.degree().is_none_or(|degree| degree <= order));
+            is_low.then(|| parts.iter().map(|p| Rational::from(p.coeff(order))).collect())
+        };
+        let (above, below) = (highest(&self.above)?, highest(&self.below)?);
+        let sum = |list: &[Rational]| list.iter().fold(Rational::ZERO, |sum, c| sum + c.abs());
+        let outweighing = below[0].abs() - sum(&below[1..]);
+        let limit = sum(&above).checked_div(&outweighing).filter(|limit| limit.sign().is_gt())?;
+        let at = |list: &[Rational], sign: i64| {
+            let power = |k: usize| Rational::from(if k % 2 == 0 { 1 } else { sign });
+            list.iter().enumerate().fold(Rational::ZERO, |sum, (k, c)| sum + c * &power(k)).abs()
+        };
+        let is_in_phase = |sign: &i64| at(&above, *sign).checked_div(&at(&below, *sign)).as_ref() == Some(&limit);
+        [1, -1].iter().any(is_in_phase).then_some(limit)
     }
 
     /// The inverse of the dead time.
