@@ -157,7 +157,7 @@ impl DelayedQuotient {
         let outweighing = below[0].abs() - sum(&below[1..]);
         let limit = sum(&above).checked_div(&outweighing).filter(|limit| limit.sign().is_gt())?;
         let at = |list: &[Rational], sign: i64| {
-            let power = |k: usize| Rational::from(if k % 2 == 0 { 1 } else { sign });
+            let power = |k: usize| Rational::from(if k.is_multiple_of(2) { 1 } else { sign });
             list.iter().enumerate().fold(Rational::ZERO, |sum, (k, c)| sum + c * &power(k)).abs()
         };
         let is_in_phase = |sign: &i64| at(&above, *sign).checked_div(&at(&below, *sign)).as_ref() == Some(&limit);
