@@ -143,6 +143,7 @@ mod certificates {
     mod rates;
     mod rates_held;
     mod readers;
+    mod refused;
     mod smt;
     mod tuned;
 }

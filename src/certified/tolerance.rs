@@ -72,11 +72,26 @@ pub fn certify_tolerance(
             text => return Ok(CertifiedTolerance { text: text?, factor: None }),
         }
     }
-    let close = || {
-        let why = "no certificate: nothing was decided of the box, or the checkers do not see it";
-        Diagnostic::error(Code::NoCertificate, why).help("the answer is printed without '--certificate'").into()
+    let none = || {
+        let (why, help) = match misses_at_nominal(answer.value()) {
+            true => (
+                "no certificate: the nominal point itself misses what is asked for, so that no box around it has one",
+                "'jurist verdict --certificate' proves what the nominal point misses",
+            ),
+            false => (
+                "no certificate: nothing was decided of the box, or the checkers do not see it",
+                "the answer is printed without '--certificate'",
+            ),
+        };
+        Diagnostic::error(Code::NoCertificate, why).help(help).into()
     };
-    by_parts(answer, at, budget)?.ok_or_else(close)
+    by_parts(answer, at, budget)?.ok_or_else(none)
+}
+
+/// Whether the point that is not good is the nominal one.
+fn misses_at_nominal(value: &ToleranceAnswer) -> bool {
+    let BoxDecision::NotStable { witness: Some(witness) } = &value.decision else { return false };
+    value.sides.iter().zip(&witness.point).all(|(side, x)| side.nominal() == x)
 }
 
 /// By parts of the box; `None` where nothing was proved, or is seen.

@@ -5,9 +5,8 @@ use crate::helpers::number::number;
 use crate::helpers::open_loops::{margins_of, stable};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
-use jurist_engine::error::Error;
 use jurist_engine::model::Model;
-use jurist_engine::response::{DelayMargin, PhaseMargin};
+use jurist_engine::response::{DelayMargin, PhaseMargin, Place, Requirement};
 use jurist_engine::show::real;
 
 /// `K exp(-tau s)/(s (s/2 + 1))`.
@@ -102,15 +101,75 @@ fn dead_time_that_is_no_single_factor_is_refused() {
     assert!(refused.contains("E-dead-time"), "{refused}");
 }
 
-/// With dead time in the feedback the peak gain is refused in its own words.
+/// Poles on the axis, as of a resonant controller, and an open loop that does not fall at high frequencies, against grids of frequencies in floating point.
 #[test]
-fn a_norm_with_dead_time_in_the_feedback_is_refused_as_a_norm() {
-    let text = "time = 'continuous'\n[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\nname = 'P'\ninput = 'r - y'\noutput = 'y'\n\
-        transfer = 'exp(-s)/(s+2)'\n";
-    let Err(Error::Refused(refused)) = load(text).ask().norm("r", "y", &Budget::unlimited()) else { panic!("refused") };
-    let first = &refused.diagnostics()[0];
-    assert!(first.message.starts_with("the peak gain") && !first.message.contains("open loop"), "{}", first.message);
-    assert!(!first.help.as_ref().unwrap().contains("--param GAIN"));
+fn resonant_and_neutral_loops_with_dead_time_have_margins() {
+    type Quotient = fn(f64) -> [[f64; 2]; 2];
+    let resonant: Quotient = |w| {
+        // (1/2 (s^2 + 4) + s/5) over (s^2 + 4)(s + 1)
+        let q = 4.0 - w * w;
+        [[q / 2.0, w / 5.0], [q, q * w]]
+    };
+    let neutral: Quotient = |w| [[2.4, 0.3 * w], [2.0, w]];
+    for (transfer, tau, quotient) in
+        [("(1/2 + s/(5*(s^2 + 4)))*exp(-s/5)/(s + 1)", 0.2, resonant), ("3/10*(s + 8)/(s + 2)*exp(-s/2)", 0.5, neutral)]
+    {
+        let model = load(&format!(
+            "time = 'continuous'\n[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\nname = 'L'\ninput = 'r - y'\n\
+             output = 'y'\ntransfer = '{transfer}'\n"
+        ));
+        let answer = model.ask().margins(None, &Rational::ZERO, &Budget::unlimited()).unwrap_or_else(|e| panic!("{e}"));
+        let margins = stable(&answer);
+        // |D|, |N| and |D + N exp(-j w tau)|, |D - N exp(-j w tau)|.
+        let sizes = |w: f64| {
+            let [n, d] = quotient(w);
+            let (cos, sin) = ((w * tau).cos(), (w * tau).sin());
+            let n = [n[0] * cos + n[1] * sin, n[1] * cos - n[0] * sin];
+            [d[0].hypot(d[1]), n[0].hypot(n[1]), (d[0] + n[0]).hypot(d[1] + n[1]), (d[0] - n[0]).hypot(d[1] - n[1])]
+        };
+        let greatest =
+            |f: &dyn Fn([f64; 4]) -> f64| (0..400_000).map(|k| f(sizes(f64::from(k) * 1e-4))).fold(0.0, f64::max);
+        let number = |x: &jurist_algebra::real::Real| x.decimal(12).parse::<f64>().unwrap();
+        // A grid is never above the peak.
+        let near = |found: f64, grid: f64| {
+            assert!(found > grid * (1.0 - 1e-10) && found < grid * (1.0 + 1e-4), "{transfer}: {found} {grid}");
+        };
+        near(number(&margins.peak_sensitivity), greatest(&|[d, _, sum, _]| d / sum));
+        near(1.0 / number(&margins.modulus), greatest(&|[d, _, sum, _]| d / sum));
+        near(number(&margins.peak_complementary), greatest(&|[_, n, sum, _]| n / sum));
+        near(2.0 / number(margins.disk.alpha.as_ref().unwrap()), greatest(&|[_, _, sum, other]| other / sum));
+    }
+}
+
+/// `|L|` of `(s + 1)/(2 s + 4) exp(-s)` rises to a half: the least `|1 + L|` is come near to at high frequencies only, and so are the peaks.
+#[test]
+fn a_modulus_margin_may_be_that_of_the_limit_of_high_frequencies() {
+    let model = load(
+        "time = 'continuous'\n[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\nname = 'L'\ninput = 'r - y'\n\
+         output = 'y'\ntransfer = '(s + 1)/(2*s + 4)*exp(-s)'\n",
+    );
+    let answer = model.ask().margins(None, &Rational::ZERO, &Budget::unlimited()).unwrap_or_else(|e| panic!("{e}"));
+    let margins = stable(&answer);
+    assert_eq!(margins.modulus.exact(), Some("1/2".parse().unwrap()));
+    assert_eq!(margins.peak_complementary.exact(), Some(Rational::ONE));
+    // 2 (1 - 1/2)/(1 + 1/2)
+    assert_eq!(margins.disk.alpha.as_ref().unwrap().exact(), Some("2/3".parse().unwrap()));
+    assert!(matches!(margins.modulus_at.place(), Some(Place::Highest)));
+}
+
+/// Roots of a loop with dead time go on without end, with ever less damping: that is said.
+#[test]
+fn no_damping_is_required_of_a_loop_with_dead_time() {
+    let damping = [Requirement::damping("1/2".parse().unwrap()).unwrap()];
+    let budget = Budget::unlimited();
+    let with = positioner("1", "0.3");
+    let refusals = [
+        with.ask().problem().unwrap().requirements_met(&damping, None, &budget).map(drop),
+        with.ask().free("K").problem().unwrap().required_set(&damping, None, &budget).map(drop),
+    ];
+    for refused in refusals {
+        assert!(refused.unwrap_err().to_string().contains("no loop with dead time has a damping"));
+    }
 }
 
 /// At a zero of the open loop on the axis it is 0, and crosses the negative real axis at no factor.

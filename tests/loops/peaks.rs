@@ -168,3 +168,56 @@ fn modulus_margins_are_the_minimum_of_a_search_to_sixty_digits() {
         assert!(difference < Rational::from(10).pow(-60).unwrap(), "{modulus:?} {difference:?}");
     }
 }
+
+/// The closed loop at a frequency as a matrix in floating point: states by `j omega`, dead times by their exponentials.
+fn gain_at(blocks: &[(f64, f64, f64)], k: f64, omega: f64) -> f64 {
+    // Of the paths K c exp(-tau s)/(T s + 1) from the error back to it, the first is the output.
+    let path = |(c, time, tau): &(f64, f64, f64)| {
+        let (size, turn) = (c / (1.0 + (time * omega).powi(2)).sqrt(), -tau * omega - (time * omega).atan());
+        [size * turn.cos(), size * turn.sin()]
+    };
+    let paths: Vec<[f64; 2]> = blocks.iter().map(path).collect();
+    let sum = paths.iter().fold([1.0, 0.0], |sum, p| [sum[0] + k * p[0], sum[1] + k * p[1]]);
+    k * paths[0][0].hypot(paths[0][1]) / sum[0].hypot(sum[1])
+}
+
+/// Dead time in the feedback, and several dead times, against a dense grid of frequencies.
+#[test]
+fn peaks_with_dead_time_in_the_feedback_are_those_of_a_dense_grid() {
+    for (k, blocks) in [
+        (2.0, vec![(1.0, 1.0, 0.5)]),
+        (1.0, vec![(1.0, 3.0, 1.0)]),
+        // A predictor of a wrong dead time: 1 - exp(-5 s) beside exp(-6 s).
+        (2.0, vec![(1.0, 2.0, 6.0), (1.0, 2.0, 0.0), (-1.0, 2.0, 5.0)]),
+        (0.5, vec![(2.0, 1.0, 0.5), (1.0, 4.0, 1.5)]),
+    ] {
+        let plants: Vec<String> = blocks
+            .iter()
+            .enumerate()
+            .map(|(i, (c, time, tau))| {
+                format!("[[block]]\ninput = 'u'\noutput = 'y{i}'\ntransfer = '{c}*exp(-{tau}*s)/({time}*s + 1)'\n")
+            })
+            .collect();
+        let error = (0..blocks.len()).fold("r".to_owned(), |text, i| text + &format!(" - y{i}"));
+        let model = read(&format!(
+            "time = 'continuous'\n[loop]\ninputs = ['r']\noutputs = ['y0']\n[[block]]\ninput = '{error}'\noutput = 'u'\ngain = '{k}'\n{}",
+            plants.concat()
+        ));
+        let found = model.ask().norm("r", "y0", &Budget::unlimited()).unwrap();
+        let value: f64 = found.value().peak.as_ref().expect("a stable loop").value.decimal(12).parse().unwrap();
+        let grid = (0..200_000).map(|i| gain_at(&blocks, k, f64::from(i) * 1e-4)).fold(0.0, f64::max);
+        assert!((value - grid).abs() < 1e-6 * grid, "{blocks:?}: {value} {grid}");
+    }
+}
+
+/// Nothing but dead time between input and output: the peak is that of what stands before it, and a pure dead time has modulus one everywhere.
+#[test]
+fn a_modulus_that_is_the_same_everywhere_is_a_peak() {
+    let model = read(
+        "time = 'continuous'\n[loop]\ninputs = ['r']\noutputs = ['y', 'z']\n[[block]]\ninput = 'r'\noutput = 'y'\ntransfer = '3*exp(-s)'\n\
+         [[block]]\ninput = 'r - z'\noutput = 'z'\ntransfer = 'exp(-s)/(s + 1)'\n",
+    );
+    let peak = |output: &str| model.ask().norm("r", output, &Budget::unlimited()).unwrap().into_value().peak.unwrap();
+    assert_eq!(peak("y").value.decimal(6), "3");
+    assert!(peak("z").value.compare_rational(&"1/2".parse().unwrap()).is_gt());
+}

@@ -181,3 +181,39 @@ fn the_damping_of_a_sampled_pair() {
         );
     }
 }
+
+/// With direct feedthrough the connection of blocks divides by the gain; cut at the gain or at its output the loop is the same.
+#[test]
+fn a_cut_at_a_gain_beside_direct_feedthrough_has_the_sets_of_the_cut_at_its_output() {
+    for (time, transfer) in [
+        ("continuous", "(s^2 + L*s + 3)/((s - 1)*(s + 2))"),
+        ("continuous", "(2*s + L)/(s + 1)"),
+        ("discrete", "(z^2 + L*z/4 + 1/3)/(2*z*(z - 1/2))"),
+    ] {
+        let model = load(&format!(
+            "time = '{time}'\n[parameters]\nK = {{ nominal = 1, min = '1/10', max = 10 }}\nL = {{ nominal = 1, min = 0, max = 10 }}\n[loop]\n\
+             inputs = ['r']\noutputs = ['y']\n[[block]]\ninput = 'r - y'\noutput = 'u'\ngain = 'K'\n[[block]]\ninput = 'u'\noutput = 'y'\n\
+             transfer = '{transfer}'\n"
+        ));
+        let mut ends = 0;
+        for requirement in [
+            Requirement::phase_margin(&number("40")),
+            Requirement::gain_margin(&number("5/4")),
+            Requirement::modulus_margin(number("1/2")),
+            Requirement::disk_margin(number("1/2")),
+        ] {
+            let requirement = [requirement.unwrap()];
+            for name in ["K", "L"] {
+                let set = |at: &str| {
+                    let answer = required(&model, name, Some(at), &requirement);
+                    let end = |end: &Option<RequiredEnd>| end.as_ref().map(|end| end.value().decimal(20));
+                    answer.value().intervals.iter().map(|i| [end(&i.lower), end(&i.upper)]).collect::<Vec<_>>()
+                };
+                let [at_gain, at_signal] = ["K", "u"].map(set);
+                assert_eq!(at_gain, at_signal, "{transfer}: {} in {name}", requirement[0].text());
+                ends += at_gain.len();
+            }
+        }
+        assert!(ends > 3, "{transfer}: {ends}");
+    }
+}

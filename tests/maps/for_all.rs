@@ -347,3 +347,46 @@ fn a_loop_in_one_line_is_asked_with_requirements() {
     let run = jurist(&["intervals", line, "--param", "K", "--for-all", "K=1..6"]);
     assert!(run.status == 2 && run.stderr.contains("'K' is what is asked about"), "{}", run.stderr);
 }
+
+/// `s + x - 1 + 4 (L - 1/2)^2` again, with work for some pieces only: what is proved of them is printed, and that it is not all.
+#[test]
+fn what_is_known_of_one_parameter_is_printed_when_the_budget_ends() {
+    let text = "time = 'continuous'\nparameters = { K = { nominal = 2, min = -8, max = 8 }, c = 0 }\n\
+        loop.characteristic = 's + K - 1 + 4*(c - 1/2)^2'\n";
+    let arguments =
+        |work: &'static str| ["intervals", "-", "--param", "K", "--for-all", "c=0..1", "--work", work, "-q"];
+    let (mut partial, mut nothing) = (0, 0);
+    for work in ["3000", "7000", "20000", "50000", "100000"] {
+        let run = jurist_with_input(&arguments(work), text.as_bytes());
+        assert!(run.status == 3 && run.stderr.contains("undecided: the budget ran out: work"), "{}", run.stderr);
+        assert!(run.stdout.contains("the budget ran out") && run.stdout.contains("undecided in"), "{}", run.stdout);
+        if run.stdout.contains("<= K <=") {
+            partial += 1
+        } else {
+            nothing += 1
+        }
+        let json = jurist_with_input(&[&arguments(work)[..], &["--json"]].concat(), text.as_bytes());
+        let found: serde_json::Value = serde_json::from_str(&json.stdout).unwrap();
+        assert!(json.status == 3 && !found["undecided"].as_array().unwrap().is_empty(), "{found}");
+    }
+    assert!(partial > 0 && nothing > 0, "{partial} {nothing}");
+    assert_eq!(jurist_with_input(&arguments("100000000"), text.as_bytes()).status, 0);
+}
+
+/// One value of a range may spoil all values of the parameter: where a pole is cancelled, or where there is no damping whatever the gain.
+#[test]
+fn a_single_value_that_spoils_all_is_named() {
+    for (characteristic, range, why) in [
+        ("s^2 + (1 + L)*s + K*L/L - 1", "L=-1/2..1", "undefined at L = 0"),
+        ("s^2 + (1 + L)*s + K*L/L - 1", "L=0..1", "undefined at L = 0"),
+        ("s^2 + (L - 1/3)^2*s + K + 1", "L=0..1", "roots on the boundary at L = 1/3"),
+    ] {
+        let text = format!(
+            "time = 'continuous'\nparameters = {{ K = {{ nominal = 1, min = 0, max = 10 }}, L = 1 }}\nloop.characteristic = '{characteristic}'\n"
+        );
+        let arguments = ["intervals", "-", "--param", "K", "--for-all", range, "--work", "300000000"];
+        let run = jurist_with_input(&arguments, text.as_bytes());
+        assert!(run.status == 0 && run.stdout.contains(why), "{characteristic}: {}{}", run.stdout, run.stderr);
+        assert!(run.stdout.contains("undecided in") && !run.stdout.contains("for\n"), "{}", run.stdout);
+    }
+}

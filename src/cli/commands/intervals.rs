@@ -151,6 +151,10 @@ fn required(
     let output = &options.decision.output;
     let digits = output.digits() as usize;
     context.warn(None, answer.problem().warnings());
+    if let Some(stopped) = &answer.value().stopped {
+        let text = || Some(answer.text(requirements, digits));
+        return context.undecided(output, stopped, text, || answer.json(requirements, digits));
+    }
     context.answer(output, || answer.text(requirements, digits), || answer.json(requirements, digits))?;
     let make = || certify_required_intervals(answer, requirements, at, &context.budget);
     let certified = certified(context, &options.certificate, make)?;

@@ -157,6 +157,11 @@ pub(super) static PEAKS: Method = Method::new(
     "The square of the modulus is a rational function of the half-size variable; the zeros of its derivative are isolated exactly or with enclosed constants, and the greatest of its values is taken.",
     "response::Norm",
 );
+pub(super) static DELAYED_PEAKS: Method = Method::new(
+    "greatest modulus on the axis with dead time",
+    "The square of the modulus is a function of the frequency, its cosine and its sine times the dead time; the zeros of its slope are isolated with enclosures up to a frequency beyond which a bound shows the modulus to be smaller.",
+    "response::Norm",
+);
 pub(super) static FREQUENCIES: Method = Method::new(
     "crossings of the open loop",
     "Frequencies at which the open loop has modulus one, is real, or is nearest to -1 are real zeros of polynomials in the half-size variable, isolated exactly or with enclosed constants.",

@@ -114,11 +114,6 @@ pub(crate) static NO_FIXED_ORDER: Refusal = Refusal::new(
     "the dead time of '{name}' is no fixed number of samples",
     "give it as a multiple of the sample time (delay = \"1.5*T\"), or set all that it depends on",
 );
-pub(crate) static FEEDBACK: Refusal = Refusal::new(
-    Code::DeadTime,
-    "the peak gain is not known where dead time is in the feedback, or in one of several paths to the output",
-    "the peak of the sensitivity 1/(1 + L) is the inverse of the modulus margin: 'jurist margins'",
-);
 pub(crate) static NOT_OF_SAMPLES: Refusal = Refusal::new(
     Code::Discretize,
     "the peak-to-peak gain (l1 norm) is known in discrete time only, and this loop is continuous",
@@ -128,6 +123,11 @@ pub(crate) static ONE_FACTOR: Refusal = Refusal::new(
     Code::DeadTime,
     "with dead time this is known where one factor of the open loop has it, and all else is rational",
     "the gain margin is the limit of a gain: 'jurist intervals --param GAIN'",
+);
+pub(crate) static NO_DAMPING: Refusal = Refusal::new(
+    Code::DeadTime,
+    "no loop with dead time has a damping: it has infinitely many roots, and theirs goes to 0",
+    "ask for '--settling-time' or a decay rate, or read the damping of the rightmost roots in 'jurist roots'",
 );
 pub(crate) static DECAY: Refusal = Refusal::new(
     Code::DeadTime,
@@ -161,12 +161,27 @@ pub(crate) static DELAY_AT_POINTS: Refusal =
     Refusal::new(Code::Require, "a delay margin is decided at points only, not as a set of a parameter", AT_A_POINT);
 pub(crate) static NOT_IN_A_PLANE: Refusal =
     Refusal::new(Code::Require, "the requirement {name} is not decided for two parameters", "{help}");
+pub(crate) static NOT_FOR_ALL: Refusal = Refusal::new(
+    Code::Require,
+    "the requirement {name} is not decided for all values of other names",
+    "ask 'verdict' with a value for every parameter; phase, gain, modulus and disk margins and the peak of T are decided for all values",
+);
 pub(crate) static NOT_OVER_A_BOX: Refusal =
     Refusal::new(Code::Require, "the requirement {name} is not decided over a box of tolerances", "{help}");
 pub(crate) static NOT_ALGEBRAIC: Refusal =
     Refusal::new(Code::NoCertificate, "{what}: the limits are not algebraic numbers", OTHER_CERTIFICATES);
 pub(crate) static NO_CERTIFICATE: Refusal =
     Refusal::new(Code::NoCertificate, "no certificate{of}: {why}", OTHER_CERTIFICATES);
+pub(crate) static REQUIREMENT_NOT_CERTIFIED: Refusal = Refusal::new(
+    Code::NoCertificate,
+    "no certificate of '{asked}': the checkers know margins that are stability for all factors at a cut of the loop",
+    "phase, gain, modulus and disk margins and the peak of T are such, at a signal or a block; the answer is printed without '--certificate'",
+);
+pub(crate) static WIDE_DISK: Refusal = Refusal::new(
+    Code::NoCertificate,
+    "no certificate of '{asked}': the checkers know disk margins below 2, whose factors fill a disc; from 2 on they fill a half plane",
+    "the answer is printed without '--certificate'",
+);
 pub(crate) static CERTIFIED_BESIDE: Refusal = Refusal::new(
     Code::NoCertificate,
     "no certificate of this map by boxes: {why}",

@@ -54,6 +54,7 @@ pub fn rows() -> &'static [Row] {
 const BESIDE: Coverage = R(&BESIDE_DEAD_TIME);
 const NO_ORDER: Coverage = R(&NO_FIXED_ORDER);
 const NO_DELAY: Coverage = R(&DEAD_TIME);
+const UNDAMPED: Coverage = R(&NO_DAMPING);
 const NO_FUNCTIONS: Coverage = R(&FUNCTIONS);
 const BOX_ALONE: Coverage = R(&ONLY_THE_BOX);
 
@@ -72,7 +73,7 @@ static ROWS: &[Row] = &[
     Row::new(Asked::Analyze, "analyze", [A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), BESIDE, A(&SEVERAL)]).called("analyze"),
     Row::new(Asked::Charpoly, "charpoly", [A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), NO_ORDER]).called("charpoly"),
     at_a_point(Asked::Margins, "margins", [A(&FREQUENCIES), A(&FREQUENCIES), OPEN_LOOP, BESIDE]).called("margins"),
-    at_a_point(Asked::Norm, "norm", [A(&PEAKS), A(&PEAKS), P(&PEAKS, &FEEDBACK), BESIDE]).called("norm"),
+    at_a_point(Asked::Norm, "norm", [A(&PEAKS), A(&PEAKS), A(&DELAYED_PEAKS), BESIDE]).called("norm"),
     at_a_point(Asked::PeakToPeak, "norm --l1", [A(&IMPULSES), A(&ENCLOSED_IMPULSES), NO_DELAY, NO_DELAY]).in_time(Time::Discrete),
     Row::new(Asked::PeakToPeakContinuous, "norm --l1", [R(&NOT_OF_SAMPLES); 6]).in_time(Time::Continuous),
     at_a_point(Asked::Bode, "bode", [A(&FREQUENCIES), A(&FREQUENCIES), OPEN_LOOP, BESIDE]).called("bode"),
@@ -103,11 +104,11 @@ static ROWS: &[Row] = &[
     Row::new(Asked::IntervalsWithMargins, "intervals --param NAME --modulus-margin 1/100", [A(&RESULTANTS), A(&ENCLOSED_RESULTANTS), A(&ENCLOSED_RESULTANTS), BOXES_WITH_DEAD_TIME, BESIDE, NO_ORDER]),
     Row::new(Asked::MapWithMargins, "map -x NAME -y NAME --modulus-margin 1/100", [A(&RESULTANTS), A(&RESULTANTS), B(&REQUIRED_BOXES), BOXES_WITH_DEAD_TIME, BESIDE, NO_ORDER]),
     Row::new(Asked::ToleranceWithMargins, "tolerance --tol NAME=10% --modulus-margin 1/100", [A(&TENSOR), A(&TENSOR), A(&REQUIRED_BOXES), BOXES_WITH_DEAD_TIME, BESIDE, NO_ORDER]),
-    at_a_point(Asked::VerdictWithDamping, "verdict --damping 1/10", [A(&ROOTS), A(&ROOTS), NO_DELAY, BESIDE]),
-    Row::new(Asked::IntervalsWithDamping, "intervals --param NAME --damping 1/10", [A(&ROOTS), A(&ROOTS), A(&ROOTS), NO_DELAY, BESIDE, NO_ORDER]),
-    Row::new(Asked::MapWithDamping, "map -x NAME -y NAME --damping 1/10", [A(&RESULTANTS), A(&RESULTANTS), B(&REQUIRED_BOXES), NO_DELAY, NO_DELAY, NO_ORDER]).in_time(Time::Continuous),
+    at_a_point(Asked::VerdictWithDamping, "verdict --damping 1/10", [A(&ROOTS), A(&ROOTS), UNDAMPED, UNDAMPED]),
+    Row::new(Asked::IntervalsWithDamping, "intervals --param NAME --damping 1/10", [A(&ROOTS), A(&ROOTS), A(&ROOTS), UNDAMPED, UNDAMPED, NO_ORDER]),
+    Row::new(Asked::MapWithDamping, "map -x NAME -y NAME --damping 1/10", [A(&RESULTANTS), A(&RESULTANTS), B(&REQUIRED_BOXES), UNDAMPED, UNDAMPED, NO_ORDER]).in_time(Time::Continuous),
     Row::new(Asked::MapWithDampingDiscrete, "map -x NAME -y NAME --damping 1/10", [R(&NOT_IN_A_PLANE), R(&NOT_IN_A_PLANE), R(&NOT_IN_A_PLANE), NO_DELAY, NO_DELAY, NO_ORDER]).in_time(Time::Discrete),
-    Row::new(Asked::ToleranceWithDamping, "tolerance --tol NAME=10% --damping 1/10", [A(&TENSOR), A(&TENSOR), A(&REQUIRED_BOXES), BOX_ALONE, BOX_ALONE, NO_ORDER]).in_time(Time::Continuous),
+    Row::new(Asked::ToleranceWithDamping, "tolerance --tol NAME=10% --damping 1/10", [A(&TENSOR), A(&TENSOR), A(&REQUIRED_BOXES), UNDAMPED, UNDAMPED, NO_ORDER]).in_time(Time::Continuous),
     Row::new(Asked::ToleranceWithDampingDiscrete, "tolerance --tol NAME=10% --damping 1/10", [R(&NOT_OVER_A_BOX), R(&NOT_OVER_A_BOX), R(&NOT_OVER_A_BOX), BOX_ALONE, BOX_ALONE, NO_ORDER]).in_time(Time::Discrete),
     at_a_point(Asked::VerdictWithDelayMargin, "verdict --delay-margin 1/1000", [A(&FREQUENCIES), A(&FREQUENCIES), OPEN_LOOP, BESIDE]),
     Row::new(Asked::IntervalsWithDelayMargin, "intervals --param NAME --delay-margin 1/1000", [R(&DELAY_AT_POINTS), R(&DELAY_AT_POINTS), R(&DELAY_AT_POINTS), R(&DELAY_AT_POINTS), BESIDE, NO_ORDER]),

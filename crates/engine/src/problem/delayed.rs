@@ -204,7 +204,7 @@ fn too_many() -> Error {
 }
 
 /// The greatest common divisor of the dead times, and what multiples of it they are.
-fn base_delay(delays: &[(usize, RationalFunction)]) -> Result<(BaseDelay, Vec<usize>), Error> {
+pub(crate) fn base_delay(delays: &[(usize, RationalFunction)]) -> Result<(BaseDelay, Vec<usize>), Error> {
     let first = &delays[0].1;
     let mut ratios = Vec::with_capacity(delays.len());
     for (_, delay) in delays {

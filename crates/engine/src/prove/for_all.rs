@@ -3,6 +3,7 @@
 use super::statement::{about, about_at_rates, number, object, region, set};
 use super::text::to_text;
 use super::{no_certificate, refuse_free_bound};
+use crate::coverage::refusals::{REQUIREMENT_NOT_CERTIFIED, WIDE_DISK};
 use crate::error::Error;
 use crate::model::Cut;
 use crate::problem::{Problem, Region};
@@ -14,6 +15,9 @@ use serde_json::Value;
 
 /// The schema of these certificates.
 const SCHEMA: &str = "jurist/certificate/10";
+
+/// The requirement whose factors are a disc of their own.
+const DISK: &str = "disk_margin";
 
 /// The tangent of half of an angle is enclosed to so many bits.
 const TURN_BITS: u64 = 48;
@@ -121,7 +125,7 @@ impl Problem {
         at: Option<&str>,
         budget: &Budget,
     ) -> Result<Value, Error> {
-        let refused = || Err(no_certificate(format!("no certificate: nothing proves '{}'", requirement.text())));
+        let refused = || Err(REQUIREMENT_NOT_CERTIFIED.diagnostic(&[("asked", &requirement.text())]).into());
         if requirement.signals().is_some() {
             return refused();
         }
@@ -134,6 +138,10 @@ impl Problem {
                     None => (rounded_degrees(twice_cosine), around_rounded(turns)),
                 };
                 vec![("bound", number(&degrees)), ("turns", turns.iter().map(number).collect())]
+            }
+            // From 2 on the factors of a disk margin fill a half plane or more.
+            Rule::Circle(circle) if requirement.name() == DISK && *circle.asked() >= Rational::from(2) => {
+                return Err(WIDE_DISK.diagnostic(&[("asked", &requirement.text())]).into());
             }
             Rule::Circle(circle) => vec![("bound", number(circle.asked()))],
             Rule::DeadTime(_) | Rule::Sector(_) | Rule::Modulus { .. } => return refused(),

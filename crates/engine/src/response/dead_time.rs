@@ -6,11 +6,13 @@
 //! which the modulus of the open loop tells that there is nothing to find.
 
 use super::crossings::{Crossings, PhaseCrossing};
+use super::delayed_axis::DelayedAxis;
+use super::delayed_peak::DelayedQuotient;
 use super::enclosed::enclosed;
 use super::ground::Integers;
 use super::margins::{GainMargin, PhaseMargin, StableMargins};
 use super::parts::Parts;
-use super::value::{reciprocal, square_root};
+use super::value::reciprocal;
 use super::{DelayMargin, DiskMargin, Extreme, Place, Value};
 use crate::answer::stable_factors;
 use crate::error::Error;
@@ -18,20 +20,16 @@ use crate::problem::refused;
 use crate::stability::dead_time::GainLoop;
 use crate::stability::{Range, zeros_in};
 use jurist_algebra::ball::{Ball, tan};
-use jurist_algebra::limits::{Budget, Exhausted, Stop};
+use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
-use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction, UniPoly};
-use jurist_algebra::real::Real;
-use jurist_algebra::symbols::{Definition, MovingSymbols};
+use jurist_algebra::poly::{Domain, MultiPoly, UniPoly};
 use std::cmp::Ordering;
-use std::sync::Arc;
 
 /// The rational factor of the open loop and its dead time.
 pub(super) struct DeadTime<'a> {
     parts: &'a Parts<Integers>,
     tau: &'a Rational,
-    /// `cos(tau omega)` and `sin(tau omega)` of the angular frequency, which is variable 0.
-    turning: Arc<MovingSymbols>,
+    axis: DelayedAxis,
 }
 
 /// Phase crossings are listed where the open loop's modulus is above one over this.
@@ -39,54 +37,45 @@ const LISTED: i64 = 100;
 
 impl<'a> DeadTime<'a> {
     pub fn new(parts: &'a Parts<Integers>, tau: &'a Rational) -> DeadTime<'a> {
-        let time = &RationalFunction::variable(0) * &RationalFunction::from(tau.clone());
-        let polynomial = vec![RationalFunction::one(), RationalFunction::zero(), RationalFunction::one()];
-        let part = |name: &str, index| {
-            (name.to_owned(), Definition::Fundamental { polynomial: polynomial.clone(), index, time: time.clone() })
-        };
-        DeadTime { parts, tau, turning: Arc::new(MovingSymbols::new(vec![part("cos", 0), part("sin", 1)])) }
-    }
-
-    /// A polynomial in `x = -omega^2` as one in `omega`.
-    fn in_omega(p: &UniPoly) -> MultiPoly {
-        let sign = |i: usize| if i.is_multiple_of(2) { Integer::ONE } else { -Integer::ONE };
-        let terms = p.coeffs().iter().enumerate().map(|(i, c)| (vec![2 * i as u32], c * &sign(i)));
-        MultiPoly::from_terms(terms)
+        DeadTime { parts, tau, axis: DelayedAxis::new(tau.clone()) }
     }
 
     /// Twice the real part of `N conj(D0) exp(-j omega tau)`.
     fn twice_real(&self) -> MultiPoly {
         let r = &self.parts.reduced;
-        let turned = DeadTime::in_omega(&r.imaginary).times(&MultiPoly::variable(0)).scaled_by(&Integer::from(2));
-        let along = DeadTime::in_omega(&r.twice_real).times(&MultiPoly::variable(1));
+        let turned = DelayedAxis::of_square(&r.imaginary).times(&MultiPoly::variable(0)).scaled_by(&Integer::from(2));
+        let along = DelayedAxis::of_square(&r.twice_real).times(&MultiPoly::variable(1));
         along.plus(&turned.times(&MultiPoly::variable(2)))
     }
 
     /// Twice its imaginary part, from twice the real part of `N conj(D0)` and from the imaginary part over `omega`.
     fn twice_imaginary(along: &UniPoly, across: &UniPoly) -> MultiPoly {
-        let turned = DeadTime::in_omega(across).times(&MultiPoly::variable(0)).scaled_by(&Integer::from(2));
-        turned.times(&MultiPoly::variable(1)).minus(&DeadTime::in_omega(along).times(&MultiPoly::variable(2)))
+        let turned = DelayedAxis::of_square(across).times(&MultiPoly::variable(0)).scaled_by(&Integer::from(2));
+        turned.times(&MultiPoly::variable(1)).minus(&DelayedAxis::of_square(along).times(&MultiPoly::variable(2)))
     }
 
-    /// The derivative by `omega`, times the denominator of the dead time.
-    fn derivative(&self, p: &MultiPoly) -> MultiPoly {
-        let (up, down) = (self.tau.numerator(), self.tau.denominator());
-        let by_cos = p.derivative(1).times(&MultiPoly::variable(2)).scaled_by(&(-up.clone()));
-        let by_sin = p.derivative(2).times(&MultiPoly::variable(1)).scaled_by(&up);
-        p.derivative(0).scaled_by(&down).plus(&by_cos).plus(&by_sin)
-    }
-
-    /// An angular frequency beyond which the modulus of the open loop is below `1/ratio`.
-    fn beyond(&self, ratio: i64, budget: &Budget) -> Result<Rational, Error> {
+    /// An angular frequency beyond which the modulus of the open loop is below a hundredth, or where it does not fall as far, below a number between its limit
+    /// and one.
+    fn beyond(&self, budget: &Budget) -> Result<Rational, Error> {
         let r = &self.parts.reduced;
-        let square = Integer::from(ratio) * &Integer::from(ratio);
-        let excess = r.numerator_squared.scaled(&square).minus(&r.denominator_squared);
-        if r.numerator_squared.degree() >= r.denominator_squared.degree() {
-            let help = "such a loop bears no delay, or its margins are those of its modulus alone";
-            return Err(refused("margins with dead time are known where the open loop's modulus falls to zero", help));
+        let (above, below) = (&r.numerator_squared, &r.denominator_squared);
+        let limit = match above.degree().cmp(&below.degree()) {
+            Ordering::Less => Rational::ZERO,
+            Ordering::Equal => quotient_of_leading(above, below),
+            Ordering::Greater => Rational::ONE,
+        };
+        if limit >= Rational::ONE {
+            let help = "such a loop bears no delay, and its gain margin is a limit of 'intervals'";
+            return Err(refused(
+                "the modulus of the open loop with dead time is one or more at high frequencies",
+                help,
+            ));
         }
-        let below_zero = Range::between(None, Some(Rational::ZERO));
-        let zeros = zeros_in(&excess, &below_zero, budget)?;
+        // Toward a limit that is not 0 crossings go on without end.
+        let part = if limit.is_zero() { LISTED * LISTED } else { LISTED };
+        let level = &limit + &(&(Rational::ONE - &limit) * &Rational::new(1.into(), part.into()));
+        let excess = above.scaled(&level.denominator()).minus(&below.scaled(&level.numerator()));
+        let zeros = zeros_in(&excess, &Range::between(None, Some(Rational::ZERO)), budget)?;
         Ok(match zeros.first() {
             // x = -omega^2 of the highest frequency.
             Some(x) => {
@@ -97,34 +86,6 @@ impl<'a> DeadTime<'a> {
         })
     }
 
-    fn zeros(&self, p: &MultiPoly, end: &Rational, budget: &Budget) -> Result<Vec<Real>, Exhausted> {
-        let found = self.turning.zeros_in(&p.clone().into(), &Rational::ZERO, end, end, budget)?;
-        match found.undecided.is_empty() {
-            true => Ok(found.zeros),
-            false => Err(Exhausted::new(Stop::Separation, "frequencies of a loop with dead time")),
-        }
-    }
-
-    /// `above/below` at an angular frequency.
-    fn quotient(&self, above: &MultiPoly, below: &MultiPoly, at: &Real) -> Real {
-        let (above, below, at, turning) = (above.clone(), below.clone(), at.clone(), Arc::clone(&self.turning));
-        enclosed("quotient at a frequency", move |bits| {
-            let (lo, hi) = at.refined(&Rational::dyadic(&Integer::ONE, bits)).enclosure();
-            let omega = Ball::between(&lo, &hi, bits);
-            let values = turning.enclose(&[above.clone(), below.clone()], &omega)?;
-            Some(values[0].div(&values[1])?.to_enclosure())
-        })
-    }
-
-    /// The frequency as a place.
-    fn place(omega: &Real) -> Place {
-        let omega = omega.clone();
-        Place::Inside(enclosed("minus the square of a frequency", move |bits| {
-            let omega = super::enclosed::within(&omega, bits);
-            Some(omega.mul(&omega, bits).neg())
-        }))
-    }
-
     /// All crossings of modulus one, and those of the negative real axis down to a hundredth.
     pub fn crossings(&self, mut rational: Crossings, budget: &Budget) -> Result<Crossings, Error> {
         for crossing in &mut rational.gain {
@@ -132,7 +93,7 @@ impl<'a> DeadTime<'a> {
         }
         rational.phase.retain(|c| matches!(c.place, Place::Lowest));
         rational.phase_everywhere = false;
-        let end = self.beyond(LISTED, budget)?;
+        let end = self.beyond(budget)?;
         // At a zero of the open loop on the axis both parts vanish: no factor makes it -1 there.
         let r = &self.parts.reduced;
         let common = budget.enter(|| r.twice_real.gcd(&r.imaginary))?;
@@ -140,11 +101,11 @@ impl<'a> DeadTime<'a> {
             [&r.twice_real, &r.imaginary].map(|p| p.div_exact(&common).expect("a gcd divides both parts"));
         let imaginary = DeadTime::twice_imaginary(&along, &across);
         let real = self.twice_real();
-        let below = DeadTime::in_omega(&self.parts.reduced.denominator_squared).scaled_by(&Integer::from(-2));
-        for omega in self.zeros(&imaginary, &end, budget)? {
-            let factor = self.quotient(&below, &real, &omega);
+        let below = DelayedAxis::of_square(&self.parts.reduced.denominator_squared).scaled_by(&Integer::from(-2));
+        for omega in self.axis.zeros(&imaginary, &end, budget)? {
+            let factor = self.axis.quotient(&below, &real, &omega);
             if budget.enter(|| factor.sign())?.is_gt() {
-                rational.phase.push(PhaseCrossing { place: DeadTime::place(&omega), factor: Value::Number(factor) });
+                rational.phase.push(PhaseCrossing { place: DelayedAxis::place(&omega), factor: Value::Number(factor) });
             }
         }
         Ok(rational)
@@ -162,20 +123,16 @@ impl<'a> DeadTime<'a> {
         budget.step("delay margin");
         let delay = DelayMargin::over(self.parts, crossings, budget)?;
         budget.step("modulus margin");
-        let r = &self.parts.reduced;
-        let both = DeadTime::in_omega(&r.numerator_squared.plus(&r.denominator_squared));
-        let sum = both.plus(&self.twice_real());
-        let denominator = DeadTime::in_omega(&r.denominator_squared);
-        let modulus_at = self.extreme([&sum, &denominator], Ordering::Less, |r| Rational::ONE - r, budget)?;
-        let modulus = modulus_at.root(budget)?;
-        let peak_sensitivity = reciprocal(&modulus, budget)?;
+        let [d, n] = [&self.parts.denominator.re, &self.parts.numerator.re];
+        let sensitivity = self.peak(vec![d.clone()], budget)?;
+        let peak_sensitivity = sensitivity.root(budget)?;
+        let modulus = reciprocal(&peak_sensitivity, budget)?;
+        let modulus_at = inverse(sensitivity, &Rational::ONE, budget)?;
         budget.step("peak of the complementary sensitivity");
-        let numerator = DeadTime::in_omega(&r.numerator_squared);
-        let most = |r: &Rational| r / &(Rational::ONE - r);
-        let complementary_at = self.extreme([&numerator, &sum], Ordering::Greater, most, budget)?;
+        let complementary_at = self.peak(vec![UniPoly::zero(), n.clone()], budget)?;
         let peak_complementary = complementary_at.root(budget)?;
         budget.step("disk margin");
-        let disk = self.disk(&sum, skew, budget)?;
+        let disk = self.disk(skew, budget)?;
         Ok(StableMargins {
             gain,
             phase,
@@ -216,77 +173,43 @@ impl<'a> DeadTime<'a> {
         Ok(PhaseMargin::Angle { tangent: Some(Box::new(tangent)), place })
     }
 
-    /// The value of `above/below`, squares of moduli in `omega`, that is `wanted` of all others; where the modulus of the open loop is below
-    /// `r`, the root of the quotient is not beyond `bound(r)`, which goes to its limit as `r` falls.
-    fn extreme(
-        &self,
-        [above, below]: [&MultiPoly; 2],
-        wanted: Ordering,
-        bound: impl Fn(&Rational) -> Rational,
-        budget: &Budget,
-    ) -> Result<Extreme, Error> {
-        let below_zero = Range::between(None, Some(Rational::ZERO));
-        if !zeros_in(&self.parts.reduced.denominator_squared, &below_zero, budget)?.is_empty() {
-            let help = "the gain, phase and delay margins of such a loop are limits of 'intervals'";
-            return Err(refused("the open loop with dead time has poles on the imaginary axis beside 0", help));
-        }
-        let slope = self.derivative(above).times(below).minus(&above.times(&self.derivative(below)));
-        let at_zero = |p: &MultiPoly| {
-            let p = p.substitute(0, &Rational::ZERO).0.substitute(1, &Rational::ONE).0;
-            p.substitute(2, &Rational::ZERO).0.as_constant().expect("a number")
-        };
-        let (a, b) = (at_zero(above), at_zero(below));
-        let mut ratio = 4;
-        loop {
-            let end = self.beyond(ratio, budget)?;
-            let mut best: Option<(Place, Real)> = None;
-            if !b.is_zero() {
-                best = Some((Place::Lowest, Real::from(Rational::new(a.clone(), b.clone()))));
-            }
-            for omega in self.zeros(&slope, &end, budget)? {
-                let value = self.quotient(above, below, &omega);
-                let better = match &best {
-                    None => true,
-                    Some((_, known)) => value.compare(known, budget)? == wanted,
-                };
-                if better {
-                    best = Some((DeadTime::place(&omega), value));
-                }
-            }
-            let bound = bound(&Rational::new(Integer::ONE, Integer::from(ratio)));
-            let square = &bound * &bound;
-            if let Some((place, value)) = best
-                && budget.enter(|| value.compare_rational(&square))? == wanted
-            {
-                return Ok(Extreme::At { place, value: Value::Number(value), attained: true });
-            }
-            ratio *= 4;
-        }
+    /// The greatest modulus of a quotient whose denominator is that of the closed loop.
+    fn peak(&self, above: Vec<UniPoly>, budget: &Budget) -> Result<Extreme, Exhausted> {
+        let below = vec![self.parts.denominator.re.clone(), self.parts.numerator.re.clone()];
+        DelayedQuotient::new(self.tau.clone(), above, below).peak(budget)
     }
 
     /// The least `2 |1 + L|/|(1 + skew) - (1 - skew) L|`.
-    fn disk(&self, sum: &MultiPoly, skew: &Rational, budget: &Budget) -> Result<DiskMargin, Error> {
-        let r = &self.parts.reduced;
+    fn disk(&self, skew: &Rational, budget: &Budget) -> Result<DiskMargin, Exhausted> {
         let (p, q) = (skew.numerator(), skew.denominator());
-        let (of_one, of_loop) = (&q + &p, &q - &p);
-        let squares = r
-            .denominator_squared
-            .scaled(&(&of_one * &of_one))
-            .plus(&r.numerator_squared.scaled(&(&of_loop * &of_loop)));
-        let below = DeadTime::in_omega(&squares).minus(&self.twice_real().scaled_by(&(&of_one * &of_loop)));
-        let four = Integer::from(4) * &(&q * &q);
-        let (one, other) = (Rational::from(&of_one), Rational::from(&of_loop).abs());
-        if of_one.is_zero() {
-            return Err(refused(
-                "the disk margin of a loop with dead time is known for skews other than -1",
-                "--skew 0",
-            ));
-        }
-        let twice = Rational::from(2) * Rational::from(&q);
-        let floor = |r: &Rational| &(&twice * &(Rational::ONE - r)) / &(one.abs() + &other * r);
-        let extreme = self.extreme([&sum.scaled_by(&four), &below], Ordering::Less, floor, budget)?;
-        let square = extreme.value().expect("finite somewhere").number(budget)?;
-        let alpha = Some(square_root(&square, budget)?);
+        let [d, n] = [&self.parts.denominator.re, &self.parts.numerator.re];
+        let peak = self.peak(vec![d.scaled(&(&q + &p)), n.scaled(&(&p - &q))], budget)?;
+        let extreme = inverse(peak, &Rational::from(Integer::from(4) * &(&q * &q)), budget)?;
+        let alpha = Some(extreme.root(budget)?);
         Ok(DiskMargin { skew: skew.clone(), alpha, extreme: Some(extreme) })
     }
+}
+
+fn quotient_of_leading(above: &UniPoly, below: &UniPoly) -> Rational {
+    let leading = |p: &UniPoly| p.leading().cloned().expect("not zero");
+    Rational::new(leading(above), leading(below)).abs()
+}
+
+/// A number over an extreme value that is not zero, as an extreme.
+fn inverse(extreme: Extreme, number: &Rational, budget: &Budget) -> Result<Extreme, Exhausted> {
+    let over = |value: Value| -> Result<Value, Exhausted> {
+        let inverse = reciprocal(&value.number(budget)?, budget)?;
+        if let Some(exact) = inverse.exact() {
+            return Ok(Value::from(&exact * number));
+        }
+        let factor = Enclosure::from_rational(number.clone());
+        Ok(Value::Number(enclosed("a number over an extreme", move |bits| {
+            Some(super::enclosed::within(&inverse, bits).mul(&factor, bits))
+        })))
+    };
+    Ok(match extreme {
+        Extreme::Constant(value) => Extreme::Constant(over(value)?),
+        Extreme::At { place, value, attained } => Extreme::At { place, value: over(value)?, attained },
+        Extreme::Infinite(_) => unreachable!("a stable loop has no pole on the axis"),
+    })
 }

@@ -8,7 +8,7 @@ use super::required_boxes::RequiredBoxes;
 use super::requirement::Requirement;
 use super::requirement_boxes::{OverPoints, RequirementBoxes};
 use crate::answer::{Answer, BoxRequest, MapBoxes};
-use crate::coverage::refusals::{COMPLEX_FOR_ALL, NOT_IN_A_PLANE};
+use crate::coverage::refusals::{COMPLEX_FOR_ALL, NOT_FOR_ALL};
 use crate::error::{Code, Diagnostic, Error};
 use crate::problem::{Problem, Question};
 use crate::stability::Range;
@@ -161,7 +161,7 @@ impl MapForAll {
             [stability.ok_or_else(|| Error::Undefined("the loop has no characteristic function".to_owned()))?];
         let requirement = |r: &Requirement| {
             let found = RequirementBoxes::of(together, r, self.at.as_deref(), &near, budget)?;
-            found.ok_or_else(|| NOT_IN_A_PLANE.diagnostic(&[("name", r.name()), ("help", NOT_IN_BOXES)]).into())
+            found.ok_or_else(|| NOT_FOR_ALL.diagnostic(&[("name", r.name())]).into())
         };
         let requirements = self.requirements.iter().map(requirement).collect::<Result<Vec<_>, Error>>()?;
         Ok((stability, requirements))
@@ -248,8 +248,6 @@ impl MapForAll {
     }
 }
 
-const NOT_IN_BOXES: &str = "ask 'verdict' with a value for every parameter, or 'tolerance' for a box around one point";
-
 /// The sides of a box of the plane, and how often the window was halved for it.
 fn sides_of(place: &Place, window: &Window) -> (Vec<[Rational; 2]>, u32) {
     let Window { x, y } = place.window(window);
@@ -262,4 +260,11 @@ pub(super) struct OpenPart {
     /// The number of the test.
     test: usize,
     part: BoxPart,
+}
+
+impl OpenPart {
+    /// The values.
+    pub(super) fn sides(&self) -> &[[Rational; 2]] {
+        &self.part.sides
+    }
 }

@@ -1,12 +1,13 @@
 //! One parameter for all values of other names in given ranges.
 
 use super::for_all::{MapForAll, OpenPart};
+use super::for_all_open::why_open;
 use super::required_set::{RequiredEnd, RequiredInterval, RequiredSet};
 use super::requirement_boxes::RequirementBoxes;
 use crate::answer::Answer;
 use crate::coverage::refusals::COMPLEX_FOR_ALL;
 use crate::error::{Code, Diagnostic, Error};
-use crate::problem::{Free, Question};
+use crate::problem::{Free, Problem, Question};
 use crate::stability::{StableSet, UndecidedBracket};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
@@ -22,25 +23,56 @@ const BEYOND: i64 = 2;
 /// Why nothing is said of a short piece.
 const AT_AN_END: &str = "where it begins or ceases to hold for all values";
 
+/// Why nothing is said of many pieces.
+const TOO_MANY: &str = "too many pieces are open: a shorter range of the other names, or of this one, may be decided";
+
+/// Why nothing is said of a piece that the budget did not reach.
+const UNFINISHED: &str = "not looked at to the end: the budget ran out";
+
+/// So many open pieces of one length are more than the ends of a set make: one value of a range may leave all of them open.
+const MANY_OPEN: usize = 1 << 6;
+
+/// With more open pieces of one length the halving ends.
+const MOST_OPEN: usize = 1 << 9;
+
+/// The part of the budget that may be spent on the window.
+const WINDOW: (u32, u32) = (1, 4);
+
 /// Why nothing is said beyond the window.
 const OUTSIDE: &str = "not looked at: the domain has no end there, and '--domain' gives one";
 
 /// A piece of the parameter's range.
-struct Piece {
-    between: [Rational; 2],
+pub(super) struct Piece {
+    pub(super) between: [Rational; 2],
     halvings: u32,
     /// Stability is decided, and requirements are looked at.
     is_stable: bool,
-    open: Vec<OpenPart>,
+    pub(super) open: Vec<OpenPart>,
 }
 
-/// What is known of a piece: that all is met for all values, or what is not for some.
-#[derive(Clone, Copy, PartialEq)]
+impl Piece {
+    fn halves(self) -> [Piece; 2] {
+        let middle = self.between[0].midpoint(&self.between[1]);
+        let [low, high] = self.between;
+        [[low, middle.clone()], [middle, high]].map(|between| Piece {
+            between,
+            halvings: self.halvings + 1,
+            is_stable: self.is_stable,
+            open: self.open.clone(),
+        })
+    }
+}
+
+/// What is known of a piece: that all is met for all values, what is not for some, or why nothing is.
+#[derive(Clone, PartialEq)]
 enum Known {
     Good,
     Spoiled(&'static str),
-    Undecided,
+    Undecided(String),
 }
+
+/// The pieces of a window, ascending, and what ended their halving.
+type Pieces = (Vec<([Rational; 2], Known)>, Option<Exhausted>);
 
 impl MapForAll {
     /// The values of the one free name of a question for which the loop is stable, and meets what is required, for all values of the ranges.
@@ -78,31 +110,68 @@ impl MapForAll {
             return Err(Diagnostic::error(Code::Usage, message).into());
         }
         let together = self.together(question)?;
-        let window = window(line.parameter(), line.stable_set(budget)?.value());
-        let (stability, requirements) = self.tests(&together, vec![window[0].midpoint(&window[1])], budget)?;
+        let at_middle = line.stable_set(&budget.share(WINDOW.0, WINDOW.1));
+        let at_middle = match at_middle {
+            Ok(set) => Some(set),
+            Err(failure) => failure.stopped().map(|_| None)?,
+        };
+        let window = window(line.parameter(), at_middle.as_ref().map(Answer::value));
+        let middle = vec![window[0].midpoint(&window[1])];
+        let (pieces, stopped) = match self.tests(&together, middle, budget) {
+            Ok((stability, requirements)) => self.halved(&window, &line, (&stability, &requirements), budget)?,
+            Err(failure) => {
+                let stopped = failure.stopped()?;
+                (vec![(window, Known::Undecided(UNFINISHED.to_owned()))], Some(stopped))
+            }
+        };
+        let found = RequiredSet { stopped, ..self.set(pieces, line.parameter()) };
+        Ok(Answer::new(line.without_values_of(|name| self.all.iter().any(|all| all.name == name)), found))
+    }
+
+    /// Halves a window, the longest pieces first, until what is open is short or the budget is over.
+    fn halved(
+        &self,
+        window: &[Rational; 2],
+        line: &Problem,
+        (stability, requirements): (&[RequirementBoxes], &[RequirementBoxes]),
+        budget: &Budget,
+    ) -> Result<Pieces, Error> {
         budget.step("halving the range of the parameter");
-        let mut pieces = Vec::new();
-        let whole = Piece { between: window.clone(), halvings: 0, is_stable: false, open: self.parts(&stability) };
-        let mut waiting = vec![whole];
-        while let Some(mut piece) = waiting.pop() {
-            budget.check()?;
-            match self.known(&mut piece, (&stability, &requirements), budget)? {
-                Known::Undecided if !is_short(&piece.between, &window) => {
-                    let middle = piece.between[0].midpoint(&piece.between[1]);
-                    let [low, high] = piece.between;
-                    let half = |between: [Rational; 2]| Piece {
-                        between,
-                        halvings: piece.halvings + 1,
-                        is_stable: piece.is_stable,
-                        open: piece.open.clone(),
-                    };
-                    waiting.extend([half([middle.clone(), high]), half([low, middle])]);
+        let whole = Piece { between: window.clone(), halvings: 0, is_stable: false, open: self.parts(stability) };
+        let (mut pieces, mut level, mut stopped) = (Vec::new(), vec![whole], None);
+        while !level.is_empty() && stopped.is_none() {
+            let (mut open, mut rest) = (Vec::new(), level.into_iter());
+            for mut piece in rest.by_ref() {
+                match self.known(&mut piece, (stability, requirements), budget) {
+                    Ok(None) => open.push(piece),
+                    Ok(Some(known)) => pieces.push((piece.between, known)),
+                    Err(out) => {
+                        let unseen = Known::Undecided(UNFINISHED.to_owned());
+                        pieces.extend(
+                            [piece].into_iter().chain(rest).chain(open.drain(..)).map(|p| (p.between, unseen.clone())),
+                        );
+                        stopped = Some(out);
+                        break;
+                    }
                 }
-                known => pieces.push((piece.between, known)),
+            }
+            level = Vec::new();
+            let why = match open.len() {
+                0..=MANY_OPEN => None,
+                count => why_open(&self.all, &open, line, budget).or((count > MOST_OPEN).then(|| TOO_MANY.to_owned())),
+            };
+            for piece in open {
+                match &why {
+                    Some(why) => pieces.push((piece.between, Known::Undecided(why.clone()))),
+                    None if is_short(&piece.between, window) => {
+                        pieces.push((piece.between, Known::Undecided(AT_AN_END.to_owned())))
+                    }
+                    None => level.extend(piece.halves()),
+                }
             }
         }
-        let found = self.set(pieces, line.parameter());
-        Ok(Answer::new(line.without_values_of(|name| self.all.iter().any(|all| all.name == name)), found))
+        pieces.sort_by(|a, b| a.0[0].cmp(&b.0[0]));
+        Ok((pieces, stopped))
     }
 
     fn known(
@@ -110,21 +179,18 @@ impl MapForAll {
         piece: &mut Piece,
         (stability, requirements): (&[RequirementBoxes], &[RequirementBoxes]),
         budget: &Budget,
-    ) -> Result<Known, Exhausted> {
+    ) -> Result<Option<Known>, Exhausted> {
         let place = (vec![piece.between.clone()], piece.halvings);
         if !piece.is_stable {
             match self.look(stability, &place, &mut piece.open, budget)? {
-                Some(None) if requirements.is_empty() => return Ok(Known::Good),
+                Some(None) if requirements.is_empty() => return Ok(Some(Known::Good)),
                 Some(None) => (piece.is_stable, piece.open) = (true, self.parts(requirements)),
-                Some(Some(_)) => return Ok(Known::Spoiled("stability")),
-                None => return Ok(Known::Undecided),
+                Some(Some(_)) => return Ok(Some(Known::Spoiled("stability"))),
+                None => return Ok(None),
             }
         }
-        Ok(match self.look(requirements, &place, &mut piece.open, budget)? {
-            Some(None) => Known::Good,
-            Some(Some(test)) => Known::Spoiled(self.requirements[test].name()),
-            None => Known::Undecided,
-        })
+        let found = self.look(requirements, &place, &mut piece.open, budget)?;
+        Ok(found.map(|test| test.map_or(Known::Good, |test| Known::Spoiled(self.requirements[test].name()))))
     }
 
     /// Pieces in ascending order as a set.
@@ -141,7 +207,7 @@ impl MapForAll {
         let end = |x: &Rational, beside: Option<&Known>| {
             let names = match beside {
                 Some(Known::Spoiled(name)) => vec![*name],
-                Some(_) => vec!["not decided beyond"],
+                Some(Known::Good | Known::Undecided(_)) => vec!["not decided beyond"],
                 None => vec!["domain"],
             };
             Some(RequiredEnd::Requirement { value: Real::from(x.clone()), names, closed: true })
@@ -151,7 +217,7 @@ impl MapForAll {
             let beyond = |mut at: isize, step: isize| loop {
                 at += step;
                 match usize::try_from(at).ok().and_then(|at| runs.get(at)) {
-                    Some((_, Known::Undecided)) => {}
+                    Some((_, Known::Undecided(why))) if why == AT_AN_END => {}
                     other => break other.map(|(_, known)| known),
                 }
             };
@@ -160,8 +226,8 @@ impl MapForAll {
                     lower: end(low, beyond(i as isize, -1)),
                     upper: end(high, beyond(i as isize, 1)),
                 }),
-                Known::Undecided => {
-                    set.undecided.push(UndecidedBracket::new(Some(low.clone()), Some(high.clone()), AT_AN_END))
+                Known::Undecided(why) => {
+                    set.undecided.push(UndecidedBracket::new(Some(low.clone()), Some(high.clone()), why.as_str()))
                 }
                 Known::Spoiled(_) => {}
             }
@@ -185,8 +251,8 @@ fn is_short([low, high]: &[Rational; 2], window: &[Rational; 2]) -> bool {
 }
 
 /// What is looked at: the domain, or as far as the loop at the middle of the ranges says anything.
-fn window(parameter: &Free, at_middle: &StableSet) -> [Rational; 2] {
-    let ends = at_middle.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten();
+fn window(parameter: &Free, at_middle: Option<&StableSet>) -> [Rational; 2] {
+    let ends = at_middle.into_iter().flat_map(StableSet::intervals).flat_map(|i| [&i.lower, &i.upper]).flatten();
     let ends = ends.map(|end| end.value.refined_to_digits(4).enclosure().1.abs());
     let far = ends.chain(parameter.nominal.iter().map(Rational::abs)).max().filter(|far| !far.is_zero());
     let far = Rational::from((&far.unwrap_or(Rational::ONE) * &Rational::from(BEYOND)).ceil());

@@ -8,11 +8,13 @@ use super::parts::with_parts;
 use super::requirement::{Circle, Found, Requirement, Rule};
 use super::value::{Value, square_root};
 use super::{DelayMargin, HeldDelay};
+use crate::coverage::refusals::NO_DAMPING;
 use crate::error::{Code, Diagnostic, Error};
 use crate::precisions::REQUIRED_DELAY;
+use crate::problem::Problem;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
-use jurist_algebra::poly::{Domain, RealAlgebraic, UniPoly};
+use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction, RealAlgebraic, UniPoly};
 use jurist_algebra::real::Real;
 use std::cmp::Ordering;
 
@@ -177,4 +179,23 @@ fn is_at_least(
             _ => None,
         })
     })
+}
+
+impl Problem {
+    /// Refuses a damping of a loop with dead time: `|exp(-tau s)|` grows with the distance of a root from the axis, that of a chain of roots only as the
+    /// logarithm of their frequency.
+    pub(crate) fn refuse_undamped(&self, requirements: &[Requirement], budget: &Budget) -> Result<(), Error> {
+        let is_damping = requirements.iter().any(|one| matches!(one.rule(), Rule::Sector(_)));
+        if !is_damping {
+            return Ok(());
+        }
+        let algebra = self.algebra_over_symbols(budget)?;
+        let delays = algebra.symbols().delays();
+        let is_in = |f: &MultiPoly| delays.iter().any(|(variable, _)| f.degree_in(*variable) > 0);
+        let coefficients = algebra.polynomial().into_iter().flat_map(|p| &p.coefficients);
+        match coefficients.map(RationalFunction::numerator).any(is_in) {
+            true => Err(NO_DAMPING.diagnostic(&[]).into()),
+            false => Ok(()),
+        }
+    }
 }

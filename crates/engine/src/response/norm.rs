@@ -1,5 +1,6 @@
 //! The peak gain of a closed-loop transfer function.
 
+use super::delayed_peak::DelayedQuotient;
 use super::extreme::extreme_over;
 use super::ground::Ground;
 use super::met::AtPoint;
@@ -9,10 +10,10 @@ use super::requirement::Requirement;
 use super::value::square_root;
 use super::{Extreme, Frequencies};
 use crate::answer::{Answer, Frequency, PointVerdict, Verdict};
-use crate::coverage::refusals::FEEDBACK;
 use crate::error::Error;
-use crate::model::no_transfer_of_several_rates;
+use crate::model::{Symbols, no_transfer_of_several_rates};
 use crate::problem::{Problem, Question};
+use crate::stability::Shape;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
@@ -79,8 +80,46 @@ impl PeakGain {
     }
 }
 
-fn dead_time_in_the_feedback() -> Error {
-    FEEDBACK.diagnostic(&[]).into()
+/// A transfer function, without or with dead time in more than a factor of the numerator.
+enum Transfer {
+    Of(Over),
+    Delayed(DelayedQuotient),
+}
+
+impl Transfer {
+    fn new(
+        below: Vec<RationalFunction>,
+        above: Vec<RationalFunction>,
+        symbols: &Symbols,
+        shape: Shape,
+    ) -> Result<Transfer, Error> {
+        // Dead time alone does not change the modulus.
+        match symbols.delays().is_empty() {
+            true => Ok(Transfer::Of(Over::new(below, above, Vec::new(), symbols, shape)?.0)),
+            false => match Over::new(below.clone(), above.clone(), Vec::new(), symbols, shape) {
+                Ok((over, _)) => Ok(Transfer::Of(over)),
+                Err(_) => Ok(Transfer::Delayed(DelayedQuotient::of(below, above, symbols)?)),
+            },
+        }
+    }
+
+    fn peak(&self, budget: &Budget) -> Result<PeakGain, Exhausted> {
+        match self {
+            Transfer::Of(Over::Integers(parts)) => PeakGain::over(parts, budget),
+            Transfer::Of(Over::Constants(parts)) => PeakGain::over(parts, budget),
+            Transfer::Delayed(quotient) => {
+                let extreme = quotient.peak(budget)?;
+                Ok(PeakGain { value: extreme.root(budget)?, extreme })
+            }
+        }
+    }
+
+    fn frequencies(&self, shape: Shape) -> Frequencies {
+        match self {
+            Transfer::Of(over) => over.frequencies(),
+            Transfer::Delayed(_) => shape.into(),
+        }
+    }
 }
 
 /// Refuses a loop of several rates.
@@ -122,28 +161,25 @@ impl Problem {
             let verdict = self.verdict(budget)?.into_value();
             let (closed_loop, symbols) = self.closed_loop_over_symbols(budget)?;
             let shape = self.shape();
-            let (over, _) = if closed_loop.is_complex {
+            let transfer = if closed_loop.is_complex {
                 let (row, column) = closed_loop.complex_ports(input, output)?;
                 let [below, above] = closed_loop.complex_transfer(row, column, budget)?;
-                Over::of_complex([below.re, below.im, above.re, above.im], Vec::new(), symbols, shape)?
+                let lists = [below.re, below.im, above.re, above.im];
+                Transfer::Of(Over::of_complex(lists, Vec::new(), symbols, shape)?.0)
             } else {
                 let transfer = closed_loop.transfer_function(input, output, budget)?;
-                let (above, below) = (transfer.numerator, transfer.denominator.coefficients);
-                // Dead time alone does not change the modulus.
-                Over::of_quotient(below, above, Vec::new(), symbols, shape, dead_time_in_the_feedback)?
+                Transfer::new(transfer.denominator.coefficients, transfer.numerator, symbols, shape)?
             };
-            let peak = if verdict.verdict == Verdict::Stable {
-                budget.step("peak gain");
-                Some(match &over {
-                    Over::Integers(parts) => PeakGain::over(parts, budget)?,
-                    Over::Constants(parts) => PeakGain::over(parts, budget)?,
-                })
-            } else {
-                None
+            let peak = match verdict.verdict {
+                Verdict::Stable => {
+                    budget.step("peak gain");
+                    Some(transfer.peak(budget)?)
+                }
+                _ => None,
             };
             let sample_time = self.algebra_over_symbols(budget)?.sample_time().and_then(RationalFunction::as_constant);
             let (input, output) = (input.to_owned(), output.to_owned());
-            let frequencies = over.frequencies();
+            let frequencies = transfer.frequencies(shape);
             Ok(Answer::new(Arc::clone(self), Norm { input, output, verdict, peak, frequencies, sample_time }))
         })?
     }

@@ -318,6 +318,12 @@ impl Over {
         }
     }
 
+    /// From coefficients that are known by enclosures.
+    fn of_enclosed(found: EnclosedQuotient, shape: Shape) -> Over {
+        let EnclosedQuotient { symbols, denominator, numerator } = found;
+        Over::Constants(Parts::new(Constants(symbols), denominator, numerator, Vec::new(), shape))
+    }
+
     /// From coefficients in symbols, none of which is a parameter, and the dead time that is a factor of the numerator.
     pub(super) fn new(
         denominator: Vec<RationalFunction>,
@@ -326,28 +332,10 @@ impl Over {
         symbols: &crate::model::Symbols,
         shape: Shape,
     ) -> Result<(Over, Option<Rational>), Error> {
-        Over::of_quotient(denominator, numerator, poles, symbols, shape, no_single_delay)
-    }
-
-    /// From coefficients that are known by enclosures.
-    fn of_enclosed(found: EnclosedQuotient, shape: Shape) -> Over {
-        let EnclosedQuotient { symbols, denominator, numerator } = found;
-        Over::Constants(Parts::new(Constants(symbols), denominator, numerator, Vec::new(), shape))
-    }
-
-    /// The same of any quotient, with the refusal of dead time that is more than a factor.
-    pub(super) fn of_quotient(
-        denominator: Vec<RationalFunction>,
-        numerator: Vec<RationalFunction>,
-        poles: Vec<Poly<MultiPoly>>,
-        symbols: &crate::model::Symbols,
-        shape: Shape,
-        not_a_factor: fn() -> Error,
-    ) -> Result<(Over, Option<Rational>), Error> {
         let [denominator, mut numerator] = without_denominators([denominator, numerator]);
         let mut dead_time = None;
         if !symbols.delays().is_empty() {
-            let (rest, tau) = split_delay(&denominator, &numerator, symbols).ok_or_else(not_a_factor)?;
+            let (rest, tau) = split_delay(&denominator, &numerator, symbols).ok_or_else(no_single_delay)?;
             numerator = rest;
             dead_time = Some(tau).filter(|tau| !tau.is_zero());
         }
@@ -359,7 +347,7 @@ impl Over {
             return Ok((Over::Integers(parts), dead_time));
         }
         if !symbols.delays().is_empty() {
-            return Err(not_a_factor());
+            return Err(no_single_delay());
         }
         let ground = Constants(Arc::new(fixed_symbols(symbols)?));
         Ok((Over::Constants(Parts::new(ground, denominator, numerator, poles, shape)), None))

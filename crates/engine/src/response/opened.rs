@@ -99,8 +99,14 @@ fn with_gain(
     let (p, denominator) = budget.enter(|| polynomial.cleared())?;
     let is_inside = |f: &MultiPoly| f.degree_in(at) > 0;
     let is_in_time = sample_time.iter().any(|t| is_inside(t.numerator()) || is_inside(t.denominator()));
-    if is_in_time || is_inside(&denominator) || polynomial.poles.iter().any(is_inside) {
-        return Err(refused("it is in the sample time, or in a divisor, as in that of the connection of blocks"));
+    // Where the divisor of the connection of blocks vanishes the highest coefficient does: such a factor at the gain is not stable either way.
+    let is_highest = |f: &MultiPoly| {
+        let rest = |highest: &MultiPoly| f.div_exact(&f.gcd(highest)).expect("a gcd divides");
+        p.leading().is_some_and(|highest| !is_inside(&rest(highest)))
+    };
+    let divisors = || polynomial.poles.iter().chain([&denominator]).filter(|f| is_inside(f));
+    if is_in_time || !divisors().all(is_highest) {
+        return Err(refused("it is in the sample time, or in a divisor other than that of the connection of blocks"));
     }
     if own.is_none() && symbols.is_moving() {
         return Err(refused("beside functions of what is free it has to be free itself"));
@@ -124,5 +130,9 @@ fn with_gain(
     let open = Poly::new(part(0, &factor.1.denominator()));
     let back = Poly::new(part(1, &factor.1.numerator()).iter().map(|c| c.times(&factor.0)).collect());
     let undefined = polynomial.poles.iter().fold(denominator, |product, pole| product.times(pole));
+    let undefined = match own {
+        Some(_) => undefined,
+        None => undefined.substitute(at, &factor.1).0,
+    };
     Ok((Of::Gain { open, back, undefined: beside(undefined) }, sample_time, symbols))
 }

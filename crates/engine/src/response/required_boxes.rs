@@ -96,6 +96,7 @@ impl Answer<MapBoxes> {
     ) -> Result<Answer<MapBoxes>, Error> {
         let problem = self.problem().clone();
         problem.refuse_complex(budget)?;
+        problem.refuse_undamped(requirements, budget)?;
         let found = budget.enter(|| problem.required_boxes(requirements, at, self.value(), budget))??;
         let mut boxes = self.into_value();
         boxes.required = Some(found);

@@ -31,6 +31,8 @@ pub struct RequiredSet {
     pub undecided: Vec<UndecidedBracket>,
     /// Names for all of whose values in these ranges it holds what is said.
     pub for_all: Vec<AllOf>,
+    /// What ended the work before all was looked at: then some of what is undecided was not.
+    pub stopped: Option<Exhausted>,
 }
 
 impl RequiredSet {
@@ -61,7 +63,7 @@ impl RequiredSet {
                 }
             }
         }
-        let mut found = RequiredSet { intervals, undecided: self.undecided.clone(), for_all: Vec::new() };
+        let mut found = RequiredSet { intervals, undecided: self.undecided.clone(), ..RequiredSet::default() };
         found.undecided.extend(other.undecided.iter().filter(|b| !self.undecided.contains(b)).cloned());
         found.sort();
         Ok(found)
@@ -73,7 +75,7 @@ impl From<&StableSet> for RequiredSet {
         let end = |end: &Option<End>| end.clone().map(RequiredEnd::Stability);
         let interval = |i: &StableInterval| RequiredInterval { lower: end(&i.lower), upper: end(&i.upper) };
         let intervals = set.intervals().iter().map(interval).collect();
-        RequiredSet { intervals, undecided: set.undecided().to_vec(), for_all: Vec::new() }
+        RequiredSet { intervals, undecided: set.undecided().to_vec(), ..RequiredSet::default() }
     }
 }
 
@@ -201,6 +203,7 @@ impl Problem {
     ) -> Result<Answer<RequiredSet>, Error> {
         if !requirements.is_empty() {
             self.refuse_complex(budget)?;
+            self.refuse_undamped(requirements, budget)?;
         }
         budget.enter(|| {
             let stable = self.stable_set(budget)?.into_value();
@@ -291,6 +294,7 @@ impl Problem {
         if requirements.is_empty() {
             return Ok(Vec::new());
         }
+        self.refuse_undamped(requirements, budget)?;
         budget.enter(|| {
             let stable = self.verdict(budget)?.value().verdict == Verdict::Stable;
             let is_at_cut = |r: &Requirement| r.needs_cut() && r.signals().is_none();

@@ -54,6 +54,7 @@ impl Problem {
             return Ok(self.answered(sides, AtPoint::Undefined, decision));
         };
         if !algebra.symbols().delays().is_empty() {
+            self.refuse_undamped(&request.requirements, budget)?;
             refuse_beside_dead_time(request)?;
             let Some(p) = self.delayed_family(&nominal, budget)? else {
                 let decision = BoxDecision::NotStable { witness: None };
@@ -365,7 +366,7 @@ fn refuse_beside_dead_time(request: &ToleranceRequest) -> Result<(), Error> {
     if request.requirements.iter().all(is_asked) {
         return refuse_exact(request);
     }
-    Err(ONLY_THE_BOX.diagnostic(&[("what", "requirements on damping, settling or a delay margin are")]).into())
+    Err(ONLY_THE_BOX.diagnostic(&[("what", "requirements on settling or a delay margin are")]).into())
 }
 
 /// What is not asked of loops with functions of parameters.

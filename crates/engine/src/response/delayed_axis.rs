@@ -1,0 +1,89 @@
+//! Functions of the angular frequency with `cos(tau omega)` and `sin(tau omega)` in them: variables 0, 1 and 2 of polynomials.
+
+use super::Place;
+use super::enclosed::enclosed;
+use jurist_algebra::ball::Ball;
+use jurist_algebra::limits::{Budget, Exhausted, Stop};
+use jurist_algebra::number::{Enclosure, Integer, Rational};
+use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction, UniPoly};
+use jurist_algebra::real::Real;
+use jurist_algebra::symbols::{Definition, MovingSymbols};
+use std::sync::Arc;
+
+/// The cosine and the sine of `tau omega`.
+pub(super) struct DelayedAxis {
+    tau: Rational,
+    turning: Arc<MovingSymbols>,
+}
+
+impl DelayedAxis {
+    pub fn new(tau: Rational) -> DelayedAxis {
+        let time = &RationalFunction::variable(0) * &RationalFunction::from(tau.clone());
+        let polynomial = vec![RationalFunction::one(), RationalFunction::zero(), RationalFunction::one()];
+        let part = |name: &str, index| {
+            (name.to_owned(), Definition::Fundamental { polynomial: polynomial.clone(), index, time: time.clone() })
+        };
+        DelayedAxis { tau, turning: Arc::new(MovingSymbols::new(vec![part("cos", 0), part("sin", 1)])) }
+    }
+
+    pub fn tau(&self) -> &Rational {
+        &self.tau
+    }
+
+    /// A polynomial in `omega`.
+    pub fn of_omega(p: &UniPoly) -> MultiPoly {
+        MultiPoly::from_terms(p.coeffs().iter().enumerate().map(|(i, c)| (vec![i as u32], c.clone())))
+    }
+
+    /// A polynomial in `x = -omega^2` as one in `omega`.
+    pub fn of_square(p: &UniPoly) -> MultiPoly {
+        let sign = |i: usize| if i.is_multiple_of(2) { Integer::ONE } else { -Integer::ONE };
+        let terms = p.coeffs().iter().enumerate().map(|(i, c)| (vec![2 * i as u32], c * &sign(i)));
+        MultiPoly::from_terms(terms)
+    }
+
+    /// The derivative by `omega`, times the denominator of the dead time.
+    pub fn derivative(&self, p: &MultiPoly) -> MultiPoly {
+        let (up, down) = (self.tau.numerator(), self.tau.denominator());
+        let by_cos = p.derivative(1).times(&MultiPoly::variable(2)).scaled_by(&(-up.clone()));
+        let by_sin = p.derivative(2).times(&MultiPoly::variable(1)).scaled_by(&up);
+        p.derivative(0).scaled_by(&down).plus(&by_cos).plus(&by_sin)
+    }
+
+    /// The frequencies above 0 and below `end` at which a function vanishes.
+    pub fn zeros(&self, p: &MultiPoly, end: &Rational, budget: &Budget) -> Result<Vec<Real>, Exhausted> {
+        let found = self.turning.zeros_in(&p.clone().into(), &Rational::ZERO, end, end, budget)?;
+        match found.undecided.is_empty() {
+            true => Ok(found.zeros),
+            false => Err(Exhausted::new(Stop::Separation, "frequencies of a loop with dead time")),
+        }
+    }
+
+    /// `above/below` at an angular frequency.
+    pub fn quotient(&self, above: &MultiPoly, below: &MultiPoly, at: &Real) -> Real {
+        let (above, below, at, turning) = (above.clone(), below.clone(), at.clone(), Arc::clone(&self.turning));
+        enclosed("quotient at a frequency", move |bits| {
+            let (lo, hi) = at.refined(&Rational::dyadic(&Integer::ONE, bits)).enclosure();
+            quotient(&turning, [&above, &below], &Ball::between(&lo, &hi, bits))
+        })
+    }
+
+    /// The same at a rational frequency, with some bits; `None` where they tell nothing.
+    pub fn quotient_at(&self, parts: [&MultiPoly; 2], omega: &Rational, bits: u64) -> Option<Enclosure> {
+        quotient(&self.turning, parts, &Ball::between(omega, omega, bits))
+    }
+
+    /// The frequency as a place.
+    pub fn place(omega: &Real) -> Place {
+        let omega = omega.clone();
+        Place::Inside(enclosed("minus the square of a frequency", move |bits| {
+            let omega = super::enclosed::within(&omega, bits);
+            Some(omega.mul(&omega, bits).neg())
+        }))
+    }
+}
+
+fn quotient(turning: &MovingSymbols, [above, below]: [&MultiPoly; 2], omega: &Ball) -> Option<Enclosure> {
+    let values = turning.enclose(&[above.clone(), below.clone()], omega)?;
+    Some(values[0].div(&values[1])?.to_enclosure())
+}
