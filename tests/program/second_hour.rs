@@ -194,3 +194,24 @@ fn a_map_of_margins_with_dead_time_has_the_boxes_in_which_they_are_met() {
     let run = jurist_with_input(&[&map[..], &["--delay-margin", "0.1"]].concat(), model.as_bytes());
     assert!(run.status == 2 && run.stderr.contains("E-dead-time"), "{}", run.stderr);
 }
+
+/// Once the names with ranges had the middles of them where what is required was read.
+#[test]
+fn what_is_required_may_not_depend_on_a_name_with_a_range() {
+    let text = "time = 'discrete'\nsample_time = 'T'\nparameters = { K = { nominal = 1, min = 0, max = 4 }, T = 1, b = 1 }\n\
+        loop = { inputs = ['r'], outputs = ['y'] }\n[[block]]\ninput = 'K*(r - y)'\noutput = 'y'\ntransfer = 'b/(s + 1)'\ndiscretize = 'zoh'\n";
+    let line = ["intervals", "-", "--param", "K"];
+    let plane = ["map", "-", "-x", "K=0..2", "-y", "b=0.5..1.5"];
+    for asked in [&line[..], &plane[..]] {
+        // The sample time decides the radius of a settling time.
+        for required in [["--settling-time", "3"], ["--phase-margin", "40*T"]] {
+            let run = jurist_with_input(&[asked, &required, &["--for-all", "T=0.8..1.2"]].concat(), text.as_bytes());
+            assert!(run.status == 2 && run.stderr.contains("E-require"), "{asked:?} {required:?}: {}", run.stderr);
+        }
+    }
+    let run = jurist_with_input(
+        &[&line[..], &["--settling-time", "3", "--set", "T=0.1", "--for-all", "b=0.8..1.2"]].concat(),
+        text.as_bytes(),
+    );
+    assert!(run.stdout.contains("0.389650249"), "{}", run.stdout);
+}

@@ -3,7 +3,7 @@
 use super::{Context, Runs, decided};
 use crate::certified::{CertifiedIntervals, certify_intervals, certify_required_intervals};
 use crate::cli::arguments::{DecisionOptions, RunOptions};
-use crate::cli::commands::map::{at_middles, ranges};
+use crate::cli::commands::map::{freed, ranges};
 use crate::cli::destinations::Files;
 use crate::cli::input::{decision, known_names, only_parameter};
 use crate::cli::output::{note, write_answer};
@@ -80,7 +80,8 @@ fn run(options: &Options, context: &Context) -> Outcome {
     }
     let digits = output.digits() as usize;
     let (all, question) = (ranges(&options.for_all, &[&name], &model, context)?, question.free(&name));
-    let asked = options.require.asked(&model, at_middles(&question, &all), &options.decision.region, context)?.0;
+    let free = freed(&question, all.iter().map(|all| &all.name));
+    let asked = options.require.asked(&model, free, &options.decision.region, context)?.0;
     let question = asked.region.clone().into_iter().fold(question, Question::within);
     refuse_theorems(&asked, options.smt2.is_some() || options.coq.is_some())?;
     if !all.is_empty() {

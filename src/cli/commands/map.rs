@@ -132,9 +132,9 @@ pub(super) fn ranges(texts: &[String], free: &[&str], model: &Model, context: &C
     Ok(all)
 }
 
-/// A question in which these names have some value of their ranges: for what is read beside a question.
-pub(super) fn at_middles(question: &Question, all: &[AllOf]) -> Question {
-    question.clone().set_all(all.iter().map(|all| (all.name.clone(), all.range[0].midpoint(&all.range[1]))))
+/// A question in which these names are free: what is required may not depend on a name whose values are all of a range.
+pub(super) fn freed<'a>(question: &Question, names: impl IntoIterator<Item = &'a String>) -> Question {
+    names.into_iter().fold(question.clone(), |question, name| question.without_value(name).free(name))
 }
 
 /// Answers on standard output or in a file.
@@ -162,8 +162,8 @@ fn run(options: &Options, context: &Context) -> Outcome {
         return map_body::run(z, options, &requests, picture, (&model, question), context);
     }
     let all = ranges(&options.for_all, &requests.each_ref().map(|axis| axis.name.as_str()), &model, context)?;
-    let valued = at_middles(&question, &all);
-    let asked = options.require.asked_each(&model, valued, &options.region, context)?.0;
+    let free = freed(&question, all.iter().map(|all| &all.name));
+    let asked = options.require.asked_each(&model, free, &options.region, context)?.0;
     let question = asked.region.clone().into_iter().fold(question, Question::within);
     let boxes = options.method.request(&requests, context)?;
     if !all.is_empty() {

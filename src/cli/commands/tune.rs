@@ -1,6 +1,6 @@
 //! `jurist tune`: the best gains within what is required.
 
-use super::map::ranges;
+use super::map::{freed, ranges};
 use super::{Context, Runs, decided};
 use crate::certified::certify_tune;
 use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions, RunOptions};
@@ -97,7 +97,7 @@ fn run(options: &Options, context: &Context) -> Outcome {
         for_all.iter().fold(question, |question, all| question.set(&all.name, all.range[0].midpoint(&all.range[1])));
     // What is required may not depend on what is free, nor on a name whose values are all of a range.
     let names = gains.iter().map(|gain| &gain.name).chain(for_all.iter().map(|all| &all.name));
-    let free = names.fold(question.clone(), |question, name| question.without_value(name).free(name));
+    let free = freed(&question, names);
     let (required, _) = options.require.asked(&model, free.clone(), &options.region, context)?;
     let question = match required.region.clone() {
         Some(region) => question.within(region),
