@@ -124,8 +124,14 @@ fn of_point(answer: &TuneAnswer, optimum: &Optimum, budget: &Budget) -> Result<S
 
 /// The value of the optimum, and what it is of.
 fn of_optimum(answer: &TuneAnswer, claim: &TuneClaim, optimum: &Optimum, budget: &Budget) -> Result<String, Error> {
-    let nothing =
-        || refused("there is no best value that is a number", "the answer is printed without '--certificate'");
+    let nothing = || {
+        let message = match (&answer.asked.objective, &optimum.value) {
+            (Objective::Tolerance(_), _) => "there are none of a tolerance yet",
+            (_, Best::Zero) => "nothing is better than a best value of 0, so there is nothing to prove",
+            _ => "there is no best value that is a number",
+        };
+        refused(message, "the answer is printed without '--certificate'")
+    };
     // The best value from the side that is worse, and a value that none have, if it is known.
     let (value, known) = match &optimum.value {
         Best::Exact(value) => {

@@ -97,7 +97,7 @@ pub(super) fn axis(line: &CommandLine, option: &str, text: &str) -> Result<AxisR
 }
 
 fn empty(option: &str) -> &'static str {
-    if option == "--for-all" { "the range has no two different ends" } else { "the window is empty" }
+    if option == "--for-all" { "the range needs a lower end and a greater one" } else { "the window is empty" }
 }
 
 /// Slices along a third axis.

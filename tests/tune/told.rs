@@ -34,6 +34,43 @@ fn a_best_value_of_a_whole_interval_says_so() {
     assert!(out.contains("\n    at any K from -0.9 to 3\n"), "{out}");
 }
 
+/// At the end of a scale an interval of gains near to it was printed once as if all of them had the best value.
+#[test]
+fn the_end_of_a_scale_is_not_said_of_gains_that_only_come_close() {
+    // The open loop is above 1 at frequency 0 for all K > 1.
+    let out = line("K/(s+1)", "max phase_margin", &["--bound", "K=1..3"]);
+    assert!(
+        !out.contains("at any K") && !out.contains("no phase limits") && out.contains("at least 179 degrees"),
+        "{out}"
+    );
+    let out = line("K/(s+1)^3", "max phase_margin", &["--bound", "K=1/2..30"]);
+    assert!(!out.contains("at any K") && out.contains("no phase limits") && out.contains("example K = 0."), "{out}");
+    let out = line("K/(s+1)", "min complementary_peak", &["--bound", "K=0..5"]);
+    assert!(out.contains("smallest complementary_peak: 0\n    at K = 0\n"), "{out}");
+    let out = line("K/(z*(z+1/2)^2)", "min norm r y", &["--bound", "K=-1..3"]);
+    assert!(out.contains("smallest norm r y: 0\n    at K = 0\n"), "{out}");
+    // Of negative gains the margin is finite, and as large as one likes.
+    let out = line("K/(s+1)", "max gain_margin", &["--bound", "K=-1/2..3"]);
+    assert!(out.contains("it has no bound\nfor example K = 1\n"), "{out}");
+}
+
+/// What some gains have at least is not rounded up.
+#[test]
+fn a_level_that_is_found_is_rounded_to_its_safe_side() {
+    let (_, out, _) = told(&[PI, "--objective", "max k*ki", "--gap", "0.1"]);
+    let ends: Vec<f64> = out
+        .split("between ")
+        .nth(1)
+        .unwrap()
+        .split(" (")
+        .next()
+        .unwrap()
+        .split(" and ")
+        .map(|x| x.parse().unwrap())
+        .collect();
+    assert!(ends[0] <= 0.2544 && ends[1] >= 0.2544, "{out}");
+}
+
 #[test]
 fn a_bound_that_is_best_is_named_and_typed_in() {
     let out = line("K/(s*(s+1)*(s+2))", "max modulus_margin", &["--bound", "K=0.37..1"]);

@@ -55,6 +55,16 @@ pub(crate) fn first_power(x: &Rational) -> i64 {
     first
 }
 
+/// A number of so many significant digits that is not above a number, or not below it.
+pub(crate) fn on_side(x: &Rational, digits: i64, is_below: bool) -> Rational {
+    if x.is_zero() {
+        return Rational::ZERO;
+    }
+    let unit = power(first_power(&x.abs()) - digits);
+    let steps = x.checked_div(&unit).expect("a power of ten is not zero");
+    Rational::from(if is_below { steps.floor() } else { steps.ceil() }) * unit
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -64,6 +74,15 @@ mod tests {
         let text = jurist_algebra::number::to_decimal(x, 60);
         let digits: String = text.chars().filter(char::is_ascii_digit).collect();
         digits.trim_start_matches('0').trim_end_matches('0').len()
+    }
+
+    #[test]
+    fn a_number_is_rounded_to_one_side() {
+        let third = Rational::new(2.into(), 3.into());
+        let text = |x: &Rational, is_below| jurist_algebra::number::to_decimal(&on_side(x, 3, is_below), 10);
+        assert_eq!([text(&third, true), text(&third, false)], ["0.666", "0.667"]);
+        assert_eq!([text(&third.clone().neg(), true), text(&Rational::from(180), true)], ["-0.667", "180"]);
+        assert_eq!(text(&Rational::new(17_999.into(), 100.into()), true), "179");
     }
 
     proptest! {

@@ -9,7 +9,7 @@ use crate::search::Search;
 use crate::seed::seed;
 use crate::sets::{outer, point_inside, widest};
 use jurist_algebra::limits::{Exhausted, apart};
-use jurist_algebra::number::Rational;
+use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::poly::{RealAlgebraic, rational_between};
 use jurist_algebra::real::Real;
 use jurist_engine::error::Error;
@@ -55,9 +55,10 @@ fn best_within(lines: &Lines<'_>, level: Level, plain: &RequiredSet) -> Result<O
     }
     let sample = walls.inside(*cell);
     if walls.is_far(level, *cell) {
-        // Beyond 180 degrees there is no phase margin: the open loop is smaller than 1 everywhere.
-        let place = place_far(&far_away(&sample, &walls.ends), level, interval, &set_at)?;
-        return Ok(Optimum::new(best_at_end(level), vec![place], vec![point_inside(interval)], Some(sample)).into());
+        let far = far_away(&sample, level, &walls.ends);
+        let set = set_at(&far)?;
+        let near = widest(&set).map_or((interval, sample.clone()), |near| (near, far));
+        return Ok(best_far(lines, level, near, (interval, sample))?.into());
     }
     let value = Real::from(walls.walls[cell + 1].clone());
     let found = lines.part(|| {
@@ -220,24 +221,43 @@ pub(crate) fn bracketed(
     }
 }
 
-/// A value of the scale far beyond one.
-fn far_away(sample: &Rational, ends: &[Rational; 2]) -> Rational {
-    let far = sample.abs() * Rational::from(1 << 20) + Rational::from(1 << 20);
-    far.min((sample + &ends[1]) * Rational::new(1.into(), 2.into()))
+/// A value of the scale far beyond one, or close to the end of the scale.
+fn far_away(sample: &Rational, level: Level, [low, high]: &[Rational; 2]) -> Rational {
+    let million = Rational::from(1 << 20);
+    if level == Level::PhaseMargin {
+        return low + (sample - low) / million;
+    }
+    let far = sample.abs() * &million + million;
+    far.min((sample + high) * Rational::new(1.into(), 2.into()))
 }
 
-/// Where gains are whose level has no bound: where they go as it grows, or all of an interval.
-fn place_far(
-    far: &Rational,
+/// The best value at the end of a scale, with an interval that comes near to it; an example of gains is one that has it, else one with the value of a sample.
+fn best_far(
+    lines: &Lines<'_>,
     level: Level,
-    interval: &RequiredInterval,
-    set_at: &dyn Fn(&Rational) -> Result<RequiredSet, Error>,
-) -> Result<Place, Error> {
-    if level == Level::PhaseMargin {
-        return Ok(Place::From(outer(interval)));
+    (near, far): (&RequiredInterval, Rational),
+    (interval, sample): (&RequiredInterval, Rational),
+) -> Result<Optimum, Error> {
+    let named = |x: &Rational| [(lines.asked.gains[GAIN].name.clone(), x.clone())];
+    let value = best_at_end(level);
+    if matches!(value, Best::Zero) {
+        let zero = Rational::ZERO;
+        let is_zero = |peak: Enclosure| peak.lower().is_zero() && peak.upper().is_zero();
+        // An open loop of zero has no peak of its own.
+        if lines.is_met(&named(&zero), Some(&sample))? && lines.level_at(&named(&zero), level)?.is_none_or(is_zero) {
+            return Ok(Optimum::new(value, vec![Place::Exact(zero.clone().into())], vec![zero], None));
+        }
+    } else if matches!(level, Level::PhaseMargin | Level::GainMargin) {
+        let inside = point_inside(near);
+        if lines.is_met(&named(&inside), None)? && lines.level_at(&named(&inside), level)?.is_none() {
+            return Ok(Optimum::new(value, Vec::new(), vec![inside], None));
+        }
     }
-    let set = set_at(far)?;
-    Ok(Place::From(outer(widest(&set).unwrap_or(interval))))
+    // Close to 180 degrees: whether no phase limits some other loop is not known.
+    Ok(match level {
+        Level::PhaseMargin => Optimum::new(Best::Nothing, Vec::new(), vec![point_inside(near)], Some(far)),
+        _ => Optimum::new(value, Vec::new(), vec![point_inside(interval)], Some(sample)),
+    })
 }
 
 /// The best value at the end of a scale: a peak of zero, or none.

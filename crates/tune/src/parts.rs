@@ -221,7 +221,10 @@ impl<'l, 'a> Parts<'l, 'a> {
         while let Some(mut part) = queue.next() {
             checkpoint(WORK);
             if self.looked >= self.most {
-                let stopped = Exhausted::by_method(format!("{} parts", self.most), "whether any gains are left");
+                let stopped = Exhausted::by_method(
+                    format!("{} parts", self.most),
+                    "a search with gains left that were not decided",
+                );
                 return Ok(Sweep::Stopped(stopped, rest(beside, part, queue)));
             }
             self.looked += 1;
@@ -252,7 +255,7 @@ impl<'l, 'a> Parts<'l, 'a> {
                         Ok(halves) => queue.far.extend(halves),
                         Err(part) => {
                             let why = "a box of gains that is as small as boxes get";
-                            let stopped = Exhausted::by_method(why, "whether any gains are left");
+                            let stopped = Exhausted::by_method(why, "a search with gains left that were not decided");
                             return Ok(Sweep::Stopped(stopped, rest(beside, *part, queue)));
                         }
                     }

@@ -2,6 +2,7 @@
 
 use crate::answer::{Best, Optimum, Outcome, Place, TuneAnswer};
 use crate::asked::Objective;
+use crate::decimals::on_side;
 use crate::reading::Reading;
 use jurist_algebra::number::{Enclosure, Rational, parse_number, to_decimal};
 use jurist_algebra::poly::{MultiPoly, RealAlgebraic};
@@ -19,6 +20,9 @@ const TAKES: &str = "a text takes all text";
 
 /// Digits of a share that is lost.
 const FEW: usize = 3;
+
+/// Bits of a number that is rounded to few digits.
+const BITS: u64 = 64;
 
 /// Digits of the level of the gains that are typed in.
 const MOST_OF_TYPED: usize = 12;
@@ -145,7 +149,7 @@ impl TuneAnswer {
             Place::From((Some(low), None)) => format!("any {} from {}", gain.name, to_decimal(low, 6)),
             Place::From((None, Some(high))) => format!("any {} up to {}", gain.name, to_decimal(high, 6)),
             Place::From((None, None)) => format!("any {}", gain.name),
-            Place::Unbounded => format!("{} without end", gain.name),
+            Place::Unbounded => format!("{} that grows without end", gain.name),
         });
         let places: Vec<String> = places.collect();
         if !places.is_empty() {
@@ -184,10 +188,11 @@ impl TuneAnswer {
             }
             None => {
                 let least = optimum.found_value.as_ref().filter(|_| asked.level().is_some());
-                let least = least.map(|scale| {
-                    let word = if reading.is_greatest_best() { "at least" } else { "at most" };
-                    let value = reading.shown(&Real::from(scale.clone()), FEW);
-                    format!(", which has {word} {value}{}", reading.unit())
+                let least = least.and_then(|scale| {
+                    let is_below = reading.is_greatest_best();
+                    let value = to_decimal(&one_sided(&reading, scale, FEW as i64, is_below)?, FEW);
+                    let word = if is_below { "at least" } else { "at most" };
+                    Some(format!(", which has {word} {value}{}", reading.unit()))
                 });
                 writeln!(out, "for example {}{}", values(&optimum.found), least.unwrap_or_default()).expect(TAKES);
             }
@@ -258,19 +263,26 @@ fn percent_above(share: &Rational) -> String {
     percent(&(share * &Rational::new(201.into(), 200.into())))
 }
 
-/// A bracket, ascending, in so many digits that its ends differ.
+/// A bracket, ascending, in so many digits that its ends differ, each rounded outwards.
 fn bracket(reading: &Reading, found: &Rational, proved: &Rational) -> [String; 2] {
     let text = |x: &Rational, digits: usize| reading.shown(&Real::from(x.clone()), digits);
     let digits = (4..20).find(|digits| text(found, *digits) != text(proved, *digits)).unwrap_or(20) + 1;
-    let mut ends = [text(found, digits), text(proved, digits)];
     let is_sorted = match reading {
         Reading::Plain => found <= proved,
         _ => reading.is_greatest_best(),
     };
-    if !is_sorted {
-        ends.reverse();
-    }
-    ends
+    let [low, high] = if is_sorted { [found, proved] } else { [proved, found] };
+    let rounded = |x: &Rational, is_below: bool| {
+        let outwards = one_sided(reading, x, digits as i64, is_below);
+        outwards.map_or_else(|| text(x, digits), |x| to_decimal(&x, digits))
+    };
+    [rounded(low, true), rounded(high, false)]
+}
+
+/// What is shown of a number of the scale, in so many digits and not above it, or not below it; `None` where it is not finite.
+fn one_sided(reading: &Reading, scale: &Rational, digits: i64, is_below: bool) -> Option<Rational> {
+    let found = reading.enclosure(&Enclosure::from_rational(scale.clone()), BITS)?;
+    Some(on_side(if is_below { found.lower() } else { found.upper() }, digits, is_below))
 }
 
 /// A number between two others, in the digits that are known; what it lies between where no digits are.
