@@ -81,7 +81,7 @@ mod tests {
         let third = Rational::new(2.into(), 3.into());
         let text = |x: &Rational, is_below| jurist_algebra::number::to_decimal(&on_side(x, 3, is_below), 10);
         assert_eq!([text(&third, true), text(&third, false)], ["0.666", "0.667"]);
-        assert_eq!([text(&third.clone().neg(), true), text(&Rational::from(180), true)], ["-0.667", "180"]);
+        assert_eq!([text(&-third.clone(), true), text(&Rational::from(180), true)], ["-0.667", "180"]);
         assert_eq!(text(&Rational::new(17_999.into(), 100.into()), true), "179");
     }
 
