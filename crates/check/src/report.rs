@@ -42,12 +42,22 @@ pub fn report(proved: &Proved, model: &str, certificate: &str, names: Names<'_>)
         one_line(names.certificate),
         env!("CARGO_PKG_VERSION")
     );
-    if is_for_another(model, &sha256(&loop_alone(model)), certificate) {
+    if is_for_another_text(model, certificate) {
         out.push_str(
             "note: the certificate was written for another text of a model; what it proves of this one stands above\n",
         );
     }
     out
+}
+
+/// Whether a certificate says that it was written for another text of a model, as one of another loop does.
+///
+/// ```
+/// let certificate = r#"{"model": {"title": null, "digest": "sha256:0000"}}"#;
+/// assert!(jurist_check::is_for_another_text("loop.characteristic = 's + 1'", certificate));
+/// ```
+pub fn is_for_another_text(model: &str, certificate: &str) -> bool {
+    is_for_another(model, &sha256(&loop_alone(model)), certificate)
 }
 
 /// Whether the certificate has the digest of another text than the model's.

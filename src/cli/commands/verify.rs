@@ -8,7 +8,7 @@ use crate::cli::output::{note, write_answer};
 use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
 use jurist_check::format::MAX_TEXT;
-use jurist_check::{Limits, Names, check, report};
+use jurist_check::{Limits, Names, check, is_for_another_text, report};
 use jurist_engine::error::{Code, Diagnostic, Source};
 use jurist_engine::model::Reference;
 use std::ffi::{OsStr, OsString};
@@ -87,6 +87,11 @@ fn run(options: &Options, context: &Context) -> Outcome {
         }
         Err(reason) => {
             note(&reason);
+            if let (Ok(model), Ok(certificate)) = (&model, &certificate)
+                && is_for_another_text(model, certificate)
+            {
+                note("the certificate was written for another text of a model: is it that of this file?");
+            }
             let refers = |text: &str| Reference::all(&Source::new("", text)).is_ok_and(|found| !found.is_empty());
             if model.is_ok_and(|text| refers(&text)) {
                 note(
