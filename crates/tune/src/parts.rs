@@ -155,7 +155,8 @@ impl<'l, 'a> Parts<'l, 'a> {
     }
 
     fn test(&self, problem: &Arc<Problem>, requirement: &Requirement) -> Result<RequirementBoxes, Error> {
-        let test = RequirementBoxes::of(problem, requirement, self.lines.at(), &self.near, self.lines.budget)?;
+        let (at, budget) = (self.lines.at(), self.lines.budget);
+        let test = RequirementBoxes::with_delay_margin(problem, requirement, at, &self.near, budget)?;
         test.ok_or_else(|| not_in_boxes(requirement.name()))
     }
 
