@@ -111,6 +111,9 @@ impl TuneAnswer {
             Best::Unbounded if matches!(asked.objective, Objective::Tolerance(_)) && optimum.at.is_empty() => {
                 writeln!(out, "{wanted}: it has no bound, since gains near to 0 may be multiplied by any factor")
             }
+            Best::Unbounded if asked.level() == Some(Level::DelayMargin) => {
+                writeln!(out, "{wanted}: none, the loop is stable with any delay")
+            }
             Best::Unbounded => writeln!(out, "{wanted}: it has no bound"),
             Best::Zero => writeln!(out, "{wanted}: 0"),
             Best::Exact(value) => {
@@ -183,7 +186,8 @@ impl TuneAnswer {
                 }
             }
             None => {
-                let least = optimum.found_value.as_ref().filter(|_| asked.level().is_some());
+                let is_level = asked.level().is_some() && !matches!(optimum.value, Best::Unbounded);
+                let least = optimum.found_value.as_ref().filter(|_| is_level);
                 let least = least.map(|scale| {
                     let word = if reading.is_greatest_best() { "at least" } else { "at most" };
                     let value = reading.shown(&Real::from(scale.clone()), FEW);

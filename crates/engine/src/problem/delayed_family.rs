@@ -33,37 +33,44 @@ fn add(sum: &mut RationalFunction, time: &RationalFunction, times: u32) {
     *sum = &*sum + &(time * &RationalFunction::from(Rational::from(i64::from(times))));
 }
 
-/// A loop closed over dead time: `D0 + N exp(-d s)` of the denominator and the numerator of its open loop, `d` being the last parameter.
-///
-/// The variables of the parameters are followed by those of delays, which are given with their dead times. `usual` is a usual point, `d` included.
-/// `None` for a loop that vanishes identically.
-///
-/// # Errors
-/// `E-dead-time` where the loop divides by a delay.
-pub(crate) fn closed_over_dead_time(
-    [denominator, numerator]: [&Poly<MultiPoly>; 2],
-    undefined: &MultiPoly,
-    delays: &[(usize, RationalFunction)],
-    usual: &[Rational],
-) -> Result<Option<DelayedFunction>, Error> {
-    // The dead time at the cut stands before the delays, and its own delay behind them.
-    let last = usual.len() - 1;
-    let moved = |p: &MultiPoly| p.map_variables(|i| if i < last { i } else { i + 1 });
-    let own = delays.iter().map(|(variable, _)| variable + 2).max().unwrap_or(usual.len());
-    let mut times: Vec<(usize, RationalFunction)> = delays.iter().map(|(i, time)| (i + 1, time.clone())).collect();
-    times.push((own, RationalFunction::variable(last)));
-    let delayed = numerator.map(moved).scaled(&MultiPoly::variable(own));
-    let closed = denominator.map(moved).plus(&delayed);
-    let coefficients: Vec<RationalFunction> = closed.coeffs().iter().cloned().map(RationalFunction::from).collect();
-    let polynomial = CharacteristicPolynomial {
-        variables: Vec::new(),
-        formal_degree: coefficients.len().saturating_sub(1),
-        coefficients,
-        poles: vec![moved(undefined)],
-        monic: false,
-    };
-    let time_of = |variable: usize| times.iter().find(|(own, _)| *own == variable).map(|(_, time)| time);
-    let found = DelayedTerms::of(&polynomial, usual.len(), time_of, add)?;
-    let all = times.iter().map(|(_, time)| time.clone()).collect();
-    Ok(DelayedFunction::new(found.terms, all, found.poles, usual))
+/// An open loop `N/D0` with a dead time where it is cut.
+pub(crate) struct OverDeadTime {
+    pub denominator: Poly<MultiPoly>,
+    pub numerator: Poly<MultiPoly>,
+    /// Where it is undefined.
+    pub undefined: MultiPoly,
+    /// The variables behind those of the parameters, and the dead times that they stand for.
+    pub delays: Vec<(usize, RationalFunction)>,
+    /// So many parameters are in it.
+    pub parameters: usize,
+}
+
+impl OverDeadTime {
+    /// The closed loop `D0 + N exp(-time s)`; parameters of the time may follow those of the loop. `usual` is a usual point of all. `None` for a loop that
+    /// vanishes identically.
+    ///
+    /// # Errors
+    /// `E-dead-time` where the loop divides by a delay.
+    pub fn closed(&self, time: &RationalFunction, usual: &[Rational]) -> Result<Option<DelayedFunction>, Error> {
+        let further = usual.len() - self.parameters;
+        let moved = |p: &MultiPoly| p.map_variables(|i| if i < self.parameters { i } else { i + further });
+        let mut times: Vec<(usize, RationalFunction)> =
+            self.delays.iter().map(|(i, time)| (i + further, time.clone())).collect();
+        let own = times.iter().map(|(variable, _)| variable + 1).max().unwrap_or(usual.len());
+        times.push((own, time.clone()));
+        let delayed = self.numerator.map(moved).scaled(&MultiPoly::variable(own));
+        let closed = self.denominator.map(moved).plus(&delayed);
+        let coefficients: Vec<RationalFunction> = closed.coeffs().iter().cloned().map(RationalFunction::from).collect();
+        let polynomial = CharacteristicPolynomial {
+            variables: Vec::new(),
+            formal_degree: coefficients.len().saturating_sub(1),
+            coefficients,
+            poles: vec![moved(&self.undefined)],
+            monic: false,
+        };
+        let time_of = |variable: usize| times.iter().find(|(own, _)| *own == variable).map(|(_, time)| time);
+        let found = DelayedTerms::of(&polynomial, usual.len(), time_of, add)?;
+        let all = times.iter().map(|(_, time)| time.clone()).collect();
+        Ok(DelayedFunction::new(found.terms, all, found.poles, usual))
+    }
 }

@@ -26,7 +26,7 @@ pub use block::EnclosedBlock;
 pub(crate) use by_enclosures::{EnclosedParts, EnclosedQuotient, exact_or_enclosed};
 pub(crate) use delayed::base_delay;
 pub(crate) use delayed::refused;
-pub(crate) use delayed_family::closed_over_dead_time;
+pub(crate) use delayed_family::OverDeadTime;
 pub use delayed::{BaseDelay, DelayedLoop};
 pub use evaluation::Algebra;
 pub(crate) use in_numbers::FromNumbers;

@@ -8,12 +8,12 @@ use super::requirement_boxes::OverPoints;
 use super::same_count::same_count;
 use crate::error::Error;
 use crate::model::Cut;
-use crate::problem::{Problem, closed_over_dead_time};
-use crate::stability::boxes::{DelayedFunction, Family};
+use crate::problem::{Problem, OverDeadTime};
+use crate::stability::boxes::{DelayedFunction, Family, corners};
 use crate::stability::{AtPoint, Shape};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::MultiPoly;
+use jurist_algebra::poly::{MultiPoly, RationalFunction};
 
 /// Shares of the greatest dead time with which a loop may be unstable, from the longest to the shortest.
 const SHARES: [(i64, i64); 12] =
@@ -23,12 +23,22 @@ const SHARES: [(i64, i64); 12] =
 const LONGER: [(i64, i64); 4] = [(3, 2), (1, 1), (2, 1), (3, 1)];
 
 /// The dead times from zero to the greatest are not cut into more parts.
-const MOST_PARTS: usize = 24;
+const MOST_PARTS: usize = 12;
+
+/// Cells of frequency and parameters after which a box is rather halved: with one dead time, and with a range of them.
+const CELLS: [usize; 2] = [64, 12];
+
+/// So many corners of a box are looked at before a proof is tried.
+const MOST_CORNERS: usize = 8;
 
 /// A least delay margin over boxes.
 pub(super) struct DelayBoxes {
+    open: OverDeadTime,
+    near: Vec<Rational>,
     /// The loop in its parameters, the dead time at the cut being the last one.
-    family: DelayedFunction,
+    with_any: DelayedFunction,
+    /// The loop with all of the dead time.
+    with_all: DelayedFunction,
     least: Rational,
 }
 
@@ -53,10 +63,15 @@ impl DelayBoxes {
             return Ok(None);
         }
         let (quotient, undefined) = opened.quotient(MultiPoly::clone, budget)?;
+        let (denominator, numerator) = (quotient.denominator, quotient.numerator);
+        let open = OverDeadTime { denominator, numerator, undefined, delays, parameters: near.len() };
         let usual: Vec<Rational> = near.iter().chain([least]).cloned().collect();
-        let parts = [&quotient.denominator, &quotient.numerator];
-        let family = budget.enter(|| closed_over_dead_time(parts, &undefined, &delays, &usual))??;
-        Ok(family.map(|family| DelayBoxes { family, least: least.clone() }))
+        let families = budget.enter(|| -> Result<_, Error> {
+            let with_any = open.closed(&RationalFunction::variable(near.len()), &usual)?;
+            Ok((with_any, open.closed(&least.clone().into(), near)?))
+        })??;
+        let (Some(with_any), Some(with_all)) = families else { return Ok(None) };
+        Ok(Some(DelayBoxes { open, near: near.to_vec(), with_any, with_all, least: least.clone() }))
     }
 
     /// Whether all stable points of a closed box have the delay margin, or no point has it.
@@ -66,14 +81,17 @@ impl DelayBoxes {
     /// # Errors
     /// When the budget runs out.
     pub fn look(&self, sides: &[[Rational; 2]], budget: &Budget) -> Result<OverPoints, Exhausted> {
-        let with_all = self.with(sides, [self.least.clone(), self.least.clone()], budget)?;
+        let with_all = with(&self.with_all, sides, CELLS[0], budget)?;
         if with_all == OverPoints::None {
             return Ok(OverPoints::None);
         }
         let middle: Vec<Rational> = sides.iter().map(|[low, high]| low.midpoint(high)).collect();
         let times = self.times_without_stability(&middle, budget)?;
         for time in times.iter().filter(|time| **time != self.least) {
-            if self.with(sides, [time.clone(), time.clone()], budget)? == OverPoints::None {
+            let family = budget.enter(|| self.open.closed(&time.clone().into(), &self.near))?;
+            if let Ok(Some(family)) = family
+                && with(&family, sides, CELLS[0], budget)? == OverPoints::None
+            {
                 return Ok(OverPoints::None);
             }
         }
@@ -117,7 +135,8 @@ impl DelayBoxes {
         let mut looked = 0;
         while let Some(times) = open.pop() {
             looked += 1;
-            match self.with(sides, times.clone(), budget)? {
+            let all: Vec<[Rational; 2]> = sides.iter().cloned().chain([times.clone()]).collect();
+            match with(&self.with_any, &all, CELLS[1], budget)? {
                 OverPoints::All => {}
                 OverPoints::Open { .. } if looked < MOST_PARTS => {
                     let [low, high] = times;
@@ -130,16 +149,32 @@ impl DelayBoxes {
         Ok(true)
     }
 
-    /// Whether all points are stable with all dead times of a range, or none is with any.
-    fn with(&self, sides: &[[Rational; 2]], times: [Rational; 2], budget: &Budget) -> Result<OverPoints, Exhausted> {
-        let all: Vec<[Rational; 2]> = sides.iter().cloned().chain([times]).collect();
-        same_count(&self.family, &all, budget, |point| budget.enter(|| told(&self.family, point)))
-    }
-
     fn is_stable(&self, point: &[Rational], time: &Rational) -> Option<bool> {
         let point: Vec<Rational> = point.iter().chain([time]).cloned().collect();
-        told(&self.family, &point)
+        told(&self.with_any, &point)
     }
+}
+
+/// Whether all points of a box are stable, or none is.
+fn with(
+    family: &DelayedFunction,
+    sides: &[[Rational; 2]],
+    cells: usize,
+    budget: &Budget,
+) -> Result<OverPoints, Exhausted> {
+    let right = |point: &[Rational]| match family.count(point) {
+        Some(AtPoint::Delayed { on: 0, right }) => right,
+        _ => None,
+    };
+    let is_same = || {
+        let middle: Vec<Rational> = sides.iter().map(|[low, high]| low.midpoint(high)).collect();
+        right(&middle).is_some_and(|own| corners(sides).take(MOST_CORNERS).all(|corner| right(&corner) == Some(own)))
+    };
+    // Further roots cross where a loop is not stable: a proof that they do not takes long to fail.
+    if !budget.enter(is_same)? {
+        return Ok(OverPoints::Open { middle: None });
+    }
+    same_count(family, sides, (cells, budget), |point| budget.enter(|| told(family, point)))
 }
 
 /// Whether a point is stable; `None` where one walk along the imaginary axis does not tell.

@@ -90,6 +90,9 @@ const DISTANCE_WORK: u64 = 3_000_000;
 /// In so many places between the region of stability and a root it is asked whether the count of roots beyond is the same in a box.
 const OTHERS: u64 = 3;
 
+/// Cells of frequency and parameters after which a box is rather halved.
+const CELLS: usize = 96;
+
 impl RequirementBoxes {
     /// Of a requirement, margins being taken at a cut; `near` is a point that tells how fast the loop is. `None` for a requirement that is not asked of
     /// boxes.
@@ -242,9 +245,9 @@ impl RequirementBoxes {
         }
         let is_stable = |middle: &[Rational]| self.is_stable(middle, None, budget);
         Ok(Some(match family {
-            LoopFamily::Rational(family) => same_count(family.as_ref(), sides, budget, is_stable)?,
-            LoopFamily::Moving(family) => same_count(family.as_ref(), sides, budget, is_stable)?,
-            LoopFamily::Delayed(family) => same_count(family.as_ref(), sides, budget, is_stable)?,
+            LoopFamily::Rational(family) => same_count(family.as_ref(), sides, (CELLS, budget), is_stable)?,
+            LoopFamily::Moving(family) => same_count(family.as_ref(), sides, (CELLS, budget), is_stable)?,
+            LoopFamily::Delayed(family) => same_count(family.as_ref(), sides, (CELLS, budget), is_stable)?,
             LoopFamily::Constants => return Ok(None),
         }))
     }

@@ -8,17 +8,15 @@ use jurist_algebra::number::Rational;
 /// So many corners of a box are looked at before a proof is tried.
 const MOST_CORNERS: usize = 16;
 
-/// Cells of frequency and parameters after which a box is rather halved.
-const CELLS: usize = 96;
-
-/// Whether all points of a box are stable, or none is, where no root crosses in it; `is_stable` tells it of the middle.
+/// Whether all points of a box are stable, or none is, where no root crosses in it; `is_stable` tells it of the middle. More cells of frequency and
+/// parameters are not looked at.
 ///
 /// # Errors
 /// When the budget runs out.
 pub(super) fn same_count(
     family: &impl Family,
     sides: &[[Rational; 2]],
-    budget: &Budget,
+    (cells, budget): (usize, &Budget),
     is_stable: impl FnOnce(&[Rational]) -> Result<Option<bool>, Exhausted>,
 ) -> Result<OverPoints, Exhausted> {
     let open = OverPoints::Open { middle: None };
@@ -32,7 +30,7 @@ pub(super) fn same_count(
     if budget.enter(differs)? {
         return Ok(open);
     }
-    if !budget.enter(|| family.has_no_crossing(sides, (&signs, scale), CELLS, budget))?? {
+    if !budget.enter(|| family.has_no_crossing(sides, (&signs, scale), cells, budget))?? {
         return Ok(open);
     }
     Ok(match is_stable(&middle)? {
