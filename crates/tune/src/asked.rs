@@ -300,9 +300,10 @@ fn level_of(time: Time, level: Level, (text, is_greatest): (&str, bool)) -> Resu
     if !level.fits(time) {
         let (kind, help) = match (time, level) {
             (Time::Discrete, Level::Damping) => ("discrete", "require it: --damping, and make another number best"),
-            (Time::Discrete, Level::DelayMargin) => {
-                ("discrete", "make the phase margin best: 'max phase_margin'; 'jurist margins' says the delay margin of gains")
-            }
+            (Time::Discrete, Level::DelayMargin) => (
+                "discrete",
+                "make the phase margin best: 'max phase_margin'; 'jurist margins' says the delay margin of gains",
+            ),
             (Time::Discrete, _) => ("discrete", "did you mean 'radius'?"),
             (Time::Continuous, _) => ("continuous", "did you mean 'decay'?"),
         };

@@ -8,7 +8,7 @@ use super::requirement_boxes::OverPoints;
 use super::same_count::same_count;
 use crate::error::Error;
 use crate::model::Cut;
-use crate::problem::{Problem, OverDeadTime};
+use crate::problem::{OverDeadTime, Problem};
 use crate::stability::boxes::{DelayedFunction, Family, corners};
 use crate::stability::{AtPoint, Shape};
 use jurist_algebra::limits::{Budget, Exhausted};

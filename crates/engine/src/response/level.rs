@@ -126,11 +126,9 @@ impl Level {
             Level::Radius | Level::Damping => [Rational::ZERO, Rational::ONE],
             Level::GainMargin => [Rational::ONE, far()],
             Level::PhaseMargin => [Rational::from(-2), Rational::from(2)],
-            Level::ModulusMargin
-            | Level::ComplementaryPeak
-            | Level::DiskMargin
-            | Level::DelayMargin
-            | Level::Norm => [Rational::ZERO, far()],
+            Level::ModulusMargin | Level::ComplementaryPeak | Level::DiskMargin | Level::DelayMargin | Level::Norm => {
+                [Rational::ZERO, far()]
+            }
         }
     }
 
