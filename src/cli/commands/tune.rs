@@ -177,9 +177,9 @@ fn all_plants(
     let given = ranges(&options.for_all, &free, model, context)?;
     if options.for_all.is_empty() && !options.robust {
         let place = model.tuning().map(|tuning| tuning.span);
-        return plants_of_model(question, gains).map_err(|error| in_model(model, place, error.into()));
+        return plants_of_model(question, gains).map_err(|error| in_model(model, place, error));
     }
-    Ok(plants(question, gains, given, options.robust)?)
+    plants(question, gains, given, options.robust)
 }
 
 /// The error with its place in the model, where it has one.
