@@ -79,6 +79,14 @@ fn that_is_required() {
     assert_eq!(tune(&none).0, 1);
 }
 
+/// `pi/(2 a K)` for all `a` up to 2: `pi/4` at the least `K`.
+#[test]
+fn for_all_plants() {
+    let plant = ["K*a/s", "--free", "K", "--bound", "K=1..4", "--for-all", "a=1..2", "--gap", "10%"];
+    let (_, found) = tune(&[&plant[..], &OBJECTIVE].concat());
+    holds(&found, std::f64::consts::FRAC_PI_4, 0.1);
+}
+
 /// In discrete time it is counted in samples.
 #[test]
 fn in_discrete_time_it_is_refused() {
