@@ -35,6 +35,13 @@ fn of_an_integrator() {
     holds(&found, std::f64::consts::FRAC_PI_2, 1e-3);
 }
 
+/// Dead time of the loop is taken from it.
+#[test]
+fn beside_dead_time() {
+    let (_, found) = tune(&[&["exp(-s/10)*K/s", "--free", "K", "--bound", "K=1..10"], &OBJECTIVE[..]].concat());
+    holds(&found, std::f64::consts::FRAC_PI_2 - 0.1, 1e-3);
+}
+
 /// The gain of `K/(s + 1)` is 1 at `w = sqrt(K^2 - 1)`, where its phase is `-atan w`.
 #[test]
 fn of_a_lag() {
