@@ -168,6 +168,7 @@ mod tune {
     mod campaign;
     mod cases;
     mod centre;
+    mod delays;
     mod formulas;
     mod gains;
     mod laws;

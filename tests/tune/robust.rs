@@ -48,6 +48,39 @@ fn the_largest_gain_for_all_poles() {
     assert!(run.stdout.contains("\nfor all a from 1 to 2\n"), "{}", run.stdout);
 }
 
+/// The same as the model says it: a range, or a tolerance.
+#[test]
+fn plants_of_the_model() {
+    let model = |key: &str| {
+        format!(
+            "time = 'continuous'\nparameters = {{ K = 1, a = {{ nominal = 1.5, tolerance = '20%' }} }}\n\
+             loop.characteristic = 's*(s + a)*(s + 2) + K'\n[tune]\nfree = 'K'\nbounds = {{ K = [0, 100] }}\nobjective = 'max K'\n{key}\n"
+        )
+    };
+    let given = |key: &str, options: &[&str]| tune(&model(key), options).1["for_all"].clone();
+    let [range, tolerance] = [
+        json!([{ "name": "a", "lower": "1", "upper": "2" }]),
+        json!([{ "name": "a", "lower": "6/5", "upper": "9/5" }]),
+    ];
+    assert_eq!(given("for_all = { a = [1, 2] }", &[]), range);
+    assert_eq!(given("robust = true", &[]), tolerance);
+    // The command line counts instead of the model.
+    assert_eq!(given("for_all = { a = [1, 2] }", &["--robust"]), tolerance);
+    let folder = Folder::new(&[("loop.toml", &model("for_all = { a = [1, 2] }"))]);
+    let run = folder.jurist(&["report", "loop.toml", "-o", "-"]);
+    assert!(run.stdout.contains("for all a from 1 to 2"), "{}", run.stderr);
+    for (key, words) in [
+        ("for_all = { a = [2, 1] }", "the range of 'a' is no interval"),
+        ("for_all = { a = [2] }", "the range of 'a': two numbers are needed"),
+        ("for_all = { b = [1, 2] }", "'b' is no parameter"),
+        ("robust = 1", "'robust'"),
+    ] {
+        let folder = Folder::new(&[("loop.toml", &model(key))]);
+        let run = folder.jurist(&["tune", "loop.toml"]);
+        assert!(run.status == 2 && run.stderr.contains(words), "{key}: {}", run.stderr);
+    }
+}
+
 /// `s^2 + (K - a) s + b`: of all `a` up to 1 the least `K` is 1; of `b` nothing depends.
 #[test]
 fn the_smallest_gain_for_two_names() {

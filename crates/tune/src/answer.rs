@@ -3,6 +3,7 @@
 use crate::asked::{Asked, Gain, Objective};
 use crate::conflict::conflict;
 use crate::lines::Lines;
+use crate::plants::plants_of_model;
 use crate::typed::{Typed, typed};
 use crate::{many_gains, one_gain, two_gains};
 use jurist_algebra::limits::{Budget, Exhausted, apart};
@@ -11,7 +12,7 @@ use jurist_algebra::poly::MultiPoly;
 use jurist_algebra::real::Real;
 use jurist_engine::error::{Code, Diagnostic, Error};
 use jurist_engine::problem::{Problem, Question};
-use jurist_engine::response::Level;
+use jurist_engine::response::{AllOf, Level};
 use std::sync::Arc;
 
 /// The best gains of a loop, or that there are none.
@@ -199,9 +200,13 @@ impl TuneAnswer {
         let model = question.model();
         let gains = model.tuning().into_iter().flat_map(|tuning| &tuning.free).map(|name| name.name.clone());
         let gains: Vec<Gain> = gains.map(Gain::new).collect();
+        let for_all = plants_of_model(question, &gains)?;
+        let middle = |all: &AllOf| (all.name.clone(), all.range[0].midpoint(&all.range[1]));
+        let question = &question.clone().set_all(for_all.iter().map(middle));
         let free = gains.iter().fold(question.clone(), |question, gain| question.without_value(&gain.name));
         let requirements = model.requirements(&[], &values(&free), budget)?;
-        let asked = Asked::of_model(model, gains, requirements)?;
+        let mut asked = Asked::of_model(model, gains, requirements)?;
+        asked.for_all = for_all;
         TuneAnswer::of(&free, asked, budget)
     }
 

@@ -246,7 +246,7 @@ fn objective(model: &Model, gains: &[Gain], text: &str) -> Result<Objective, Err
             return Err(refused(
                 format!("the objective '{text}' is not understood"),
                 "write 'max NAME' or 'min NAME', NAME a free gain, an expression of free gains or one of decay, radius, damping, settling_time, \
-                 gain_margin, phase_margin, modulus_margin, complementary_peak, disk_margin; 'min norm INPUT OUTPUT'; 'max tolerance'; or 'none'"
+                 gain_margin, phase_margin, modulus_margin, complementary_peak, disk_margin, delay_margin; 'min norm INPUT OUTPUT'; 'max tolerance'; or 'none'"
                     .into(),
             ));
         }
@@ -300,6 +300,10 @@ fn level_of(time: Time, level: Level, (text, is_greatest): (&str, bool)) -> Resu
     if !level.fits(time) {
         let (kind, help) = match (time, level) {
             (Time::Discrete, Level::Damping) => ("discrete", "require it: --damping, and make another number best"),
+            (Time::Discrete, Level::DelayMargin) => (
+                "discrete",
+                "make the phase margin best: 'max phase_margin'; 'jurist margins' says the delay margin of gains",
+            ),
             (Time::Discrete, _) => ("discrete", "did you mean 'radius'?"),
             (Time::Continuous, _) => ("continuous", "did you mean 'decay'?"),
         };

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`asked`] | which gains are free, within which bounds, and what is to be best |
 //! | [`answer`] | the answer: no gains at all, or the optimum and the gains that are typed in |
+//! | [`plants`] | for which plants the gains are to be good |
 //! | [`document`] | the answer as JSON |
 //! | [`decimals`] | the shortest decimal between two numbers |
 //!
@@ -35,6 +36,7 @@ mod many_gains;
 mod near;
 mod one_gain;
 mod parts;
+pub mod plants;
 mod reading;
 mod search;
 mod seed;

@@ -175,9 +175,9 @@ impl<'a> Lines<'a> {
     }
 
     /// Whether boxes of gains are searched: for all plants, of three gains or more, and of two behind a hold where the map takes minutes, and of
-    /// two with dead time, where there is none; of an expression, and of a peak gain.
+    /// two with dead time, where there is none; of an expression, of a peak gain, and of a delay margin.
     pub fn are_boxes_asked(&self) -> Result<bool, Error> {
-        if !self.asked.for_all.is_empty() {
+        if !self.asked.for_all.is_empty() || self.is_delay_margin_asked() {
             return Ok(true);
         }
         if self.asked.gains.len() != 2 || self.asked.by_boxes || self.formula.is_some() {
@@ -193,6 +193,13 @@ impl<'a> Lines<'a> {
         }
         let ring = self.problem()?.coefficient_ring(self.budget)?;
         Ok(matches!(ring, CoefficientRing::Constants | CoefficientRing::Functions | CoefficientRing::DeadTime))
+    }
+
+    /// Whether a delay margin is required, or to be best: no set of one gain and no map tells it.
+    fn is_delay_margin_asked(&self) -> bool {
+        let name = Level::DelayMargin.name();
+        self.asked.level() == Some(Level::DelayMargin)
+            || self.asked.requirements.list.iter().any(|requirement| requirement.name() == name)
     }
 
     /// Where margins are taken.

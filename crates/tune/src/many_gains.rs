@@ -9,6 +9,7 @@ use crate::target::{Target, Value};
 use jurist_algebra::limits::{Exhausted, apart};
 use jurist_algebra::number::Rational;
 use jurist_engine::error::Error;
+use jurist_engine::response::Level;
 use std::rc::Rc;
 
 /// More parts are not looked at.
@@ -42,7 +43,7 @@ pub(crate) fn best(lines: &Lines<'_>) -> Result<Outcome, Error> {
         Sweep::Found(point, rest) => (point, rest),
     };
     let Some(target) = target else { return Ok(Optimum::some(point).into()) };
-    let mut search = Search { parts, target, point, value: None, proved: None };
+    let mut search = Search { parts, target, point, value: None, proved: None, is_unbounded: false };
     let stopped = match lines.part(|| search.narrow(rest)) {
         Ok(stopped) => stopped,
         Err(Error::Stopped(stopped)) => Some(stopped),
@@ -74,6 +75,8 @@ struct Search<'l, 'a> {
     value: Option<Value>,
     /// No point has this value.
     proved: Option<Value>,
+    /// Whether the best point has every value.
+    is_unbounded: bool,
 }
 
 impl Search<'_, '_> {
@@ -87,6 +90,9 @@ impl Search<'_, '_> {
             return Ok(Some(not_found()));
         }
         self.improve()?;
+        if self.bears_any_delay()? {
+            return Ok(None);
+        }
         let share = |(a, b): (i64, i64)| Rational::new(a.into(), b.into());
         let (mut gap, least) = (share(FIRST_GAP), self.parts.lines.asked.gap.clone());
         let mut open = rest;
@@ -97,11 +103,21 @@ impl Search<'_, '_> {
                 Ok(next) => open = next,
                 Err(stopped) => return Ok(Some(stopped)),
             }
-            if gap <= least {
+            if gap <= least || self.is_unbounded {
                 return Ok(None);
             }
             gap *= share(FINER);
         }
+    }
+
+    /// Whether the best point has every delay margin; it is not looked for beside other plants.
+    fn bears_any_delay(&mut self) -> Result<bool, Error> {
+        let lines = self.parts.lines;
+        if lines.asked.level() == Some(Level::DelayMargin) && self.parts.plants.is_one() {
+            let named = crate::typed::named(lines, &self.point);
+            self.is_unbounded = lines.level_at(&named, Level::DelayMargin)?.is_none();
+        }
+        Ok(self.is_unbounded)
     }
 
     /// Proves that no gains are better by a gap, finding better ones where there are some. Returns the parts in which better ones by less may be, or what
@@ -131,6 +147,9 @@ impl Search<'_, '_> {
                     self.improve()?;
                     open = rest;
                     open.append(&mut aside);
+                    if self.bears_any_delay()? {
+                        return Ok(Ok(open));
+                    }
                 }
                 Sweep::Stopped(stopped, rest) => {
                     apart(|| self.seen_so_far(&rest, &goal));
@@ -167,7 +186,7 @@ impl Search<'_, '_> {
     }
 
     fn outcome(self, stopped: Option<Exhausted>) -> Optimum {
-        let Search { parts, target, point, value, proved } = self;
+        let Search { parts, target, point, value, proved, is_unbounded } = self;
         let cells = Some(parts.cells);
         let Some(found) = value else {
             return Optimum { stopped, cells, ..Optimum::some(point) };
@@ -175,6 +194,7 @@ impl Search<'_, '_> {
         let places = || point.iter().map(|x| Place::Exact(x.clone().into())).collect();
         let on_bounds = on_bounds(&parts, &point);
         let (best, stopped, attained) = match &target {
+            Target::Level { .. } if is_unbounded => (Best::Unbounded, None, None),
             Target::Level { level, .. } => {
                 let (best, stopped) = bracketed(*level, &found, proved, stopped);
                 (best, stopped, None)
@@ -192,6 +212,7 @@ impl Search<'_, '_> {
             }
         };
         let binding = match &target {
+            Target::Level { .. } if is_unbounded => Vec::new(),
             Target::Level { level, .. } => on_bounds.into_iter().chain([level.name().to_owned()]).collect(),
             // Other gains may be on their bounds by chance.
             Target::Gain { gain, .. } if attained.is_some() => vec![bound_of(&parts, *gain)],

@@ -6,6 +6,7 @@ use crate::formula::Formula;
 use crate::lines::Lines;
 use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
 use jurist_algebra::number::Rational;
+use jurist_engine::coverage::CoefficientRing;
 use jurist_engine::error::{Code, Diagnostic, Error};
 use jurist_engine::problem::Problem;
 use jurist_engine::response::{Certain, Level, LevelAsked, OverPoints, Requirement, RequirementBoxes};
@@ -124,6 +125,7 @@ pub(crate) struct Parts<'l, 'a> {
     /// Where a tolerance is to be best.
     pub centre: Option<Rc<Centre>>,
     near: Vec<Rational>,
+    has_dead_time: bool,
     pub tests: Vec<RequirementBoxes>,
     /// So many parts were looked at.
     pub looked: usize,
@@ -142,9 +144,10 @@ impl<'l, 'a> Parts<'l, 'a> {
         let whole = sides(lines)?;
         let plants = Plants::new(&lines.asked.for_all);
         let near: Vec<Rational> = middle(&whole).into_iter().chain(middle(&plants.sides)).collect();
-        let mut parts =
-            Parts { lines, whole, plants, centre: None, near, tests: Vec::new(), looked: 0, cells: 0, most };
         let problem = lines.problem()?;
+        let has_dead_time = problem.coefficient_ring(lines.budget)? == CoefficientRing::DeadTime;
+        let (tests, centre) = (Vec::new(), None);
+        let mut parts = Parts { lines, whole, plants, centre, near, has_dead_time, tests, looked: 0, cells: 0, most };
         let stability = RequirementBoxes::of_stability(&problem, &parts.near, lines.budget)?;
         parts.tests.push(stability.ok_or_else(|| not_in_boxes("stability"))?);
         for requirement in &lines.asked.requirements.list {
@@ -155,7 +158,8 @@ impl<'l, 'a> Parts<'l, 'a> {
     }
 
     fn test(&self, problem: &Arc<Problem>, requirement: &Requirement) -> Result<RequirementBoxes, Error> {
-        let test = RequirementBoxes::of(problem, requirement, self.lines.at(), &self.near, self.lines.budget)?;
+        let (at, budget) = (self.lines.at(), self.lines.budget);
+        let test = RequirementBoxes::with_delay_margin(problem, requirement, at, &self.near, budget)?;
         test.ok_or_else(|| not_in_boxes(requirement.name()))
     }
 
@@ -194,6 +198,14 @@ impl<'l, 'a> Parts<'l, 'a> {
         let is_unmet = |test: &RequirementBoxes| test.certain(&sides) == Some(Certain::Unmet);
         if self.lines.budget.enter(|| self.tests[1..].iter().any(is_unmet))? {
             return Ok(false);
+        }
+        // So does a delay margin beside dead time: all margins come with it.
+        if let (Some(Level::DelayMargin), Some(asked), true) = (self.lines.asked.level(), scale, self.has_dead_time) {
+            match self.level(Level::DelayMargin, asked)?.look(&sides, self.lines.budget)? {
+                OverPoints::All => return self.is_met(point, None),
+                OverPoints::None => return Ok(false),
+                OverPoints::Open { .. } => {}
+            }
         }
         let named = crate::typed::named(self.lines, point);
         match self.lines.is_met_in_order(&named, scale) {

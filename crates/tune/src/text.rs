@@ -115,6 +115,9 @@ impl TuneAnswer {
             Best::Unbounded if matches!(asked.objective, Objective::Tolerance(_)) && optimum.at.is_empty() => {
                 writeln!(out, "{wanted}: it has no bound, since gains near to 0 may be multiplied by any factor")
             }
+            Best::Unbounded if asked.level() == Some(Level::DelayMargin) => {
+                writeln!(out, "{wanted}: none, the loop is stable with any delay")
+            }
             Best::Unbounded => writeln!(out, "{wanted}: it has no bound"),
             Best::Zero => writeln!(out, "{wanted}: 0"),
             Best::Exact(value) => {
@@ -187,7 +190,9 @@ impl TuneAnswer {
                 }
             }
             None => {
-                let least = optimum.found_value.as_ref().filter(|_| asked.level().is_some());
+                let bears_all = matches!((&optimum.value, asked.level()), (Best::Unbounded, Some(Level::DelayMargin)));
+                let is_level = asked.level().is_some() && !bears_all;
+                let least = optimum.found_value.as_ref().filter(|_| is_level);
                 let least = least.and_then(|scale| {
                     let is_below = reading.is_greatest_best();
                     let value = to_decimal(&one_sided(&reading, scale, FEW as i64, is_below)?, FEW);

@@ -13,7 +13,6 @@ use crate::cli::written::certify;
 use clap::Args;
 use jurist_algebra::limits::apart;
 use jurist_algebra::number::Rational;
-use jurist_engine::answer::ToleranceRequest;
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Span};
 use jurist_engine::model::Model;
 use jurist_engine::problem::Question;
@@ -21,6 +20,7 @@ use jurist_engine::response::{AllOf, Requirements};
 use jurist_engine::show::documents;
 use jurist_tune::answer::TuneAnswer;
 use jurist_tune::asked::{Asked, Gain, is_share};
+use jurist_tune::plants::{plants, plants_of_model};
 use std::ffi::OsString;
 use std::sync::Arc;
 
@@ -38,7 +38,8 @@ pub(in crate::cli) struct Options {
     pub free: Vec<String>,
     /// What is to be best: 'max' or 'min' with a free gain or an expression of free gains; 'max decay', 'min radius',
     /// 'min settling_time', 'max damping', 'max gain_margin', 'max phase_margin', 'max modulus_margin',
-    /// 'min complementary_peak', 'max disk_margin', 'min norm INPUT OUTPUT'; 'none': are there any gains?
+    /// 'min complementary_peak', 'max disk_margin', 'max delay_margin', 'min norm INPUT OUTPUT'; 'max tolerance', 'max tolerance absolute'
+    /// or 'max tolerance ratio': the middle of the good gains; 'none': are there any gains?
     /// [default: that of [tune], else none]
     #[arg(long, value_name = "TEXT")]
     pub objective: Option<String>,
@@ -92,7 +93,7 @@ fn run(options: &Options, context: &Context) -> Outcome {
         let error = Diagnostic::error(Code::KeptAndSet, format!("'{}' is free and has a value", gain.name));
         return Err(error.help("leave out --set, or free another gain").into());
     }
-    let for_all = plants(options, (&model, &question), &gains, context)?;
+    let for_all = all_plants(options, (&model, &question), &gains, context)?;
     let question =
         for_all.iter().fold(question, |question, all| question.set(&all.name, all.range[0].midpoint(&all.range[1])));
     // What is required may not depend on what is free, nor on a name whose values are all of a range.
@@ -166,40 +167,20 @@ fn asked(
     Ok(asked)
 }
 
-/// The names of the plant with their ranges: those that are given, and those that have a tolerance.
-fn plants(
+/// The names of the plant with their ranges: as the command line says, else as the model does.
+fn all_plants(
     options: &Options,
     (model, question): (&Model, &Question),
     gains: &[Gain],
     context: &Context,
 ) -> Result<Vec<AllOf>, Error> {
     let free: Vec<&str> = gains.iter().map(|gain| gain.name.as_str()).collect();
-    let mut all = ranges(&options.for_all, &free, model, context)?;
-    if !options.robust {
-        return Ok(all);
+    let given = ranges(&options.for_all, &free, model, context)?;
+    if options.for_all.is_empty() && !options.robust {
+        let place = model.tuning().map(|tuning| tuning.span);
+        return plants_of_model(question, gains).map_err(|error| in_model(model, place, error));
     }
-    for (name, tolerance) in ToleranceRequest::of_model(model).tolerances {
-        if free.contains(&name.as_str()) || all.iter().any(|known| known.name == name) {
-            continue;
-        }
-        let nominal = match question.values_set().get(&name) {
-            Some(value) => Some(value.clone()),
-            None => question.nominal(&name)?,
-        };
-        let Some(nominal) = nominal else {
-            let error = Diagnostic::error(Code::NoValue, format!("'{name}' has a tolerance and no value"));
-            return Err(error.help(format!("give it one: --set {name}=VALUE")).into());
-        };
-        let [below, above] = tolerance.widths(&nominal).map_err(|why| {
-            Error::from(Diagnostic::error(Code::Tolerance, format!("the tolerance of '{name}': {why}")))
-        })?;
-        all.extend(AllOf::new(name, &nominal - below, &nominal + above));
-    }
-    if all.is_empty() {
-        let error = Diagnostic::error(Code::Tolerance, "no name beside the gains has a tolerance");
-        return Err(error.help("give tolerances in the model, or ranges: --for-all NAME=LO..HI").into());
-    }
-    Ok(all)
+    plants(question, gains, given, options.robust)
 }
 
 /// The error with its place in the model, where it has one.

@@ -38,4 +38,8 @@ pub struct Tuning {
     pub gap: Option<Rational>,
     /// What may be given up for gains of few digits: a share, or per cent.
     pub loss: Option<Name>,
+    /// Names of the plant with ranges, both ends included: gains are to be good for all values in them.
+    pub for_all: Vec<(Name, [Rational; 2])>,
+    /// Whether gains are to be good for all values within the tolerances of the model.
+    pub robust: bool,
 }

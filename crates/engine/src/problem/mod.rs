@@ -27,6 +27,7 @@ pub(crate) use by_enclosures::{EnclosedParts, EnclosedQuotient, exact_or_enclose
 pub(crate) use delayed::base_delay;
 pub(crate) use delayed::refused;
 pub use delayed::{BaseDelay, DelayedLoop};
+pub(crate) use delayed_family::OverDeadTime;
 pub use evaluation::Algebra;
 pub(crate) use in_numbers::FromNumbers;
 pub use in_numbers::RoundedLoop;

@@ -45,6 +45,8 @@ pub enum Level {
     ComplementaryPeak,
     /// The balanced disk margin; its scale is half of it.
     DiskMargin,
+    /// The delay margin, in continuous time.
+    DelayMargin,
     /// The peak gain of a transfer function of the closed loop; its scale is the inverse.
     Norm,
 }
@@ -60,7 +62,7 @@ pub enum LevelAsked {
 
 impl Level {
     /// All levels that are asked for by their names alone.
-    pub const ALL: [Level; 8] = [
+    pub const ALL: [Level; 9] = [
         Level::Decay,
         Level::Radius,
         Level::Damping,
@@ -69,6 +71,7 @@ impl Level {
         Level::ModulusMargin,
         Level::ComplementaryPeak,
         Level::DiskMargin,
+        Level::DelayMargin,
     ];
 
     /// Its name: that of the requirement.
@@ -82,6 +85,7 @@ impl Level {
             Level::ModulusMargin => "modulus_margin",
             Level::ComplementaryPeak => "complementary_peak",
             Level::DiskMargin => "disk_margin",
+            Level::DelayMargin => "delay_margin",
             Level::Norm => "norm",
         }
     }
@@ -108,6 +112,8 @@ impl Level {
             Level::Radius => time == Time::Discrete,
             // In discrete time its boundary is not algebraic, and nothing bounds the search.
             Level::Damping => time == Time::Continuous,
+            // There it is counted in samples.
+            Level::DelayMargin => time == Time::Continuous,
             _ => true,
         }
     }
@@ -120,7 +126,7 @@ impl Level {
             Level::Radius | Level::Damping => [Rational::ZERO, Rational::ONE],
             Level::GainMargin => [Rational::ONE, far()],
             Level::PhaseMargin => [Rational::from(-2), Rational::from(2)],
-            Level::ModulusMargin | Level::ComplementaryPeak | Level::DiskMargin | Level::Norm => {
+            Level::ModulusMargin | Level::ComplementaryPeak | Level::DiskMargin | Level::DelayMargin | Level::Norm => {
                 [Rational::ZERO, far()]
             }
         }
@@ -157,6 +163,7 @@ impl Level {
                 LevelAsked::Requirement(Requirement::norm(between.clone(), peak)?)
             }
             Level::DiskMargin => LevelAsked::Requirement(Requirement::disk_margin(scale + scale)?),
+            Level::DelayMargin => LevelAsked::Requirement(Requirement::delay_margin(scale.clone())?),
         })
     }
 

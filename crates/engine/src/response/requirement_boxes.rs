@@ -1,11 +1,13 @@
 //! Whether a loop is stable, or meets a requirement, at all points of a box of its free parameters at once.
 
+use super::delay_boxes::DelayBoxes;
 use super::over_box::{Certain, OverBox};
-use super::requirement::Requirement;
+use super::requirement::{Requirement, Rule};
+use super::same_count::same_count;
 use crate::answer::Verdict;
 use crate::error::Error;
 use crate::problem::{Bound, Problem, Question, Region};
-use crate::stability::boxes::{BoxPolynomial, DelayedFunction, Family, MovingPolynomial, corners};
+use crate::stability::boxes::{BoxPolynomial, DelayedFunction, MovingPolynomial};
 use crate::stability::{AtPoint, RootCount, Shape, count_roots};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::matrix::CharacteristicPolynomial;
@@ -40,6 +42,8 @@ pub struct RequirementBoxes {
     problem: Arc<Problem>,
     /// `None` where stability of a loop with dead time is asked.
     over: Option<OverBox>,
+    /// Where a delay margin is asked.
+    delay: Option<DelayBoxes>,
     asked: Asked,
 }
 
@@ -86,10 +90,7 @@ const DISTANCE_WORK: u64 = 3_000_000;
 /// In so many places between the region of stability and a root it is asked whether the count of roots beyond is the same in a box.
 const OTHERS: u64 = 3;
 
-/// So many corners of a box are looked at before a proof is tried.
-const MOST_CORNERS: usize = 16;
-
-/// Cells of frequency and parameters after which a box of a rational loop is rather halved.
+/// Cells of frequency and parameters after which a box is rather halved.
 const CELLS: usize = 96;
 
 impl RequirementBoxes {
@@ -109,7 +110,28 @@ impl RequirementBoxes {
     ) -> Result<Option<RequirementBoxes>, Error> {
         let over = OverBox::of(problem, requirement, at, near, budget)?;
         let asked = Asked::Requirement { one: Box::new(requirement.clone()), at: at.map(str::to_owned) };
-        Ok(over.map(|over| RequirementBoxes { problem: Arc::clone(problem), over: Some(over), asked }))
+        Ok(over.map(|over| RequirementBoxes { problem: Arc::clone(problem), over: Some(over), delay: None, asked }))
+    }
+
+    /// The same of a delay margin too, in continuous time.
+    ///
+    /// # Errors
+    /// As [`RequirementBoxes::of`].
+    pub fn with_delay_margin(
+        problem: &Arc<Problem>,
+        requirement: &Requirement,
+        at: Option<&str>,
+        near: &[Rational],
+        budget: &Budget,
+    ) -> Result<Option<RequirementBoxes>, Error> {
+        let Rule::DeadTime(least) = requirement.rule() else {
+            return RequirementBoxes::of(problem, requirement, at, near, budget);
+        };
+        let cut = requirement.cut(problem, at)?;
+        let delay = DelayBoxes::of(&problem.without_region(), least, cut, near, budget)?;
+        let asked = Asked::Requirement { one: Box::new(requirement.clone()), at: at.map(str::to_owned) };
+        let problem = Arc::clone(problem);
+        Ok(delay.map(|delay| RequirementBoxes { problem, over: None, delay: Some(delay), asked }))
     }
 
     /// Of stability, in the region of the problem. `None` for a loop that is undefined everywhere.
@@ -139,7 +161,7 @@ impl RequirementBoxes {
             let family = problem.moving_family(budget)?;
             family.map_or(LoopFamily::Constants, |family| LoopFamily::Moving(Box::new(family)))
         };
-        Ok(Some(RequirementBoxes { problem: Arc::clone(problem), over, asked: Asked::Stability(family) }))
+        Ok(Some(RequirementBoxes { problem: Arc::clone(problem), over, delay: None, asked: Asked::Stability(family) }))
     }
 
     /// What is known of all points of a closed box without a look at any point; `None` where nothing is.
@@ -156,6 +178,9 @@ impl RequirementBoxes {
     /// # Errors
     /// When the budget runs out.
     pub fn look(&self, sides: &[[Rational; 2]], budget: &Budget) -> Result<OverPoints, Exhausted> {
+        if let Some(delay) = &self.delay {
+            return delay.look(sides, budget);
+        }
         let middle = || -> Vec<Rational> { sides.iter().map(|[low, high]| low.midpoint(high)).collect() };
         let all_or_none = |is_met: Option<bool>| match is_met {
             Some(true) => OverPoints::All,
@@ -218,40 +243,13 @@ impl RequirementBoxes {
         if budget.enter(is_unstable_by_signs)? {
             return Ok(Some(OverPoints::None));
         }
+        let is_stable = |middle: &[Rational]| self.is_stable(middle, None, budget);
         Ok(Some(match family {
-            LoopFamily::Rational(family) => self.same_count(family.as_ref(), sides, budget)?,
-            LoopFamily::Moving(family) => self.same_count(family.as_ref(), sides, budget)?,
-            LoopFamily::Delayed(family) => self.same_count(family.as_ref(), sides, budget)?,
+            LoopFamily::Rational(family) => same_count(family.as_ref(), sides, (CELLS, budget), is_stable)?,
+            LoopFamily::Moving(family) => same_count(family.as_ref(), sides, (CELLS, budget), is_stable)?,
+            LoopFamily::Delayed(family) => same_count(family.as_ref(), sides, (CELLS, budget), is_stable)?,
             LoopFamily::Constants => return Ok(None),
         }))
-    }
-
-    /// Whether all points of a box are stable, or none is, where no root crosses in it.
-    fn same_count(
-        &self,
-        family: &impl Family,
-        sides: &[[Rational; 2]],
-        budget: &Budget,
-    ) -> Result<OverPoints, Exhausted> {
-        let open = OverPoints::Open { middle: None };
-        let middle: Vec<Rational> = sides.iter().map(|[low, high]| low.midpoint(high)).collect();
-        let Some((signs, scale)) = budget.enter(|| family.signs_at(&middle))? else { return Ok(open) };
-        let differs = || {
-            let is_stable = family.is_stable_at(&middle);
-            corners(sides).take(MOST_CORNERS).any(|corner| family.is_stable_at(&corner) != is_stable)
-        };
-        // Where a boundary is in the box, a corner often tells at once.
-        if budget.enter(differs)? {
-            return Ok(open);
-        }
-        if !budget.enter(|| family.has_no_crossing(sides, (&signs, scale), CELLS, budget))?? {
-            return Ok(open);
-        }
-        Ok(match self.is_stable(&middle, None, budget)? {
-            Some(true) => OverPoints::All,
-            Some(false) => OverPoints::None,
-            None => open,
-        })
     }
 
     /// Whether a stable point meets what is asked, by the look where that tells, else by the exact decision; `None` where that is not told.

@@ -118,7 +118,7 @@ pub(super) const MODEL: [Key; 12] = [
 ];
 
 /// The table `[tune]`.
-pub(super) const TUNE: [Key; 5] = [
+pub(super) const TUNE: [Key; 7] = [
     key("free", Shape::Names, "one gain or two"),
     key("bounds", Shape::Named(&Shape::Interval), "the least and the greatest value of a gain, both included"),
     key(
@@ -128,6 +128,12 @@ pub(super) const TUNE: [Key; 5] = [
     ),
     key("gap", Shape::Number, "a bracket is narrow enough where it is less than this share, 1e-3 when missing"),
     key("loss", Shape::Number, "what may be given up for gains of few digits: a share, or \"1%\""),
+    key(
+        "for_all",
+        Shape::Named(&Shape::Interval),
+        "ranges of other names, for all values of which the gains are to be good",
+    ),
+    key("robust", Shape::Flag, "whether the gains are to be good for all values within the tolerances of the model"),
 ];
 
 /// The realisations of `[ship]`.

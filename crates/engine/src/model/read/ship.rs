@@ -43,7 +43,7 @@ fn word(table: &Table, key: &str, reader: &mut Reader) -> Option<Name> {
     Some(Name { name: text.as_str().to_owned(), span: value.span })
 }
 
-fn flag(table: &Table, key: &str, reader: &mut Reader) -> bool {
+pub(super) fn flag(table: &Table, key: &str, reader: &mut Reader) -> bool {
     match table.get(key) {
         None => false,
         Some(Value { kind: Kind::Boolean(value), .. }) => *value,

@@ -3,6 +3,7 @@
 use super::keys;
 use super::model_file::section;
 use super::reader::Reader;
+use super::ship::flag;
 use crate::error::{Code, Diagnostic};
 use crate::model::definition::{Model, Name};
 use crate::model::text::names::{did_you_mean, known_names, shorten};
@@ -15,6 +16,7 @@ pub(super) fn read(root: &Table, reader: &mut Reader) -> Option<Tuning> {
     let table = section(root, "tune", reader)?;
     reader.unknown_keys(table, &keys::TUNE, "[tune]");
     let bounds = section(table, "bounds", reader).map(Table::iter);
+    let ranges = section(table, "for_all", reader).map(Table::iter);
     let loss = table.get("loss").and_then(|value| {
         let text = match &value.kind {
             Kind::Number(_) => reader.number(value, "'loss'").map(|number| number.to_string()),
@@ -25,10 +27,12 @@ pub(super) fn read(root: &Table, reader: &mut Reader) -> Option<Tuning> {
     Some(Tuning {
         span: root.entry("tune").map(|entry| entry.key_span).unwrap_or_default(),
         free: free(table, reader),
-        bounds: bounds.into_iter().flatten().filter_map(|entry| bound(entry, reader)).collect(),
+        bounds: bounds.into_iter().flatten().filter_map(|entry| bound(entry, "the bounds", reader)).collect(),
         objective: word(table, "objective", reader),
         gap: table.get("gap").and_then(|value| reader.number(value, "'gap'")),
         loss,
+        for_all: ranges.into_iter().flatten().filter_map(|entry| bound(entry, "the range", reader)).collect(),
+        robust: flag(table, "robust", reader),
     })
 }
 
@@ -51,15 +55,16 @@ fn free(table: &Table, reader: &mut Reader) -> Vec<Name> {
     items.iter().filter_map(&mut one).collect()
 }
 
-fn bound(entry: &Entry, reader: &mut Reader) -> Option<(Name, [Rational; 2])> {
-    let what = format!("the bounds of '{}'", shorten(&entry.key));
+fn bound(entry: &Entry, of: &str, reader: &mut Reader) -> Option<(Name, [Rational; 2])> {
+    let what = format!("{of} of '{}'", shorten(&entry.key));
     let Kind::Array(items) = &entry.value.kind else {
         reader.wrong_type(&entry.value, &what, "an array of two numbers");
         return None;
     };
     let [low, high] = items.as_slice() else {
-        let error = Diagnostic::error(Code::Size, format!("{what} are two")).at(entry.value.span, "not two numbers");
-        reader.report(error.help("for one end alone give the gain a domain: 'min' or 'max'"));
+        let error = Diagnostic::error(Code::Size, format!("{what}: two numbers are needed"))
+            .at(entry.value.span, "not two numbers");
+        reader.report(error.help("for one end alone give the name a domain: 'min' or 'max'"));
         return None;
     };
     let ends = [reader.number(low, &what)?, reader.number(high, &what)?];
@@ -71,7 +76,7 @@ pub(super) fn check(model: &Model, reader: &mut Reader) {
     let Some(tuning) = &model.tuning else { return };
     let parameters = model.parameters.iter().map(|p| p.name.as_str());
     let known: Vec<&str> = parameters.chain(model.constants.iter().map(|c| c.name.as_str())).collect();
-    let names = tuning.free.iter().chain(tuning.bounds.iter().map(|(name, _)| name));
+    let names = tuning.free.iter().chain(tuning.bounds.iter().chain(&tuning.for_all).map(|(name, _)| name));
     for name in names.filter(|name| !known.contains(&name.name.as_str())) {
         let message = format!("'{}' is no parameter and no constant", shorten(&name.name));
         let mut error = Diagnostic::error(Code::UnknownName, message).at(name.span, "unknown");
