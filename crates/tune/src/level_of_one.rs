@@ -244,12 +244,15 @@ fn best_far(
         let zero = Rational::ZERO;
         let is_zero = |peak: Enclosure| peak.lower().is_zero() && peak.upper().is_zero();
         // An open loop of zero has no peak of its own.
-        if lines.is_met(&named(&zero), Some(&sample))? && lines.level_at(&named(&zero), level)?.is_none_or(is_zero) {
+        if lines.is_met(&named(&zero), Some(&sample))?
+            && (lines.level_at(&named(&zero), level)?.is_some_and(is_zero)
+                || lines.has_no_bound(&named(&zero), level)?)
+        {
             return Ok(Optimum::new(value, vec![Place::Exact(zero.clone().into())], vec![zero], None));
         }
     } else if matches!(level, Level::PhaseMargin | Level::GainMargin) {
         let inside = point_inside(near);
-        if lines.is_met(&named(&inside), None)? && lines.level_at(&named(&inside), level)?.is_none() {
+        if lines.is_met(&named(&inside), None)? && lines.has_no_bound(&named(&inside), level)? {
             return Ok(Optimum::new(value, Vec::new(), vec![inside], None));
         }
     }

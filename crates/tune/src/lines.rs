@@ -8,12 +8,15 @@ use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::real::Real;
 use jurist_engine::answer::{Answer, PointVerdict, Verdict};
 use jurist_engine::coverage::CoefficientRing;
-use jurist_engine::error::Error;
+use jurist_engine::error::{Code, Error};
 use jurist_engine::problem::{Bound, Problem, Question, Region};
 use jurist_engine::response::{AllOf, Level, LevelAsked, RequiredSet, Requirement, RequirementMet};
 use jurist_stability::Range;
 use jurist_stability::plane::Strip;
 use std::sync::Arc;
+
+/// Bits of a margin.
+const BITS: u64 = 64;
 
 /// The question in which every name has a value, except the gains.
 pub(crate) struct Lines<'a> {
@@ -209,13 +212,21 @@ impl<'a> Lines<'a> {
 
     /// The margin that a point has, enclosed; `None` where it has no bound, and of levels that are no margins.
     pub fn level_at(&self, values: &[(String, Rational)], level: Level) -> Result<Option<Enclosure>, Error> {
-        /// Bits of the margin.
-        const BITS: u64 = 64;
         let problem = self.base.clone().set_all(values.iter().cloned()).within(self.region.clone()).problem()?;
         match problem.level_at((level, self.asked.between()), self.at(), BITS, self.budget) {
             // A gain of zero opens the loop: it has no margins.
             Err(Error::Refused(_)) => Ok(None),
             found => found,
+        }
+    }
+
+    /// Whether a margin of a stable point has no bound: none limits it, or its gains open the loop.
+    pub fn has_no_bound(&self, values: &[(String, Rational)], level: Level) -> Result<bool, Error> {
+        let problem = self.base.clone().set_all(values.iter().cloned()).within(self.region.clone()).problem()?;
+        match problem.level_at((level, self.asked.between()), self.at(), BITS, self.budget) {
+            // What is refused for another reason is not known.
+            Err(Error::Refused(found)) => Ok(found.diagnostics().iter().all(|one| one.code == Code::Cut)),
+            found => Ok(found?.is_none()),
         }
     }
 

@@ -115,7 +115,7 @@ impl Search<'_, '_> {
         let lines = self.parts.lines;
         if lines.asked.level() == Some(Level::DelayMargin) && self.parts.plants.is_one() {
             let named = crate::typed::named(lines, &self.point);
-            self.is_unbounded = lines.level_at(&named, Level::DelayMargin)?.is_none();
+            self.is_unbounded = lines.has_no_bound(&named, Level::DelayMargin)?;
         }
         Ok(self.is_unbounded)
     }
