@@ -7,7 +7,7 @@ mod for_all;
 mod intervals;
 mod search;
 mod tolerance;
-#[cfg(feature = "cli")]
+#[cfg(feature = "commands")]
 mod tuned;
 
 pub use boxes::{CertifiedBoxes, certify_boxes};
@@ -16,5 +16,5 @@ pub(crate) use boxes::{judge, refuse_required};
 pub use for_all::certify_requirements;
 pub use intervals::{CertifiedIntervals, certify_intervals, certify_required_intervals};
 pub use tolerance::{CertifiedTolerance, certify_tolerance};
-#[cfg(feature = "cli")]
+#[cfg(feature = "commands")]
 pub use tuned::certify_tune;
