@@ -182,7 +182,7 @@ fn mistakes_are_shown_where_they_stand() {
     for (arguments, what) in [
         (&["--for-all", "L_a"][..], "expects NAME=LO..HI"),
         (&["--for-all", "L_a=1..2", "--for-all", "L_a=1..3"], "two ranges"),
-        (&["--for-all", "L_a=2..1"], "no two different ends"),
+        (&["--for-all", "L_a=2..1"], "a lower end and a greater one"),
         (&["--for-all", "L_a=1..2", "--set", "L_a=1"], "L_a"),
         (&["--for-all", "L_b=1..2"], "L_b"),
         (&["--for-all", "L_a=1..2", "--method", "exact"], "made of boxes"),
