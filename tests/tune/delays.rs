@@ -136,6 +136,6 @@ proptest! {
         }
         let at = number(found["found"]["point"]["K"].as_str().unwrap());
         let own = margin(&at);
-        prop_assert!(own.as_ref().is_some_and(|own| &(own * &ratio(1_000_001, 1_000_000)) >= &least), "{:?} {}", own, &found);
+        prop_assert!(own.as_ref().is_some_and(|own| own * &ratio(1_000_001, 1_000_000) >= least), "{:?} {}", own, &found);
     }
 }

@@ -79,10 +79,10 @@ pub fn ask_all(every: usize, engine: impl Fn(&Case, &Expectation) -> Result<(), 
     let all =
         cases.iter().flat_map(|case| case.expectations.iter().enumerate().map(move |(i, asked)| (case, i, asked)));
     for (number, (case, i, expectation)) in all.enumerate() {
-        if is_tried(number, every) {
-            if let Err(difference) = engine(case, expectation) {
-                wrong.push(format!("{}, expectation {}: {difference}", case.name, i + 1));
-            }
+        if is_tried(number, every)
+            && let Err(difference) = engine(case, expectation)
+        {
+            wrong.push(format!("{}, expectation {}: {difference}", case.name, i + 1));
         }
     }
     assert!(wrong.is_empty(), "{} wrong answers:\n{}", wrong.len(), wrong.join("\n"));
