@@ -4,6 +4,7 @@ use crate::helpers::model::{example, load};
 use crate::helpers::number::number;
 use crate::helpers::program::{jurist_with_input, refused};
 use crate::helpers::random::Random;
+use crate::helpers::thorough::tried;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, ToleranceAnswer, ToleranceRequest};
@@ -328,7 +329,7 @@ fn a_requirement_over_a_sample_time_ends_where_there_is_no_loop() {
 #[test]
 fn a_gain_and_a_dead_time_shrink_to_where_a_margin_ends() {
     let model = example("dead-time-pi");
-    for (name, text, least) in [("phase_margin", "40", "1.2"), ("modulus_margin", "0.5", "0.44")] {
+    for (name, text, least) in tried([("phase_margin", "40", "1.2"), ("modulus_margin", "0.5", "0.44")], 2) {
         let request = ToleranceRequest::new(["K_c", "theta"].map(|name| (name, "10%".parse().unwrap())));
         let answer = asked(&model, &request.require([requirement(&model, name, text)], None));
         let factor = answer.value().factor.as_ref().unwrap();
