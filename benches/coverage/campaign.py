@@ -117,7 +117,7 @@ def main():
     parser.add_argument("--ring", help="only this ring")
     parser.add_argument("--refused", action="store_true", help="also cells that the table says are refused")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--keep", type=Path, help="a folder for the models of what is not answered")
+    parser.add_argument("--keep", type=Path, help="the folder to which the campaign writes the models of questions without an answer")
     parser.add_argument("-j", type=int, default=2)
     options = parser.parse_args()
     cells = [(command, kind, ring) for command, kind, row in table() for ring in row

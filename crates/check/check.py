@@ -4087,7 +4087,7 @@ class Level:
         return a.bound < b.bound if is_least_best else a.bound > b.bound
 
 class Gains(Proofs):
-    """Reads cells of gains, none of which has any that are good."""
+    """Reads cells of gains: in no cell are any gains good."""
 
     def cells(self, sides, is_worse):
         stack = [(sides, 0)]
@@ -4140,7 +4140,7 @@ def read_found(found, sides, discrete, formula, level):
     need((formula or level) and (found_level is None) == (level is None), "found: nothing is to be best, or another kind of level")
     if level:
         found_level = Level(found_level, discrete)
-        need(level.is_better_than(found_level), "found: its level is not worse than the one of which there is none")
+        need(level.is_better_than(found_level), "found: its level is not worse than the level that no gains have")
     need(not formula or formula.at(point) is not None, "found: what is to be best is undefined there")
     need(isinstance(proof, str), "found: there is no proof")
     return point, found_level, proof

@@ -29,9 +29,12 @@ fn a_best_value_of_a_whole_interval_says_so() {
     // Below the largest integral gain many proportional gains do.
     let (_, out, _) = told(&[PI, "--bound", "ki=0..0.2"]);
     assert!(out.contains("\n    at any k from 0.106519 to 1.07993\n"), "{out}");
-    // From the double root on the decay is half of the damping.
+    // The closed loop K/(z - 1 + K) has its peak, 1, at frequency 0 for all K up to 1.
+    let out = line("K/(z-1)", "min complementary_peak", &[]);
+    assert!(out.contains("smallest complementary_peak: 1\n    at any K from 0 to 1\n"), "{out}");
+    // From the double root on the decay is half of the damping: of one gain that is known, of an interval it is not.
     let out = line("K/(s^2+0.2*s+1)", "max decay", &["--bound", "K=-0.9..3"]);
-    assert!(out.contains("\n    at any K from -0.9 to 3\n"), "{out}");
+    assert!(out.contains("largest decay: 0.1\n    at K = ") && !out.contains("any K"), "{out}");
 }
 
 /// At the end of a scale an interval of gains near to it was printed once as if all of them had the best value.

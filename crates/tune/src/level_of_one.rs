@@ -87,15 +87,27 @@ fn at_wall(
     let mut attained = is_attained(lines, &near.place, plain)?;
     // On a plateau all gains of an interval have the best value; else it may be had at no one of them.
     if !near.is_point() {
-        attained = has_level(lines, level, value, &point_inside(&near.interval))?;
+        let inside = point_inside(&near.interval);
+        attained = has_level(lines, level, value, &inside)?;
         if attained == Some(true) {
-            near.place = Place::From(outer(&near.interval));
+            near.place = plateau(lines, level, value, &inside)?;
         }
     }
     let binding = binding(lines, level, &near);
     let found = vec![point_inside(&near.interval)];
     let optimum = Optimum::new(Best::Exact(value.clone()), vec![near.place], found, Some(near.height));
     Ok(Optimum { attained, binding, ..optimum })
+}
+
+/// All gains of an interval that have the best value, where that is known of each of them; else a gain inside that has it.
+fn plateau(lines: &Lines<'_>, level: Level, value: &Real, inside: &Rational) -> Result<Place, Error> {
+    let one = || Place::Exact(inside.clone().into());
+    // What is required of a margin is met with equality too; a region has its roots strictly inside.
+    let exact = value.exact().filter(|_| !matches!(level, Level::Decay | Level::Radius));
+    let Some(value) = exact else { return Ok(one()) };
+    let set = lines.set(GAIN, None, Some(&value))?.into_value();
+    let found = set.intervals.iter().find(|interval| interval.contains(inside));
+    Ok(found.map_or_else(one, |interval| Place::From(outer(interval))))
 }
 
 /// Critical values of a level, from the worst to the best.

@@ -45,7 +45,7 @@ pub(crate) struct Wanted {
     pub requirement: Option<Requirement>,
 }
 
-/// What is said of them, beside what is asked.
+/// What a certificate says of these loops.
 struct Told {
     tree: String,
     beyond: Option<Beyond>,

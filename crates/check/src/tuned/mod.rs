@@ -118,7 +118,7 @@ fn wanted(
         (Objective::Level(none), level) => {
             if found.is_some() && !level.is_some_and(|level| none.is_better_than(level, discrete)) {
                 return Err(
-                    "the level that is found is none, another one, or not worse than the one of which there is none"
+                    "the level that is found is missing, of another kind, or not worse than the level that no gains have"
                         .into(),
                 );
             }

@@ -72,6 +72,12 @@ enum Asked {
     Requirement { one: Box<Requirement>, at: Option<String> },
 }
 
+impl Asked {
+    fn of(requirement: &Requirement, at: Option<&str>) -> Asked {
+        Asked::Requirement { one: Box::new(requirement.clone()), at: at.map(str::to_owned) }
+    }
+}
+
 /// A loop as the family that proves boxes of it.
 enum LoopFamily {
     Rational(Box<BoxPolynomial>),
@@ -109,11 +115,13 @@ impl RequirementBoxes {
         budget: &Budget,
     ) -> Result<Option<RequirementBoxes>, Error> {
         let over = OverBox::of(problem, requirement, at, near, budget)?;
-        let asked = Asked::Requirement { one: Box::new(requirement.clone()), at: at.map(str::to_owned) };
-        Ok(over.map(|over| RequirementBoxes { problem: Arc::clone(problem), over: Some(over), delay: None, asked }))
+        let (problem, asked) = (Arc::clone(problem), Asked::of(requirement, at));
+        Ok(over.map(|over| RequirementBoxes { problem, over: Some(over), delay: None, asked }))
     }
 
     /// The same of a delay margin too, in continuous time.
+    ///
+    /// Cost: that of [`RequirementBoxes::of`]; of a delay margin the open loop with one dead time more.
     ///
     /// # Errors
     /// As [`RequirementBoxes::of`].
@@ -129,8 +137,7 @@ impl RequirementBoxes {
         };
         let cut = requirement.cut(problem, at)?;
         let delay = DelayBoxes::of(&problem.without_region(), least, cut, near, budget)?;
-        let asked = Asked::Requirement { one: Box::new(requirement.clone()), at: at.map(str::to_owned) };
-        let problem = Arc::clone(problem);
+        let (problem, asked) = (Arc::clone(problem), Asked::of(requirement, at));
         Ok(delay.map(|delay| RequirementBoxes { problem, over: None, delay: Some(delay), asked }))
     }
 
