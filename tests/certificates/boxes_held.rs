@@ -68,7 +68,7 @@ fn has_beyond(certificate: &str) -> bool {
 #[test]
 fn boxes_of_held_loops_of_all_kinds_are_certified() {
     let mut boxes = 0;
-    for plant in PLANTS {
+    for plant in tried(PLANTS, 2) {
         let text = loop_of(plant);
         let certificate = emitted(&text);
         accept(&text, &certificate);
@@ -81,7 +81,7 @@ fn boxes_of_held_loops_of_all_kinds_are_certified() {
             assert!(certificate.contains("jurist/certificate/2"), "{plant}");
         }
     }
-    assert!(boxes >= 8, "{boxes} boxes");
+    assert!(boxes >= 4 * count(1, 2), "{boxes} boxes");
 }
 
 #[test]
@@ -91,7 +91,7 @@ fn the_drive_behind_a_hold_is_certified_in_its_controllers() {
         let sides = names.split(' ').map(|name| (name, "30%".parse().unwrap()));
         ToleranceRequest::new(sides).gap(number("1/1000"))
     };
-    for names in ["K_ps K_is", "K_pi K_ii K_ps K_is", "k_1 k_2 E_sw"] {
+    for names in tried(["K_ps K_is", "K_pi K_ii K_ps K_is", "k_1 k_2 E_sw"], 3) {
         let certificate = certificate_of(&drive, &of(names), None).unwrap();
         assert!(certificate.contains("jurist/certificate/8") && has_beyond(&certificate), "{names}");
         accept(&drive, &certificate);
@@ -171,8 +171,8 @@ fn a_box_that_is_not_stable_has_the_certificate_of_what_is_stable_in_it() {
 /// Boxes that are wider than the truth by a little, all other parts as they are.
 #[test]
 fn boxes_wider_than_the_truth_are_rejected() {
-    let mut tried = 0;
-    for plant in PLANTS {
+    let mut seen = 0;
+    for plant in tried(PLANTS, 2) {
         let text = loop_of(plant);
         let request = request(&text);
         let answer = read(&text).ask().tolerance(&request, &Budget::unlimited()).unwrap();
@@ -183,10 +183,10 @@ fn boxes_wider_than_the_truth_are_rejected() {
             let lie =
                 with(&certificate, &format!(r#""factor": "{}""#, found.lower), &format!(r#""factor": "{wider}""#));
             assert!(check(&text, &lie, &LIMITS).is_err(), "{share}\n{text}\n{lie}");
-            tried += 1;
+            seen += 1;
         }
     }
-    assert!(tried >= 40, "{tried}");
+    assert!(seen >= 20 * count(1, 2), "{seen}");
 }
 
 /// Changes of one value each: what both checkers accept is true.
@@ -342,6 +342,7 @@ fn symbols_are_those_of_sampled_loops() {
 
 /// The counted work of a check bounds long trees, many bits and high powers.
 #[test]
+#[ignore = "long: CI runs it"]
 fn hostile_sizes_are_rejected_by_counted_work() {
     let model = &by_hand_model();
     let deep = "s0,".repeat(3_000);

@@ -162,6 +162,7 @@ fn one_root_that_crosses_at_1_is_an_end() {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn a_machine_in_its_frame_is_certified() {
     let text = example_text("pmsm-frame");
     let verdict = |text: &str, speed: &str| verdict_emitted(text, "omega_e", speed);
@@ -280,7 +281,7 @@ fn complex_plants_behind_holds_are_certified() {
             "transfer = '1/(s + 1 + 2*j)'\ndiscretize = { method = 'zoh', frame = -3, delay = '0.05', advance = '2' }",
         ),
     ] {
-        for value in tried(["1/2", "5", "-1/2", "2", "20"], 2) {
+        for value in tried(["1/2", "5", "-1/2", "2", "20"], 5) {
             let certificate = verdict_emitted(&text(plant), "K", value);
             accept(&text(plant), &certificate);
             let is_true = is_true(&text(other), &Json::parse(&certificate).unwrap());

@@ -6,6 +6,7 @@ use crate::helpers::model::{example_text, path, read};
 use crate::helpers::number::number;
 use crate::helpers::program::{jurist, jurist_with_input};
 use crate::helpers::random::Random;
+use crate::helpers::thorough::tried;
 use jurist::certified::certify_boxes;
 use jurist::{BoxRequest, MapBoxes, MapMethod, MapOrBoxes};
 use jurist_algebra::limits::Budget;
@@ -147,14 +148,15 @@ fn agree_with_verdicts(text: &str, sides: [Side; 2], certificate: &str, every: u
 
 #[test]
 fn boxes_of_examples_are_certified() {
-    for (name, sides, undecided) in [
+    let maps = [
         ("drive", [("T", "0", "0.001"), ("K_pwm", "0", "600")], "0.05"),
         ("lcl-active-damping", [("k", "-1", "2"), ("c", "-1", "1")], "0.1"),
         ("acc-benchmark", [("k", "0", "4"), ("m_1", "0.2", "4")], "0.1"),
         // A sample time, and a constant of the plant with it: both inside of exponentials.
         ("dc-servo", [("K", "1", "200"), ("T", "0.0005", "0.01")], "0.1"),
         ("drive-hold", [("L_a", "0.002", "0.2"), ("T", "0.0001", "0.001")], "0.5"),
-    ] {
+    ];
+    for (name, sides, undecided) in tried(maps, 3) {
         let text = example_text(name);
         let (certificate, share) = emitted(&text, sides, undecided);
         accept(&text, &certificate);
@@ -167,12 +169,13 @@ fn boxes_of_examples_are_certified() {
 
 #[test]
 fn functions_of_parameters_and_constants_are_certified() {
-    for (time, characteristic) in [
+    let loops = [
         ("continuous", "(s + 1)*(s^2 + sqrt(2)*b*s + b^2) + a*b^2"),
         ("continuous", "s^2 + sqrt(a + 3)*s + (b - 1)/cos(a/2)"),
         ("discrete", "z^2 - 2*exp(-b)*cos(3*b)*z + exp(-2*b) + a*(z + sin(b)/pi + tan(b/4))"),
         ("discrete", "z + a/(b - exp(-3))"),
-    ] {
+    ];
+    for (time, characteristic) in tried(loops, 2) {
         is_certified(&plain(time, characteristic), [("a", "-1", "2"), ("b", "1/10", "2")], "0.25", "0.7");
     }
 }
@@ -180,14 +183,15 @@ fn functions_of_parameters_and_constants_are_certified() {
 /// Holds of both orders, with dead time in whole and broken samples, the sample time on an axis.
 #[test]
 fn all_kinds_of_holds_are_certified() {
-    for plant in [
+    let plants = [
         "transfer = '1/(s*(s + 1))'\ndiscretize = 'zoh'",
         "transfer = '(2 - s)/(s^2 + s/2 + 3)'\ndiscretize = { method = 'zoh', delay = '0.7*T' }",
         "transfer = '1/(s + 1)'\ndiscretize = { method = 'foh', delay = 'T' }",
         "transfer = '1/(s^2 + 4)'\ndiscretize = { method = 'foh', delay = '1.3*T' }",
         "transfer = '-(exp(-T*s/4)*(s + 3))/(s + 1)*-exp(-T*s/4)'\ndiscretize = 'zoh'",
         "A = [[0, 1], [-5, -2]]\nB = [[0], [1]]\nC = [[1, 'K/7']]\ndiscretize = 'zoh'",
-    ] {
+    ];
+    for plant in tried(plants, 3) {
         let text = format!(
             "time = 'discrete'\nsample_time = 'T'\nparameters = {{ K = {{ nominal = 1 }}, T = {{ nominal = '1/5', min = 0 }} }}\n[loop]\n\
              [[block]]\ninput = '-K*y'\noutput = 'u'\ngain = 1\n[[block]]\ninput = 'u'\noutput = 'y'\n{plant}\n"

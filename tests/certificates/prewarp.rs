@@ -6,6 +6,7 @@ use crate::helpers::certificates::checkers::{accept, python, reject};
 use crate::helpers::certificates::{emitted, emitted_if_any, verdict_emitted, with_count_changed};
 use crate::helpers::model::{example_text, read};
 use crate::helpers::number::number;
+use crate::helpers::thorough::tried;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_check::{Limits, Step, check};
@@ -175,7 +176,7 @@ fn of_boxes(gains: [&str; 2], b: [&str; 2], tree: &str) -> String {
 #[test]
 fn no_box_is_shown_in_which_the_angle_leaves_zero_to_pi() {
     let small = ["1/8", "1/7"];
-    for (frequency, time, inside, outside) in [
+    let cases = [
         (
             "b",
             "1",
@@ -215,7 +216,8 @@ fn no_box_is_shown_in_which_the_angle_leaves_zero_to_pi() {
             &[["1/8", "1/7"], ["3", "3.05"]],
             &[["1/2", "1"], ["3", "22/7"], ["1", "3/2"], ["-1/7", "-1/8"]],
         ),
-    ] {
+    ];
+    for (frequency, time, inside, outside) in tried(cases, 3) {
         let text = lag(frequency, time);
         for side in inside {
             accept(&text, &of_boxes(small, *side, "+"));
@@ -250,11 +252,12 @@ fn no_box_is_shown_in_which_the_angle_leaves_zero_to_pi() {
 /// The boxes of a map are on the side of the curve by hand that they say, and the engine says the same of points in them.
 #[test]
 fn maps_of_prewarped_loops_are_certified() {
-    for (frequency, time, sides) in [
+    let loops = [
         ("b", "1", [("K", "0", "4"), ("b", "1/2", "3")]),
         ("2", "b", [("K", "0", "8"), ("b", "1/4", "3/2")]),
         ("2*pi*b", "1/(1 + b)", [("K", "0", "4"), ("b", "1/4", "9/10")]),
-    ] {
+    ];
+    for (frequency, time, sides) in tried(loops, 3) {
         let text = lag(frequency, time);
         assert!(certified(&text, sides, "0.15", "0.8", 1) > 10, "{text}");
         let (certificate, _) = emitted_map(&text, sides, "0.15");

@@ -4,6 +4,7 @@ use crate::helpers::certificates::python::is_there;
 use crate::helpers::model::path;
 use crate::helpers::program::{Run, jurist, jurist_with_input};
 use crate::helpers::random::Random;
+use crate::helpers::thorough::tried;
 use std::path::PathBuf;
 use std::process::Command;
 
@@ -122,7 +123,7 @@ fn rejections_name_the_step_that_failed() {
     let text = std::fs::read_to_string(&path).unwrap();
     assert_rejected("examples/buck-converter.toml", &path, "at the step 'model'");
     assert_rejected("examples/equation-23-as-printed.toml", &path, "at the step 'model'");
-    for (from, to, step) in [
+    let changes = [
         ("certificate/1", "certificate/2", "format"),
         ("\"kind\": \"intervals\"", "\"kind\": \"regions\"", "statement"),
         ("\"time\": \"discrete\"", "\"time\": \"continuous\"", "statement"),
@@ -133,7 +134,8 @@ fn rejections_name_the_step_that_failed() {
         ("\"factors\": [", "\"factors\": [[\"3\"], ", "factors"),
         ("\"stable\": true", "\"stable\": false", "line"),
         ("\"lower\": \"0\", \"upper\": null", "\"lower\": \"1\", \"upper\": null", "line"),
-    ] {
+    ];
+    for (from, to, step) in tried(changes, 3) {
         assert!(text.contains(from), "{from}");
         let changed = folder.file("changed.json", text.replacen(from, to, 1).as_bytes());
         assert_rejected(DRIVE, &changed, &format!("at the step '{step}'"));
@@ -183,7 +185,7 @@ fn broken_files_are_rejected() {
         ("long fraction", with_sample(format!("{digits}/8{digits}")), "at the step 'line'"),
         ("not JSON", "proved".into(), "at the step 'format'"),
     ];
-    for (name, text, reason) in &texts {
+    for (name, text, reason) in tried(&texts, 4) {
         assert_rejected(&model, &folder.file(name, text.as_bytes()), reason);
     }
     assert_rejected(&model, &folder.file("bytes", b"\xff\xfe{}"), "is not UTF-8");

@@ -5,6 +5,7 @@ use super::oracle::{Complex, is_hurwitz, is_schur, plus, times};
 use crate::helpers::model::read;
 use crate::helpers::number::ratio;
 use crate::helpers::random::Random;
+use crate::helpers::thorough;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::real::Real;
@@ -241,7 +242,8 @@ fn check_delay(of: &Open, margins: &Margins) -> bool {
 
 #[test]
 fn margins_of_random_loops_agree_with_a_second_way() {
-    let count = std::env::var("JURIST_COMPLEX_LOOPS").ok().and_then(|n| n.parse().ok()).unwrap_or(60);
+    let count =
+        std::env::var("JURIST_COMPLEX_LOOPS").ok().and_then(|n| n.parse().ok()).unwrap_or(thorough::count(20, 60));
     let mut random = Random::new(1932);
     let (mut stable, mut rotations, mut delays, mut below) = (0, 0, 0, 0);
     while stable < count {

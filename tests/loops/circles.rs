@@ -4,6 +4,7 @@ use crate::helpers::model::{example, load};
 use crate::helpers::number::{number, ratio};
 use crate::helpers::program::jurist_with_input;
 use crate::helpers::random::Random;
+use crate::helpers::thorough::tried;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, UniPoly};
@@ -119,7 +120,7 @@ const BY_HAND: [(&str, &str, &str, &str, &str); 30] = [
 
 #[test]
 fn sets_that_are_known_by_hand() {
-    for (time, transfer, name, value, expected) in BY_HAND {
+    for (time, transfer, name, value, expected) in tried(BY_HAND, 2) {
         let model = loop_with(time, transfer);
         let requirement = requirement(&model, name, value);
         assert_eq!(written(&required(&model, &requirement)), expected, "{transfer}: {}", requirement.text());
@@ -182,7 +183,7 @@ fn sets_of_a_loop_behind_a_hold_end_where_the_margin_is_the_required_one() {
 #[test]
 fn points_of_a_loop_with_dead_time_are_decided_by_the_margin() {
     let model = loop_with(CONTINUOUS, "K*exp(-s/2)/s");
-    for k in ["1/2", "1", "2"] {
+    for k in tried(["1", "1/2", "2"], 3) {
         let gain = number(k).to_f64_approximate();
         let ratio = |w: f64, [u, v]: [f64; 2]| {
             let l = (-gain / w * (w / 2.0).sin(), -gain / w * (w / 2.0).cos());

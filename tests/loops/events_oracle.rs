@@ -7,6 +7,7 @@ use super::pulsed_plant::{PAST, PulsedPlant, T, controller};
 use crate::helpers::loops::agrees_with_radius;
 use crate::helpers::model::read;
 use crate::helpers::random::Random;
+use crate::helpers::thorough::count;
 use jurist_algebra::limits::Budget;
 use nalgebra::{Complex, DMatrix, DVector};
 
@@ -147,7 +148,7 @@ impl Case {
 #[test]
 fn random_cascades_against_events_stepped_one_by_one() {
     let asked = |name: &str| std::env::var(name).ok().and_then(|text| text.parse::<usize>().ok());
-    let cases = asked("EVENT_CASES").unwrap_or(24);
+    let cases = asked("EVENT_CASES").unwrap_or(count(9, 24));
     let mut random = Random::new(asked("EVENT_SEED").unwrap_or(2026) as u64);
     let (mut looked_at, mut ends, mut skipped, mut undecided) = (0, 0, 0, 0);
     for _ in 0..cases {

@@ -7,6 +7,7 @@ use super::pulsed_plant::{PAST, PulsedPlant, T, controller};
 use crate::helpers::loops::agrees_with_radius;
 use crate::helpers::model::read;
 use crate::helpers::random::Random;
+use crate::helpers::thorough::count;
 use jurist_algebra::limits::Budget;
 use nalgebra::DMatrix;
 
@@ -78,7 +79,7 @@ impl Case {
 
 #[test]
 fn random_plants_behind_a_modulator_against_their_pulses() {
-    let cases = std::env::var("PWM_CASES").ok().and_then(|text| text.parse().ok()).unwrap_or(40);
+    let cases = std::env::var("PWM_CASES").ok().and_then(|text| text.parse().ok()).unwrap_or(count(15, 40));
     let (mut random, mut looked_at, mut ends, mut skipped) = (Random::new(38), 0, 0, 0);
     for _ in 0..cases {
         let case = Case::random(&mut random);

@@ -61,6 +61,7 @@ fn a_slow_position_loop_around_a_fast_one() {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn the_drive_with_its_speed_loop_slower_than_its_current_loop() {
     for (every, method, end) in [
         (2, "zoh", "454.070200551737157240952115"),

@@ -5,6 +5,7 @@ use crate::helpers::model::{continuous, discrete, keeping};
 use crate::helpers::number::ratio;
 use crate::helpers::program::jurist;
 use crate::helpers::random::Random;
+use crate::helpers::thorough::count;
 use jurist_engine::stability::{Cause, StableSet};
 
 fn set_of(characteristic: &str) -> StableSet {
@@ -116,7 +117,7 @@ const PARTS: [Part; 6] = [
 fn stable_sets_agree_with_the_coefficients_at_points() {
     let mut random = Random::new(20_261_124);
     let (mut decided, mut open) = (0, 0);
-    for _ in 0..12 {
+    for _ in 0..count(3, 12) {
         let mut coefficient = || {
             let [i, j] = [random.below(PARTS.len()), random.below(PARTS.len())];
             let mut factor = || [-3, -2, -1, 1, 2, 3][random.below(6)];

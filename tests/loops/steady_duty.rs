@@ -90,6 +90,7 @@ fn the_height_of_the_pulses_and_the_period_are_questions() {
 
 /// With the height of the pulses as a function of `d` for which the orbit has the duty ratio `d`.
 #[test]
+#[ignore = "long: CI runs it"]
 fn a_duty_ratio_that_moves_is_that_which_is_known_by_construction() {
     let cases = [
         ("trailing", "exp(-3*(1 - d)*T) - exp(-3*T)"),
@@ -230,7 +231,7 @@ fn the_switched_pulses_are_as_long_as_the_gain_of_the_modulator_says() {
 fn a_period_in_which_a_plant_changes_beyond_measure_is_refused_or_undecided() {
     let text = leaky("edge = 'trailing', duty = 'steady'", "1").replace("1/(s + 3)", "1/(s - 3)");
     let text = text.replace("V = '3*(1 - exp(-3*T))/(1)'", "V = 10").replace("r = 1", "r = -1");
-    for time in ["1e4", "1e9", "1e30"] {
+    for time in tried(["1e4", "1e9", "1e30"], 3) {
         let Err(Error::Refused(why)) = verdict(&text, "T", time) else { panic!("{time}") };
         assert_eq!(why.code(), Code::Duty, "{time}");
         assert!(why.to_string().contains("change by more than"), "{why}");

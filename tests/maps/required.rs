@@ -6,6 +6,7 @@ use crate::helpers::program::jurist_with_input;
 use crate::helpers::random::Random;
 use crate::helpers::required::{Known, is_met};
 use crate::helpers::schema::fits;
+use crate::helpers::thorough::tried;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::real::Real;
@@ -66,7 +67,7 @@ fn met(answer: &Answer<Map>, x: &Rational, y: &Rational) -> Option<Vec<usize>> {
 #[test]
 fn cells_of_a_map_agree_with_a_second_decision_at_random_points() {
     let mut random = Random::new(12);
-    for (text, names, scales) in [(PI, ["K_p", "K_i"], [6, 9]), (SAMPLED, ["K", "b"], [2, 1])] {
+    for (text, names, scales) in tried([(PI, ["K_p", "K_i"], [6, 9]), (SAMPLED, ["K", "b"], [2, 1])], 2) {
         let model = load(text);
         let known = [
             Known::Gain(number("3/2")),

@@ -143,6 +143,7 @@ fn thousands_of_warnings_are_counted() {
 
 /// The certificate asks for exact polynomials over all constants, which are not to be had with ten times the work; the limits are.
 #[test]
+#[ignore = "long: CI runs it"]
 fn an_answer_is_not_lost_where_its_certificate_takes_too_much_work() {
     let model = "time = 'discrete'\nsample_time = 0.1\n[parameters]\nK = { nominal = 1, min = 0 }\n[loop]\ninputs = ['r']\noutputs = ['y']\n\
         [[block]]\ninput = 'K*(r - y)'\noutput = 'y'\ntransfer = '1/((s+1)*(s+2)*(s^2+0.4*s+4)*(s^2+0.66*s+11))'\ndiscretize = 'zoh'\n";

@@ -273,6 +273,7 @@ fn certificates_are_accepted_and_their_command_lines_write_them() {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn parts_that_a_loop_has_not_are_one_sentence_with_the_reason() {
     let html = page("examples/dead-time-pi.toml");
     let part = section(&html, "locus");
@@ -373,6 +374,7 @@ fn a_loop_with_dead_time_and_a_phase_margin_of_half_a_turn_is_reported_on() {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn certificates_by_boxes_are_those_of_the_command() {
     let part = page("examples/dc-servo.toml");
     let part = section(&part, "certificates");

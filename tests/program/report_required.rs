@@ -46,6 +46,7 @@ fn a_certificate_is_of_the_requirements_or_of_stability_alone() {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn every_loop_with_a_number_beside_its_parameter_has_a_map() {
     let delayed = "time = 'continuous'\n[parameters]\nK = { nominal = 1, min = 0 }\nd = { nominal = 0.2, min = 0 }\n\
         [loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\ninput = 'r - y'\noutput = 'y'\ntransfer = 'K*exp(-d*s)/(s + 1)'\n";
@@ -64,6 +65,7 @@ fn every_loop_with_a_number_beside_its_parameter_has_a_map() {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn tolerances_that_are_proved_are_told_where_their_greatest_factor_is_long() {
     let plain_model = std::fs::read_to_string("examples/anti-alias-filter.toml").unwrap();
     let with = |text: String, number: &str| {

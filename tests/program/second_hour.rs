@@ -137,6 +137,7 @@ fn numbers_of_binary_floating_point_are_written_as_what_they_were() {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn a_delay_margin_that_ends_at_an_edge_of_the_pulse_says_so() {
     let template = jurist(&["new", "digital-power"]).stdout;
     let said = text(&["margins", "-"], &template);
@@ -197,6 +198,7 @@ fn a_map_of_margins_with_dead_time_has_the_boxes_in_which_they_are_met() {
 
 /// Once the names with ranges had the middles of them where what is required was read.
 #[test]
+#[ignore = "long: CI runs it"]
 fn what_is_required_may_not_depend_on_a_name_with_a_range() {
     let text = "time = 'discrete'\nsample_time = 'T'\nparameters = { K = { nominal = 1, min = 0, max = 4 }, T = 1, b = 1 }\n\
         loop = { inputs = ['r'], outputs = ['y'] }\n[[block]]\ninput = 'K*(r - y)'\noutput = 'y'\ntransfer = 'b/(s + 1)'\ndiscretize = 'zoh'\n";

@@ -227,6 +227,7 @@ fn the_digits_of_the_papers_polynomial_move_its_limits() {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn the_drives_controllers_are_shipped_in_all_formats() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/shipped");
     let mut seen = Vec::new();

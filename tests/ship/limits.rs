@@ -44,6 +44,7 @@ fn limits_behind_a_stored_gain_are_those_by_hand() {
 /// Limits of the drive by mpmath: the characteristic polynomial of the stored loop from matrix exponentials with 60 digits, its limits by bisection of
 /// the greatest modulus.
 #[test]
+#[ignore = "long: CI runs it"]
 fn limits_of_the_drive_are_those_of_mpmath() {
     let by_mpmath = [
         (12, "0.03488787801543025291798", "551.37661861809064555576"),

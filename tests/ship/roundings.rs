@@ -5,6 +5,7 @@ use crate::helpers::model::read;
 use crate::helpers::number::ratio;
 use crate::helpers::random::Random;
 use crate::helpers::schur::{closed, is_schur};
+use crate::helpers::thorough::count;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::Verdict;
@@ -142,7 +143,7 @@ fn verdicts_of_random_roundings_are_those_of_schur_and_cohn() {
 #[test]
 fn fewest_bits_are_those_that_a_search_finds() {
     let random = &mut Random::new(43);
-    for _ in 0..6 {
+    for _ in 0..count(2, 6) {
         let parts = a_loop(random);
         let text = model_of(&parts);
         let holds = |bits: i64| {

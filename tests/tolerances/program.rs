@@ -160,6 +160,7 @@ fn a_box_that_leaves_a_domain_is_answered_with_a_warning() {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn tolerances_inside_of_functions_are_answered_and_certified() {
     let asked = ["tolerance", "examples/drive-hold.toml", "--tol", "R_a,L_a,J=20%"];
     let document = document(&[&asked[..], &["--digits", "3"]].concat(), 0);

@@ -3,6 +3,7 @@
 use crate::helpers::folder::Folder;
 use crate::helpers::number::{number, ratio};
 use crate::helpers::schema::fits;
+use crate::helpers::thorough::count;
 use jurist_algebra::number::Rational;
 use proptest::prelude::*;
 use serde_json::Value;
@@ -37,6 +38,7 @@ fn of_an_integrator() {
 
 /// Dead time of the loop is taken from it.
 #[test]
+#[ignore = "long: CI runs it"]
 fn beside_dead_time() {
     let (_, found) = tune(&[&["exp(-s/10)*K/s", "--free", "K", "--bound", "K=1..10"], &OBJECTIVE[..]].concat());
     holds(&found, std::f64::consts::FRAC_PI_2 - 0.1, 1e-3);
@@ -103,7 +105,7 @@ fn in_discrete_time_it_is_refused() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(6))]
+    #![proptest_config(ProptestConfig::with_cases(count(2, 6) as u32))]
 
     /// No gain of a grid has a margin that none have, and the one that is found has what is said.
     #[test]

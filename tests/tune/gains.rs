@@ -164,6 +164,7 @@ fn a_level_over_three_gains() {
 
 /// Behind a hold the exact map over symbols takes minutes.
 #[test]
+#[ignore = "long: CI runs it"]
 fn two_gains_behind_a_hold() {
     let options = ["--free", "k", "--free", "ki", "--bound", "k=0..10", "--bound", "ki=0..10", "--gap", "1e-2"];
     let required = ["--objective", "max ki", "--modulus-margin", "0.6"];
@@ -184,6 +185,7 @@ fn two_gains_behind_a_hold() {
 /// A PI controller with a lag and a dead time: on the curve of 45 degrees, computed in floating point, the largest integral gain is 1.5786935 (at
 /// `k = 1.47`).
 #[test]
+#[ignore = "long: CI runs it"]
 fn two_gains_with_dead_time() {
     let text = "time = 'continuous'\n[parameters]\nk = 0.5\nki = 0.2\n[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\ninput = 'r - y'\n\
         output = 'u'\ntransfer = 'k + ki/s'\n[[block]]\ninput = 'u'\noutput = 'y'\ntransfer = 'exp(-s/2)/(s + 1)'\n";
@@ -234,6 +236,7 @@ fn what_boxes_cannot_be_asked() {
 
 /// Where roots coincide at the best value: the bracket closes, and holds the closed form.
 #[test]
+#[ignore = "long: CI runs it"]
 fn coinciding_roots_of_many_gains() {
     // All three coefficients are free, the last one up to 2: a triple root at -2^(1/3).
     let cubic =
@@ -257,6 +260,7 @@ fn coinciding_roots_of_many_gains() {
 
 /// Behind a hold too.
 #[test]
+#[ignore = "long: CI runs it"]
 fn coinciding_roots_behind_a_hold() {
     let options = ["--free", "k", "--free", "ki", "--bound", "k=0..1", "--bound", "ki=0..1", "--gap", "2e-2"];
     let (status, found) = tune(HELD, &[&options[..], &["--objective", "min radius"]].concat());

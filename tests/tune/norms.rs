@@ -4,6 +4,7 @@ use crate::helpers::folder::Folder;
 use crate::helpers::model::read;
 use crate::helpers::number::{number, ratio};
 use crate::helpers::schema::fits;
+use crate::helpers::thorough::{count, tried};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::Verdict;
@@ -107,10 +108,11 @@ fn a_peak_at_the_steady_state_is_enclosed() {
 #[test]
 fn a_disturbance_under_a_margin() {
     let held = "discretize = 'zoh'\n";
-    for (time, controller, plant, more) in [
+    let loops = [
         ("continuous", "(k*s + ki)/s", "1/(s + 1)^3", ""),
         ("discrete", "k + ki/10/(z - 1)", "2/(s^2 + s + 1/5)", held),
-    ] {
+    ];
+    for (time, controller, plant, more) in tried(loops, 2) {
         let model = diagram(time, controller, plant, more);
         let gains = || boxed([("k", "1/10", "2"), ("ki", "1/10", "1")]);
         let margin = || Requirement::modulus_margin(ratio(1, 2)).unwrap();
@@ -170,7 +172,7 @@ fn what_has_no_peak_gain_is_refused() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(12))]
+    #![proptest_config(ProptestConfig::with_cases(count(4, 12) as u32))]
 
     /// From the reference to the error the peak is the inverse of the modulus margin, to the output that of the complementary sensitivity; from the
     /// disturbance no gain of a scan has less than the best, and what is found has no more.

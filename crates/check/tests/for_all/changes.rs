@@ -250,6 +250,7 @@ fn random(draw: &mut Draw) -> (Plant, Asked) {
 
 /// `JURIST_LOOPS=1000` looks at so many loops.
 #[test]
+#[ignore = "long: CI runs it"]
 fn what_is_said_of_random_loops_is_true() {
     let count = std::env::var("JURIST_LOOPS").ok().and_then(|n| n.parse().ok()).unwrap_or(40);
     let (mut draw, mut seen) = (Draw(11), [0; 3]);
