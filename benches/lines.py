@@ -14,7 +14,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PLACES = ["crates/algebra", "crates/check", "crates/draw", "crates/engine", "crates/fuzzing", "crates/model", "crates/prove",
-          "crates/show", "crates/stability", "python", "src", "studies", "web"]
+          "crates/ship", "crates/show", "crates/stability", "crates/tune", "python", "src", "studies", "web"]
 LONG_FUNCTION, LONG_FILE, MANY_ARGUMENTS = 60, 400, 6
 # A comment or a literal, whichever begins first.
 TOKEN = re.compile(
