@@ -52,6 +52,7 @@ mod loops {
     mod held_requirements;
     mod impulses;
     mod large;
+    mod least_margins;
     mod margin_ranges;
     mod margins;
     mod paper;

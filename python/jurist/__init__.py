@@ -52,6 +52,8 @@ if TYPE_CHECKING:
         DelayMargin,
         DiskMargin,
         GainCrossing,
+        LeastMargin,
+        LeastMargins,
         Margins,
         Norm,
         Peak,
@@ -73,7 +75,7 @@ __version__: str = _jurist.__version__
 
 _LATER = {
     **dict.fromkeys(("At", "DelayMargin", "DiskMargin", "GainCrossing", "Margins", "Norm"), "_margins"),
-    **dict.fromkeys(("Peak", "PeakToPeak", "PhaseCrossing", "PhaseMargin"), "_margins"),
+    **dict.fromkeys(("LeastMargin", "LeastMargins", "Peak", "PeakToPeak", "PhaseCrossing", "PhaseMargin"), "_margins"),
     **dict.fromkeys(("Bode", "FrequencyResponse", "Nyquist"), "_response"),
     "Report": "_report",
     **dict.fromkeys(("Root", "Roots"), "_roots"),
@@ -112,6 +114,8 @@ __all__ = [
     "JuristError",
     "JuristWarning",
     "Label",
+    "LeastMargin",
+    "LeastMargins",
     "Locus",
     "Loop",
     "LoopBuilder",

@@ -254,6 +254,50 @@ def _bounds(pair: list[str] | None) -> tuple[Fraction, Fraction] | None:
     return None if pair is None else (fraction(pair[0]), fraction(pair[1]))
 
 
+class LeastMargin(NamedTuple):
+    """How much of one margin there is for all values of some names."""
+
+    name: str
+    """A phase margin is in degrees, a gain margin a factor, a delay margin in units of time."""
+    proved: Fraction | None
+    """All values have at least so much, of a peak at most; `None` where nothing is proved."""
+    found: tuple[Fraction, Fraction] | None
+    """Certified bounds of what one value has; `None` where no value that was looked at limits it."""
+    at: dict[str, Fraction] | None
+    """That value of each name."""
+
+
+class LeastMargins(Document):
+    """How much of each margin a loop has for all values of some names."""
+
+    __slots__ = ()
+
+    @property
+    def stable(self) -> bool | None:
+        """Whether the loop is stable for all values; `None` where that is not decided."""
+        found: bool | None = self._document["stable"]
+        return found
+
+    @property
+    def margins(self) -> dict[str, LeastMargin]:
+        """The margins by name; none unless the loop is stable for all values."""
+        return {one["name"]: _least(one) for one in self._document["margins"]}
+
+    def __str__(self) -> str:
+        return self.text().rstrip()
+
+    def __repr__(self) -> str:
+        told = [f"{one.name} {float(one.proved):g}" for one in self.margins.values() if one.proved is not None]
+        return f"<LeastMargins {', '.join(told)}>" if self.stable else f"<LeastMargins stable={self.stable}>"
+
+
+def _least(one: dict[str, Any]) -> LeastMargin:
+    found, proved = one["found"], one["proved"]
+    bounds = None if found is None else (fraction(found["enclosure"][0]), fraction(found["enclosure"][1]))
+    at = None if found is None else {name: fraction(value) for name, value in found["at"].items()}
+    return LeastMargin(one["name"], None if proved is None else fraction(proved), bounds, at)
+
+
 class Norm(Document):
     """The peak gain of a closed-loop transfer function; `None` where the loop is not stable."""
 

@@ -13,7 +13,7 @@ from ._question import Asking, Bounds, Waiting
 
 if TYPE_CHECKING:
     from ._loop import Loop
-    from ._margins import Margins, Norm, PeakToPeak
+    from ._margins import LeastMargins, Margins, Norm, PeakToPeak
     from ._report import Report
     from ._response import Bode, Nyquist
     from ._roots import Roots
@@ -71,6 +71,40 @@ class ResponseQuestions(Asker):
         words += [] if at is None else [f"--at={at}"]
         words += [] if skew == 0 else [f"--skew={text_of(skew)}"]
         return Margins(self._document(words, asked), self._itself, tuple(words))
+
+    def least_margins(
+        self,
+        for_all: Mapping[str, Bounds],
+        at: str | None = None,
+        values: Mapping[str, Exact] | None = None,
+        **question: Unpack[Waiting],
+    ) -> LeastMargins:
+        """How much of each margin the loop has for all values of up to four names, proved.
+
+        Parameters
+        ----------
+        for_all : mapping from names to pairs of exact numbers
+            The ranges, ends included; all values vary independently of each other.
+        at : str, optional
+            Where the loop is cut; see `margins`.
+        values : mapping, optional
+            Of other parameters and constants.
+
+        Examples
+        --------
+        >>> import jurist
+        >>> b = jurist.LoopBuilder("continuous", parameters={"a": 1}).block("plant", "r - y", "y", "a/(s*(s + 1))")
+        >>> least = b.build(inputs=["r"], outputs=["y"]).least_margins({"a": ("1/2", 1)}).margins["phase_margin"]
+        >>> round(float(least.proved)), round(float(least.found[0]), 3), least.at
+        (52, 51.827, {'a': Fraction(1, 1)})
+        """
+        from ._margins import LeastMargins
+        from ._stability import _for_all
+
+        asked = self._asked(values, **question)
+        words = [*self._words("margins", asked), *_for_all(for_all)]
+        words += [] if at is None else [f"--at={at}"]
+        return LeastMargins(self._document(words, asked), self._itself, tuple(words))
 
     def norm(
         self, input: str, output: str, values: Mapping[str, Exact] | None = None, **question: Unpack[Waiting]

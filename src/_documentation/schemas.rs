@@ -24,6 +24,7 @@ schemas! {
     frequency_response: "`jurist/frequency-response/1`, of `jurist bode` and `jurist nyquist`.", "frequency-response-1";
     intervals: "`jurist/intervals/1`, of `jurist intervals`.", "intervals-1";
     jury: "`jurist/jury/1`, of `jurist jury`.", "jury-1";
+    least_margins: "`jurist/least-margins/1`, of `jurist margins --for-all`.", "least-margins-1";
     locus: "`jurist/locus/1`, of `jurist locus`.", "locus-1";
     lock: "`jurist/lock/1`, of `jurist lock`.", "lock-1";
     main: "`jurist/main/1`, of `jurist` without a command.", "main-1";

@@ -115,6 +115,7 @@ const FORMS: &[&[&str]] = &[
     &["margins", "examples/drive-blocks.toml", "--at", "i_a", "--set", "K_pwm=551"],
     &["margins", "--timeout", "0"],
     &["margins", "K/(s*(s+1))", "--param", "K"],
+    &["margins", "K/(s*(s+1))", "--for-all", "K=1..2"],
     &["margins", "--param", "K_pwm", "--timeout", "0"],
     &["norm", "examples/drive-blocks.toml", "omega_ref", "i_a"],
     &["norm", "examples/drive-blocks.toml", "omega_ref", "omega", "--timeout", "0"],

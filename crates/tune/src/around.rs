@@ -1,12 +1,15 @@
 //! Boxes of gains where more than a point is asked of each gain: all plants, or all gains within a tolerance.
 
 use crate::centre::Centre;
-use crate::for_all::{Everywhere, Sides, as_box, everywhere};
+use crate::for_all::{Sides, as_box};
 use crate::parts::{Beside, Part, Parts, Seen};
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::Rational;
 use jurist_engine::error::Error;
-use jurist_engine::response::{OverPoints, RequirementBoxes};
+use jurist_engine::response::{Everywhere, OverPoints, RequirementBoxes, everywhere};
+
+/// More parts of a box are not looked at to prove it.
+const MOST_PARTS: usize = 160;
 
 impl Parts<'_, '_> {
     /// Whether all gains within a tolerance of a point meet all, as far as boxes prove it.
@@ -16,7 +19,7 @@ impl Parts<'_, '_> {
         }
         let Some(sides) = centre.around(point, value) else { return Ok(false) };
         let tests: Vec<&RequirementBoxes> = self.tests.iter().collect();
-        Ok(match everywhere(&tests, sides, self.lines.budget)? {
+        Ok(match everywhere(&tests, sides, MOST_PARTS, self.lines.budget)? {
             Everywhere::All => true,
             Everywhere::NotAt(bad) => {
                 if self.is_proved_unmet(&bad)? {
@@ -78,7 +81,7 @@ impl Parts<'_, '_> {
             }
         }
         let whole = as_box(point).into_iter().chain(self.plants.sides.iter().cloned()).collect();
-        Ok(match everywhere(&tests, whole, self.lines.budget)? {
+        Ok(match everywhere(&tests, whole, MOST_PARTS, self.lines.budget)? {
             Everywhere::All => true,
             Everywhere::NotAt(bad) => {
                 self.plants.refuted_by(&bad[point.len()..]);

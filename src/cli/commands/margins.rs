@@ -1,5 +1,6 @@
 //! `jurist margins`: how far the loop is from instability.
 
+use super::map::ranges;
 use super::{Context, Runs, decided};
 use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, RegionOptions, RunOptions};
 use crate::cli::assignments::plain_number;
@@ -11,6 +12,7 @@ use jurist_algebra::number::Rational;
 use jurist_engine::coverage::Asked;
 use jurist_engine::model::Model;
 use jurist_engine::problem::Question;
+use jurist_engine::response::{AllOf, Everywhere, LeastMargin, MapForAll};
 use jurist_engine::show::documents::{MarginRanges, Margins};
 
 /// Options of `jurist margins`.
@@ -28,6 +30,10 @@ pub(in crate::cli) struct Options {
     /// For which values of this parameter, or constant given as a number, the loop has so much of each margin
     #[arg(long, value_name = "NAME", conflicts_with = "skew")]
     pub param: Option<String>,
+    /// How much of each margin the loop has for all of these values, both ends included; a name of the model
+    /// without units, up to four [repeatable]
+    #[arg(long, value_name = "NAME=LO..HI", allow_hyphen_values = true, conflicts_with_all = ["skew", "param", "explain"])]
+    pub for_all: Vec<String>,
     #[command(flatten)]
     pub explain: ExplainOptions,
     #[command(flatten)]
@@ -56,7 +62,11 @@ fn run(options: &Options, context: &Context) -> Outcome {
     let model = load(options.model.model.as_ref(), &options.model.line, context)?;
     let question = question(context, &model, &options.model, &RegionOptions::default())?;
     if let Some(name) = &options.param {
-        return ranges(name, (&model, question), options, context);
+        return by_parameter(name, (&model, question), options, context);
+    }
+    let all = ranges(&options.for_all, &[], &model, context)?;
+    if !all.is_empty() {
+        return least(all, question, options, context);
     }
     let skew: Rational = plain_number(context.line, "--skew", &options.skew)?;
     let digits = output.digits() as usize;
@@ -75,7 +85,7 @@ fn run(options: &Options, context: &Context) -> Outcome {
 }
 
 /// The values of a parameter for which the loop has each margin.
-fn ranges(name: &str, (model, question): (&Model, Question), options: &Options, context: &Context) -> Outcome {
+fn by_parameter(name: &str, (model, question): (&Model, Question), options: &Options, context: &Context) -> Outcome {
     let output = &options.output;
     known_names(context, model, "--param", std::slice::from_ref(&name.to_owned()))?;
     let digits = output.digits() as usize;
@@ -92,5 +102,31 @@ fn ranges(name: &str, (model, question): (&Model, Question), options: &Options, 
         Err(stopped) => {
             context.undecided(output, &stopped, || None, || MarginRanges::new(&problem, Err(&stopped), digits))
         }
+    }
+}
+
+/// The least margins for all values of names; the status is 1 where the loop is not stable for some.
+fn least(all: Vec<AllOf>, question: Question, options: &Options, context: &Context) -> Outcome {
+    let output = &options.output;
+    let digits = output.digits() as usize;
+    let names = MapForAll::new(all).with_requirements(Vec::new(), options.at.clone());
+    match decided(names.least_margins(question, &context.budget))? {
+        Ok(answer) => {
+            context.warn(None, answer.problem().warnings());
+            context.answer(output, || answer.text(digits), || answer.json())?;
+            let found = answer.value();
+            if let Some(stopped) = &found.stopped {
+                return Ok(context.say_undecided(stopped));
+            }
+            // A margin that nothing limits needs no number.
+            let is_limited = |margin: &LeastMargin| margin.proved.is_none() && margin.found.is_some();
+            let is_open = found.stable == Everywhere::Open || found.margins.iter().any(is_limited);
+            Ok(match found.stable {
+                Everywhere::NotAt(_) => Status::DoesNotHold,
+                _ if is_open => Status::Undecided,
+                _ => Status::Holds,
+            })
+        }
+        Err(stopped) => Ok(context.say_undecided(&stopped)),
     }
 }

@@ -2,6 +2,7 @@
 
 use super::disk::degrees;
 use super::family::{Elimination, Family};
+use super::margins::Margins;
 use super::required_set::not_decided;
 use super::requirement::{Circle, Found, Requirement, Rule};
 use crate::error::Error;
@@ -319,25 +320,16 @@ impl Problem {
         bits: u64,
         budget: &Budget,
     ) -> Result<Option<Enclosure>, Error> {
-        let enclosed = |number: &Real| {
-            let (low, high) = number.refined_to_digits(bits as usize * 3 / 10 + 2).enclosure();
-            Enclosure::new(low, high)
-        };
         if let (Level::Norm, Some(between)) = (level, between) {
             let norm = self.norm(&between.input, &between.output, budget)?.into_value();
-            return Ok(budget.enter(|| norm.peak.map(|peak| enclosed(&peak.value)))?);
+            return Ok(budget.enter(|| norm.peak.map(|peak| enclosed(&peak.value, bits)))?);
         }
         let LevelAsked::Requirement(requirement) = level.asked(&level.inside())? else { return Ok(None) };
         if !requirement.needs_cut() {
             return Ok(None);
         }
         let margins = self.margins_with(at, &Rational::ZERO, false, budget)?;
-        let all = margins.value();
-        let found = all.stable.as_ref().and_then(|stable| requirement.found(all, stable));
-        Ok(budget.enter(|| match found? {
-            Found::Number(number) => Some(enclosed(&number)),
-            Found::Enclosed(enclose) => enclose(bits),
-        })?)
+        Ok(budget.enter(|| enclosed_among(&requirement, margins.value(), bits))?)
     }
 
     /// Where stability may change, in the one free parameter.
@@ -359,7 +351,27 @@ impl Problem {
     }
 }
 
+fn enclosed(number: &Real, bits: u64) -> Enclosure {
+    let (low, high) = number.refined_to_digits(bits as usize * 3 / 10 + 2).enclosure();
+    Enclosure::new(low, high)
+}
+
+/// What a requirement is about among the margins of a loop.
+fn enclosed_among(requirement: &Requirement, margins: &Margins, bits: u64) -> Option<Enclosure> {
+    match requirement.found(margins, margins.stable.as_ref()?)? {
+        Found::Number(number) => Some(enclosed(&number, bits)),
+        Found::Enclosed(enclose) => enclose(bits),
+    }
+}
+
 impl Level {
+    /// The level among the margins of a loop, enclosed by so many bits: degrees of a phase margin. `None` where it has no bound, of a loop that is not
+    /// stable, and of numbers that are not margins.
+    pub(super) fn among(self, margins: &Margins, bits: u64) -> Option<Enclosure> {
+        let LevelAsked::Requirement(requirement) = self.asked(&self.inside()).ok()? else { return None };
+        requirement.needs_cut().then(|| enclosed_among(&requirement, margins, bits))?
+    }
+
     /// Whether it is a bound of the region in which roots lie.
     fn asked_of_roots(self) -> bool {
         matches!(self, Level::Decay | Level::Radius)

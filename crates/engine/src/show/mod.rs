@@ -6,6 +6,7 @@ pub mod diagnostics;
 pub mod documents;
 pub mod intervals;
 pub mod layout;
+mod least_margins;
 pub mod map;
 pub mod margins;
 pub mod notation;

@@ -55,7 +55,7 @@ impl Answer<Margins> {
 }
 
 /// Where the loop is cut.
-fn cut_text(cut: &Cut) -> String {
+pub(super) fn cut_text(cut: &Cut) -> String {
     let name = visible(cut.name()).into_owned();
     match cut {
         Cut::Signal(_) => format!("at the signal '{name}'"),

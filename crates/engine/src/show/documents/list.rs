@@ -1,8 +1,8 @@
 //! The kinds of documents: one list, of which the published schemas are made, and by which a document is read.
 
 use super::{
-    Analysis, Body, Charpoly, Check, Intervals, Jury, Lock, Map, MapBoxes, MarginRanges, Margins, Norm, RootLocusForm,
-    Roots, Test, Tolerance, Transfer, Verdict,
+    Analysis, Body, Charpoly, Check, Intervals, Jury, LeastMargins, Lock, Map, MapBoxes, MarginRanges, Margins, Norm,
+    RootLocusForm, Roots, Test, Tolerance, Transfer, Verdict,
 };
 use serde_json::{Error, Value, from_value, to_value};
 
@@ -46,6 +46,7 @@ documents! {
     Check: "jurist/check/1",
     Intervals: "jurist/intervals/1",
     Jury: "jurist/jury/1",
+    LeastMargins: "jurist/least-margins/1",
     Lock: "jurist/lock/1",
     Map: "jurist/map/1",
     MapBoxes: "jurist/map-boxes/1",

@@ -24,6 +24,7 @@ mod crossings;
 mod end;
 mod intervals;
 mod jury;
+mod least_margins;
 mod list;
 mod lock;
 mod map;
@@ -64,6 +65,7 @@ pub use jury::{
     Condition, Holds, Jury, JuryAtPoint, JuryInParameter, JuryName, PointTable, Relation, Row, RowsOpen, Solution,
     SolvedTable, TableInParameter, TableKind, TableOpen,
 };
+pub use least_margins::{LeastFound, LeastMargin, LeastMargins, LeastMarginsFound, LeastMarginsName, LeastMarginsOpen};
 pub use list::{NAMES, through_its_type};
 pub use lock::{Lock, LockName, LockedLimits};
 pub use map::{
