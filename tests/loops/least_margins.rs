@@ -69,6 +69,15 @@ fn the_worst_value_may_be_inside() {
     assert!(*value.lower() < number("3.02"), "{value:?}");
 }
 
+/// At an undamped resonance the open loop is infinite, and everything that tells a crossing is zero there; its gain margin is (2 c - 1)/k.
+#[test]
+fn a_gain_margin_beside_an_undamped_resonance() {
+    let found = least(&crate::helpers::model::example("lcl-active-damping"), &[("k", "1/10", "1/5")]);
+    let (proved, value, point) = bounds(&found, Level::GainMargin);
+    assert_eq!((point, value.lower(), value.upper()), (vec![number("1/5")], &number("3"), &number("3")));
+    assert!(proved > number("2.95") && proved < number("3"));
+}
+
 /// No value has less than what is proved, and one value has what is told.
 #[test]
 fn random_values_have_at_least_what_is_proved() {

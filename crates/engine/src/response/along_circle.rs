@@ -52,6 +52,8 @@ pub(super) struct Asked<A> {
     signs: Vec<A>,
     /// Where both have the same sign, any modulus is allowed.
     upright: Vec<A>,
+    /// Where it is positive all crossings are allowed.
+    large: Option<A>,
     rule: Allows,
 }
 
@@ -93,12 +95,13 @@ impl<A: Along> Asked<A> {
         functions: Functions<C, N>,
         along: impl FnOnce(Vec<Function<C, N>>) -> Vec<A>,
     ) -> Asked<A> {
-        let Functions { crossing, signs, upright, rule } = functions;
-        let (has_crossing, count) = (crossing.is_some(), signs.len());
-        let mut all = along(crossing.into_iter().chain(signs).chain(upright).collect());
+        let Functions { crossing, signs, upright, large, rule } = functions;
+        let (has_crossing, count, is_large_asked) = (crossing.is_some(), signs.len(), large.is_some());
+        let mut all = along(crossing.into_iter().chain(signs).chain(upright).chain(large).collect());
         let crossing = has_crossing.then(|| all.remove(0));
+        let large = if is_large_asked { all.pop() } else { None };
         let upright = all.split_off(count);
-        Asked { crossing, signs: all, upright, rule }
+        Asked { crossing, signs: all, upright, large, rule }
     }
 }
 
@@ -285,7 +288,7 @@ impl<A: Along> Asked<A> {
         match cell.crossing.as_ref().and_then(|f| f.patch().sign()) {
             Some(sign) => Crossing::None(sign),
             None => match self.allowed(cell) {
-                Crossing::Unknown if self.is_upright(&cell.ends) => Crossing::Allowed,
+                Crossing::Unknown if self.is_upright(&cell.ends) || self.is_large(&cell.ends) => Crossing::Allowed,
                 told => told,
             },
         }
@@ -295,6 +298,11 @@ impl<A: Along> Asked<A> {
     fn is_upright(&self, [lower, upper]: &[Rational; 2]) -> bool {
         let sign = |f: &A| f.on([lower, upper]).patch().sign();
         lower.is_zero() && matches!(self.upright[..], [ref a, ref b] if sign(a).is_some_and(|s| sign(b) == Some(s)))
+    }
+
+    /// Whether on a piece the open loop is so large that all crossings are allowed.
+    fn is_large(&self, [lower, upper]: &[Rational; 2]) -> bool {
+        self.large.as_ref().is_some_and(|f| f.on([lower, upper]).patch().sign().is_some_and(Sign::is_gt))
     }
 
     /// Whether a sign of the polynomial of crossings changes over neighbouring pieces that all forbid one.

@@ -43,6 +43,8 @@ pub(super) struct Functions<C, const N: usize> {
     pub signs: Vec<Function<C, N>>,
     /// Where both have the same sign, the open loop is so near to a right angle that it may have any modulus.
     pub upright: Vec<Function<C, N>>,
+    /// Where it is positive the open loop is so large that any crossing is allowed.
+    pub large: Option<Function<C, N>>,
     /// Which crossings are allowed.
     pub rule: Allows,
 }
@@ -62,7 +64,12 @@ impl<C: Coefficient, const N: usize> Functions<C, N> {
                 let signs = [sum(&times(&below, alpha), &twice_real), sum(&below, &times(&twice_real, alpha))];
                 // With an integrator the open loop is infinite at the lowest frequency: nothing crosses there.
                 let rule = Allows::Same { at_zero: !products.has_integrator() };
-                Functions::new(Some(products.imaginary()), signs.into(), rule)
+                let functions = Functions::new(Some(products.imaginary()), signs.into(), rule);
+                // Where the open loop is infinite all of these vanish. |N| > k |D| is seen there.
+                let below = times(&times(&scaled(&below, &-Integer::ONE), alpha), alpha);
+                let large =
+                    Functions::new(None, vec![sum(&products.moduli()[1], &below)], Allows::Positive).signs.pop();
+                Functions { large, ..functions }
             }
             Rule::Circle(circle) => {
                 let [u, v] = circle.combined().map(Integer::from);
@@ -100,7 +107,7 @@ impl<C: Coefficient, const N: usize> Functions<C, N> {
             let by = zeros(f);
             divide(f, by);
         }
-        Functions { crossing, signs, upright: Vec::new(), rule }
+        Functions { crossing, signs, upright: Vec::new(), large: None, rule }
     }
 
     /// With what tells where the open loop is near to a right angle.
