@@ -64,3 +64,15 @@ def test_margins_of_a_verdict_are_certified() -> None:
     loop = servo()
     point = loop.verdict({"K": 2}, phase_margin="30 deg", at="u")
     assert point and "30 degrees" in jurist.verify(loop, point.certificate()).statement
+
+
+def test_the_least_margins_for_all_values() -> None:
+    found = servo().least_margins({"T_m": ("1/50", "1/10")}, values={"K": 2})
+    assert found.stable and {"gain_margin", "phase_margin", "modulus_margin", "disk_margin"} <= set(found.margins)
+    for one in found.margins.values():
+        assert one.proved is not None and one.found is not None and one.at is not None
+        exact = servo().margins(values={"K": 2, **one.at})
+        if one.name == "modulus_margin":
+            assert one.proved <= one.found[0] <= Fraction(exact.modulus.value.decimal(12)) + Fraction(1, 10**11)
+    unstable = servo().least_margins({"T_m": ("1/50", "1/10")}, values={"K": 19})
+    assert unstable.stable is False and unstable.margins == {}
