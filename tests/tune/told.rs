@@ -1,5 +1,6 @@
 //! What `jurist tune` tells people: one number as a number, a range as one, what binds, and what is known where the work ended.
 
+use crate::helpers::folder::Folder;
 use crate::helpers::program::jurist;
 
 /// A PI controller for three equal lags.
@@ -152,4 +153,34 @@ fn a_report_has_the_best_gains() {
         assert!(part.contains(&line.replace('>', "&gt;")), "{line}: {part}");
     }
     assert!(!jurist(&["report", "examples/de-gaston-safonov.toml", "-o", "-", "-q"]).stdout.contains("id=\"best\""));
+}
+
+/// Errors named a text `<expression>` or `<objective>` that nobody wrote, or no place at all.
+#[test]
+fn an_error_in_an_objective_underlines_the_word_that_is_wrong() {
+    let quantities = "'max' may be followed by K, by an expression such as 2*K, or by one of gain_margin, phase_margin";
+    for (objective, underlined, help) in [
+        ("max K K", "expected an operator", quantities),
+        ("max foo", "^^^ unknown", quantities),
+        ("max delaymargin", "^^^^^^^^^^^ unknown", "did you mean 'delay_margin'?"),
+        ("max", "^^^ something is missing", quantities),
+        ("biggest K", "^^^^^^^ unknown", "'min' may be followed by K"),
+        ("min radius + K", "^^^^^^ stands alone", "known in expressions: K"),
+        ("max sin(K)", "^^^^^^ a function", "rational expression"),
+        ("max K/K", "^^^ a constant", "an expression of the free gains"),
+        ("max 1/0*K", "^ zero for all gains", ""),
+        ("max radius", "^^^ the other way round", "write 'min radius'"),
+        ("min norm r foo", "^^^ unknown", "known here: y"),
+    ] {
+        let (status, _, err) = told(&["K/(z-1/2)", "--free", "K", "--objective", objective]);
+        assert!(status == 2 && err.contains("--> <command line>:1:"), "{objective}: {err}");
+        assert!(err.contains(underlined) && err.contains(help), "{objective}: {err}");
+    }
+    let model = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/pi-sensitivity.toml")).unwrap();
+    let folder = Folder::new(&[("loop.toml", &model.replace("\"max ki\"", "\"max ki*kj\""))]);
+    let err = folder.jurist(&["tune", "loop.toml"]).stderr;
+    assert!(err.contains("\"max ki*kj\"\n") && err.contains("--> loop.toml:") && err.contains("^^ unknown"), "{err}");
+    // A name that has a value.
+    let (_, _, err) = told(&[PI, "--free", "k", "--objective", "max ki"]);
+    assert!(err.contains("'ki' is not free") && err.contains("free it too: --free ki"), "{err}");
 }

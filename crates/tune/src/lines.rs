@@ -46,7 +46,7 @@ impl<'a> Lines<'a> {
         let ranges = asked.gains.iter().zip(whole.free()).map(|(gain, free)| within(gain, &free.domain)).collect();
         let region = asked.requirements.region.clone().unwrap_or_else(|| whole.region().clone());
         let formula = match &asked.objective {
-            Objective::Formula { text, .. } => Some(Formula::of(text, &asked.gains, &base)?),
+            Objective::Formula { .. } => Some(Formula::of(&asked.objective_text(), &asked.gains, &base)?),
             _ => None,
         };
         Ok(Lines { asked, base, ranges, region, formula, budget })
@@ -58,6 +58,15 @@ impl<'a> Lines<'a> {
         'a: 'b,
     {
         Lines::new(&self.base.clone().within(Region::of(self.base.model().time())), asked, self.budget)
+    }
+
+    /// The same with ends for a gain that has none: beyond them nothing is asked for.
+    pub fn within(&self, gain: usize, [low, high]: [Option<Rational>; 2]) -> Lines<'a> {
+        let mut ranges = self.ranges.clone();
+        let own = ranges[gain].clone();
+        ranges[gain] = Range::between(own.lower.or(low), own.upper.or(high));
+        let (base, region, formula) = (self.base.clone(), self.region.clone(), self.formula.clone());
+        Lines { asked: self.asked, base, ranges, region, formula, budget: self.budget }
     }
 
     /// The region that is asked for, where it is smaller than that of plain stability.
