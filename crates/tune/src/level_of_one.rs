@@ -352,6 +352,14 @@ enum Spot {
 /// A bracket of a level: points first, since they are asked sooner than sets, then sets for what no gain has.
 fn bracket(lines: &Lines<'_>, level: Level, plain: &RequiredSet, ends: &[Rational; 2]) -> Result<Outcome, Error> {
     let search = Search { ends: ends.clone(), is_rising: level.is_rising(), is_without_end: is_without_end(level) };
+    // Gains with a level are stable ones.
+    let reach = |one: Option<&RequiredInterval>, by: i64, is_upper: bool| {
+        let (low, high) = one.map(outer)?;
+        Some(Rational::from(if is_upper { high } else { low }?.floor()) + Rational::from(by))
+    };
+    let ends_of_stable = [reach(plain.intervals.first(), -1, false), reach(plain.intervals.last(), 2, true)];
+    let lines =
+        &if plain.undecided.is_empty() { lines.within(GAIN, ends_of_stable) } else { lines.within(GAIN, [None, None]) };
     let met = |scale: &Rational| -> Result<Option<Spot>, Error> {
         let set = lines.set(GAIN, None, Some(scale))?.into_value();
         match (widest(&set), set.undecided.first()) {
