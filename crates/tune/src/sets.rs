@@ -78,7 +78,7 @@ pub(crate) fn is_closed(end: &RequiredEnd) -> bool {
 /// What binds at an end.
 pub(crate) fn names(end: &RequiredEnd) -> Vec<String> {
     match end {
-        RequiredEnd::Stability(end) => vec![end.causes.to_string()],
+        RequiredEnd::Stability(end) => end.causes.iter().map(|cause| cause.name().to_owned()).collect(),
         RequiredEnd::Requirement { names, .. } => names.iter().map(|name| (*name).to_owned()).collect(),
     }
 }

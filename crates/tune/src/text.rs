@@ -13,6 +13,8 @@ use jurist_engine::show::for_all_text;
 use jurist_engine::show::intervals::heading;
 use jurist_engine::show::layout::short;
 use jurist_engine::show::real::{enclosed, rounded};
+use jurist_engine::show::region::causes_text;
+use jurist_stability::Cause;
 use std::fmt::Write;
 
 /// What a text takes.
@@ -90,11 +92,32 @@ impl TuneAnswer {
 
     fn optimum_text(&self, out: &mut String, optimum: &Optimum, digits: usize) {
         self.value_text(out, optimum, digits);
-        self.places_text(out, optimum, digits);
-        if !optimum.binding.is_empty() {
-            writeln!(out, "    binds: {}", optimum.binding.join(", ")).expect(TAKES);
+        if !matches!(optimum.value, Best::Nothing) {
+            self.places_text(out, optimum, digits);
+        }
+        if !optimum.binding.is_empty() && !matches!(optimum.value, Best::Nothing) {
+            let words: Vec<String> = optimum.binding.iter().map(|name| self.binding_text(name)).collect();
+            writeln!(out, "    binds: {}", words.join(", ")).expect(TAKES);
         }
         self.typed_text(out, optimum, digits);
+    }
+
+    /// What binds, in words: the name of a requirement, of the number that is best, of a cause or a bound.
+    fn binding_text(&self, name: &str) -> String {
+        if name == Reading::of(&self.asked).name() || self.asked.level().is_some_and(|level| level.name() == name) {
+            return format!("{name} itself");
+        }
+        let Some(cause) = Cause::named(name) else { return name.to_owned() };
+        let at = causes_text(&cause.into(), &self.problem);
+        match cause {
+            Cause::RootAtOne | Cause::RootAtMinusOne | Cause::RootAtZero => format!("stability (a root at {at})"),
+            Cause::Domain => "the end of a gain's domain".to_owned(),
+            Cause::Undecided => "nothing that is known: what lies beyond is undecided".to_owned(),
+            Cause::Pole => "the loop, which is undefined there".to_owned(),
+            Cause::SquareRoot => "a square root: the number under it is negative beyond".to_owned(),
+            Cause::Duty => "the duty ratio: no pulse, or no pause, is left".to_owned(),
+            Cause::ComplexPair | Cause::ComplexRoot | Cause::DegreeLost | Cause::Neutral => format!("stability ({at})"),
+        }
     }
 
     fn value_text(&self, out: &mut String, optimum: &Optimum, digits: usize) {
@@ -156,7 +179,11 @@ impl TuneAnswer {
         });
         let places: Vec<String> = places.collect();
         if !places.is_empty() {
-            let word = if matches!(optimum.value, Best::Between(_)) { "found" } else { "at" };
+            let word = match (&optimum.value, optimum.attained) {
+                (Best::Between(_), _) => "found",
+                (_, Some(false)) => "approached at",
+                _ => "at",
+            };
             writeln!(out, "    {word} {}", places.join(", ")).expect(TAKES);
         }
     }
