@@ -184,3 +184,51 @@ fn an_error_in_an_objective_underlines_the_word_that_is_wrong() {
     let (_, _, err) = told(&[PI, "--free", "k", "--objective", "max ki"]);
     assert!(err.contains("'ki' is not free") && err.contains("free it too: --free ki"), "{err}");
 }
+
+/// The radius 0 of a deadbeat loop stayed a bracket: gains of few digits were never 0.
+#[test]
+fn gains_that_are_nearly_zero_are_tried_as_zero() {
+    let out = told(&["z^3+k*z^2+q", "--free", "k", "--free", "q", "--objective", "min radius"]).1;
+    assert!(out.contains("smallest radius: 0\n    at k = 0, q = 0\n"), "{out}");
+    assert!(out.contains("type in k = 0, q = 0: radius 0, no loss\n") && !out.contains("between"), "{out}");
+}
+
+/// An example was as near to an end that no gain has as the search had come: `K = 1/5000001`.
+#[test]
+fn an_example_beside_an_end_is_a_short_number() {
+    let out = line("K/(z^2*(z-1))", "min K", &[]);
+    assert!(out.contains("smallest K: 0, which is not reached\n") && out.contains("type in K = 0.01\n"), "{out}");
+    let two = ["K*(s+a)/(s*s*(s+3))", "--free", "K", "--free", "a", "--objective"];
+    let (_, out, _) = told(&[&two[..], &["min a"]].concat());
+    assert!(out.contains("type in K = 2, a = 0.01\n"), "{out}");
+    let (_, out, _) = told(&[&two[..], &["max a"]].concat());
+    assert!(out.contains("largest a: 3, which is not reached\n    approached at any K from 0\n"), "{out}");
+    assert!(out.contains("type in K = 2, a = 2.99, loss 0.333 %\n"), "{out}");
+}
+
+/// `binds: s=0+domain` had to be looked up, and on a plateau it named what ends the other gain.
+#[test]
+fn what_binds_is_said_in_words() {
+    for (objective, options, words) in [
+        ("min K", &["--domain", "K=0.."][..], "stability (a root at z=1), the end of a gain's domain"),
+        ("max K", &[], "stability (complex pair)"),
+        ("max modulus_margin", &[], "modulus_margin itself"),
+    ] {
+        let out = line("K/(z^2*(z-1))", objective, options);
+        assert!(out.contains(&format!("    binds: {words}\n")), "{out}");
+    }
+    // Stable for K > -1 and q > -1: the least q is that of a root at 0.
+    let (_, out, _) = told(&["(K*s+q)/(s^2+s+1)", "--free", "K", "--free", "q", "--objective", "min q"]);
+    assert!(out.contains("smallest q: -1, which is not reached\n") && out.contains("(a root at s=0)\n"), "{out}");
+    for (word, part) in [("tune", "--objective"), ("binds", "a bound of a gain")] {
+        let out = jurist(&["explain", word]).stdout;
+        assert!(out.contains(part), "{out}");
+    }
+}
+
+/// A loop with dead time whose open loop is below 1 at all frequencies has no phase margin to bracket.
+#[test]
+fn no_phase_limits_a_small_gain_with_dead_time() {
+    let out = line("K/(s+1)", "max phase_margin", &["--delay", "1"]);
+    assert!(out.contains("no phase limits the loop") && !out.contains("undecided"), "{out}");
+}

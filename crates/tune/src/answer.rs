@@ -182,6 +182,7 @@ impl TuneAnswer {
                         found => found?,
                     };
                 }
+                no_smaller_radius(&asked, &mut optimum);
                 Outcome::Optimum(optimum)
             }
             Outcome::Open { stopped, proved } => {
@@ -236,6 +237,22 @@ impl TuneAnswer {
             Outcome::Infeasible { .. } => None,
         }
     }
+}
+
+/// Where the gains that are typed in have the radius 0, no gains are better.
+fn no_smaller_radius(asked: &Asked, optimum: &mut Optimum) {
+    let is_radius = matches!(asked.level(), Some(Level::Radius));
+    let Some(typed) = optimum.typed.as_ref().filter(|_| is_radius && matches!(optimum.value, Best::Between(_))) else {
+        return;
+    };
+    if typed.value.as_ref().is_none_or(|value| !value.upper().is_zero()) {
+        return;
+    }
+    optimum.found.clone_from(&typed.values);
+    optimum.at = typed.values.iter().map(|x| Place::Exact(x.clone().into())).collect();
+    (optimum.value, optimum.found_value) = (Best::Exact(Rational::ZERO.into()), Some(Rational::ZERO));
+    (optimum.attained, optimum.stopped, optimum.cells) = (Some(true), None, None);
+    optimum.binding.clear();
 }
 
 fn of_complex_loops() -> Error {

@@ -383,6 +383,12 @@ fn bracket(lines: &Lines<'_>, level: Level, plain: &RequiredSet, ends: &[Rationa
             (Place::Exact(gain.clone().into()), gain, with_level(level, interval))
         }
     };
+    if found.not.is_none()
+        && matches!(level, Level::PhaseMargin | Level::GainMargin)
+        && lines.has_no_bound(&[(lines.asked.gains[GAIN].name.clone(), found_at.clone())], level)?
+    {
+        return Ok(Optimum::new(Best::Unbounded, Vec::new(), vec![found_at], None).into());
+    }
     let (value, stopped) = bracketed(level, &scale, found.not, found.stopped);
     let optimum = Optimum::new(value, vec![place], vec![found_at], Some(scale));
     Ok(Optimum { binding, stopped, ..optimum }.into())
