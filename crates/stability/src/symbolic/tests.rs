@@ -6,7 +6,7 @@ use crate::{End, Range, RootCount, StableSet};
 use jurist_algebra::number::{Integer, parse_number};
 use jurist_algebra::poly::RationalFunction;
 use jurist_algebra::real::Real;
-use jurist_algebra::symbols::Definition;
+use jurist_algebra::symbols::{Definition, EnclosedPoly};
 
 fn number(text: &str) -> Rational {
     parse_number(text).unwrap()
