@@ -232,3 +232,31 @@ fn no_phase_limits_a_small_gain_with_dead_time() {
     let out = line("K/(s+1)", "max phase_margin", &["--delay", "1"]);
     assert!(out.contains("no phase limits the loop") && !out.contains("undecided"), "{out}");
 }
+
+/// The refusal was that of a gain margin with one gain, and of more gains nothing was said but that no value was found.
+#[test]
+fn a_norm_with_dead_time_is_refused_with_what_to_ask() {
+    for gains in [
+        &["--free", "K", "--set", "q=1", "--bound", "K=0..1"][..],
+        &["--free", "K", "--free", "q", "--bound", "K=0..1", "--bound", "q=0..1"],
+    ] {
+        let asked = [&["(K*s+q)/(s*(s+1))", "--delay", "1", "--objective", "min norm r y"][..], gains].concat();
+        let (status, _, err) = told(&asked);
+        assert!(status == 2 && err.contains("E-dead-time") && err.contains("jurist norm"), "{err}");
+    }
+}
+
+/// A map of two gains behind a hold with a margin takes minutes: its end left nothing said, though the nominal gains are good, and with bounds boxes are searched.
+#[test]
+fn an_early_end_without_bounds_has_the_nominal_gains_and_asks_for_bounds() {
+    let model = "time = 'discrete'\nsample_time = 2\nparameters = { Kp = 1, Ki = 0.02 }\n[loop]\ninputs = ['r']\noutputs = ['h']\n\
+        [[block]]\nname = 'pi'\ninput = 'r - h'\noutput = 'u'\ntransfer = 'Kp + Ki*2*z/(z - 1)'\n\
+        [[block]]\nname = 'tank'\ninput = 'u'\noutput = 'h'\ntransfer = '1/(60*s + 1)'\ndiscretize = { method = 'zoh', delay = 5 }\n";
+    let folder = Folder::new(&[("loop.toml", model)]);
+    let asked =
+        ["tune", "loop.toml", "--free", "Kp", "--free", "Ki", "--objective", "max Ki", "--modulus-margin", "0.5"];
+    let run = folder.jurist(&[&asked[..], &["--work", "10000000"]].concat());
+    assert_eq!(run.status, 3, "{}", run.stderr);
+    assert!(run.stdout.contains("for example Kp = 1, Ki = 0.02\n"), "{}", run.stdout);
+    assert!(run.stdout.contains("ends sooner: --bound Kp=LO..HI --bound Ki=LO..HI\n"), "{}", run.stdout);
+}

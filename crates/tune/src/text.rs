@@ -51,6 +51,11 @@ impl TuneAnswer {
             Outcome::Optimum(optimum) => self.optimum_text(&mut out, optimum, digits),
             Outcome::Open { proved, .. } => self.open_text(&mut out, proved.as_ref(), digits),
         }
+        if self.are_bounds_missing {
+            let gains = names.iter().map(|name| format!("--bound {name}=LO..HI")).collect::<Vec<_>>().join(" ");
+            writeln!(out, "with bounds for both gains the search is another one, which mostly ends sooner: {gains}")
+                .expect(TAKES);
+        }
         out
     }
 
@@ -104,8 +109,8 @@ impl TuneAnswer {
 
     /// What binds, in words: the name of a requirement, of the number that is best, of a cause or a bound.
     fn binding_text(&self, name: &str) -> String {
-        if name == Reading::of(&self.asked).name() || self.asked.level().is_some_and(|level| level.name() == name) {
-            return format!("{name} itself");
+        if self.asked.level().is_some_and(|level| level.name() == name) {
+            return format!("{} itself", Reading::of(&self.asked).name());
         }
         let Some(cause) = Cause::named(name) else { return name.to_owned() };
         let at = causes_text(&cause.into(), &self.problem);
@@ -149,8 +154,8 @@ impl TuneAnswer {
             }
             Best::Between([found, proved]) => {
                 let [low, high] = bracket(&reading, found, proved);
-                let proof = optimum.cells.map(|cells| format!(" (a bracket, proof: {})", counted(cells)));
-                writeln!(out, "{wanted}: between {low} and {high}{}{}", reading.unit(), proof.unwrap_or_default())
+                let proof = optimum.cells.map(proof).unwrap_or_default();
+                writeln!(out, "{wanted}: between {low} and {high}{}{proof}", reading.unit())
             }
         }
         .expect(TAKES);
@@ -276,6 +281,14 @@ pub(crate) fn regional(name: &str, text: &str) -> String {
     format!("{name} {sign} {text}")
 }
 
+/// What proves a bracket.
+fn proof(cells: usize) -> String {
+    match cells {
+        0 => " (a bracket, its better end by the bounds of the gains alone)".to_owned(),
+        cells => format!(" (a bracket, proof: {})", counted(cells)),
+    }
+}
+
 /// `1 cell`, `214 cells`.
 fn counted(cells: usize) -> String {
     if cells == 1 { "1 cell".to_owned() } else { format!("{cells} cells") }
@@ -340,4 +353,16 @@ fn root_of(value: &Real) -> Option<String> {
     let is_short =
         polynomial.degree()? > 1 && polynomial.degree()? <= MOST_DEGREE && polynomial.height_bits() <= MOST_BITS;
     is_short.then(|| MultiPoly::from_univariate(polynomial, 0).display(&["x"]).to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::proof;
+
+    /// `proof: 0 cells` was said of an end that is only that of the bounds.
+    #[test]
+    fn a_bracket_without_cells_says_that_the_bounds_are_its_end() {
+        assert!(proof(0).contains("by the bounds of the gains alone"));
+        assert_eq!([proof(1), proof(2)], [" (a bracket, proof: 1 cell)", " (a bracket, proof: 2 cells)"]);
+    }
 }
