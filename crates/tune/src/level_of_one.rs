@@ -94,7 +94,8 @@ fn at_wall(
         }
     }
     let binding = binding(lines, level, &near);
-    let found = vec![point_inside(&near.interval)];
+    let best = if let Place::Exact(x) = &near.place { x.exact().filter(|_| attained == Some(true)) } else { None };
+    let found = vec![best.unwrap_or_else(|| point_inside(&near.interval))];
     let optimum = Optimum::new(Best::Exact(value.clone()), vec![near.place], found, Some(near.height));
     Ok(Optimum { attained, binding, ..optimum })
 }

@@ -98,6 +98,8 @@ fn best_gain(lines: &Lines<'_>, is_greatest: bool) -> Result<Outcome, Error> {
         }
         _ => None,
     };
+    let best = if let Best::Exact(value) = &value { value.exact().filter(|_| attained == Some(true)) } else { None };
+    let found = best.unwrap_or(found);
     let optimum = Optimum::new(value, vec![at], vec![found.clone()], Some(found));
     Ok(Optimum { attained, binding, stopped, ..optimum }.into())
 }
