@@ -186,6 +186,9 @@ fn middle_of_one(
         Measure::Relative => [other(Rational::ONE + value, &low), other(Rational::ONE - value, &high)],
     };
     let [Some(from), Some(to)] = ends else { return Ok(None) };
+    // 0 is the shortest number, and no gain with a tolerance.
+    let half = || near * &Rational::new(1.into(), 2.into());
+    let (from, to) = (if from.is_zero() { half() } else { from }, if to.is_zero() { half() } else { to });
     Ok(shortest(&from, &to, near).filter(|_| from <= to).map(|x| vec![x]))
 }
 
