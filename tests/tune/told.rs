@@ -260,3 +260,10 @@ fn an_early_end_without_bounds_has_the_nominal_gains_and_asks_for_bounds() {
     assert!(run.stdout.contains("for example Kp = 1, Ki = 0.02\n"), "{}", run.stdout);
     assert!(run.stdout.contains("ends sooner: --bound Kp=LO..HI --bound Ki=LO..HI\n"), "{}", run.stdout);
 }
+
+/// The shortest number from 0 on is 0, which no tolerance has: `K = 9111/2375` was the example.
+#[test]
+fn the_middle_of_gains_from_zero_on_is_a_short_number() {
+    let out = line("K/(s*(s+1)^2)", "max tolerance", &["--domain", "K=0.."]);
+    assert!(out.contains("type in K = 1") && !out.contains("for example"), "{out}");
+}

@@ -3,11 +3,11 @@
 use crate::answer::{Best, Optimum, Outcome, Place};
 use crate::critical::Curves;
 use crate::lines::Lines;
-use crate::near::{Near, approach, is_attained};
+use crate::near::{Near, approach, is_attained, toward};
 use crate::one_gain::{GAIN, nothing};
 use crate::search::Search;
 use crate::seed::seed;
-use crate::sets::{outer, point_inside, widest};
+use crate::sets::{bound_of, on_bound, outer, point_inside, widest};
 use jurist_algebra::limits::{Exhausted, apart};
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::poly::{RealAlgebraic, rational_between};
@@ -94,9 +94,11 @@ fn at_wall(
         }
     }
     let binding = binding(lines, level, &near);
-    let best = if let Place::Exact(x) = &near.place { x.exact().filter(|_| attained == Some(true)) } else { None };
-    let found = vec![best.unwrap_or_else(|| point_inside(&near.interval))];
-    let optimum = Optimum::new(Best::Exact(value.clone()), vec![near.place], found, Some(near.height));
+    let on_bound = if let Place::Exact(x) = &near.place { on_bound(x, &binding, attained) } else { None };
+    // The gain on its bound has the best value itself.
+    let height = if on_bound.is_some() { toward(value, &near.height, 12) } else { near.height };
+    let found = vec![on_bound.unwrap_or_else(|| point_inside(&near.interval))];
+    let optimum = Optimum::new(Best::Exact(value.clone()), vec![near.place], found, Some(height));
     Ok(Optimum { attained, binding, ..optimum })
 }
 
@@ -326,7 +328,7 @@ fn binding(lines: &Lines<'_>, level: Level, near: &Near) -> Vec<String> {
         _ => false,
     };
     if is_at(&range.lower) || is_at(&range.upper) {
-        return vec![format!("bound of {}", lines.asked.gains[GAIN].name)];
+        return vec![bound_of(&lines.asked.gains[GAIN].name)];
     }
     with_level(level, &near.interval)
 }

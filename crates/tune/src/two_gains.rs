@@ -6,7 +6,7 @@ use crate::level_of_one::{bracketed, is_without_end, not_found, scale};
 use crate::lines::Lines;
 use crate::near::{is_narrow, toward};
 use crate::search::Search;
-use crate::sets::{is_closed, names, outer, point_inside, widest};
+use crate::sets::{bound_of, is_closed, names, outer, point_inside, widest};
 use jurist_algebra::number::Rational;
 use jurist_algebra::real::Real;
 use jurist_engine::error::Error;
@@ -115,7 +115,7 @@ fn beside_best(
                 height = bound.clone();
             }
             let own = widest(&set).unwrap_or(interval);
-            (range_of(own), Some(widest(&set).is_some()), vec![format!("bound of {}", lines.asked.gains[gain].name)])
+            (range_of(own), Some(widest(&set).is_some()), vec![bound_of(&lines.asked.gains[gain].name)])
         }
         None => {
             let ends: Vec<_> = [&interval.lower, &interval.upper].into_iter().flatten().collect();
