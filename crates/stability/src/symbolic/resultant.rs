@@ -177,7 +177,7 @@ impl EnclosedPoly for PairResultant {
 }
 
 /// A resultant is multiplied out from so many values at most.
-const MOST_POINTS: usize = 1 << 20;
+const MOST_POINTS: usize = 1 << 18;
 
 /// The slopes with which the degrees of coefficients may fall with the power of the unknown.
 const SLOPES: std::ops::RangeInclusive<i64> = -4..=4;
