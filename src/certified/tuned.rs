@@ -127,13 +127,18 @@ fn of_optimum(answer: &TuneAnswer, claim: &TuneClaim, optimum: &Optimum, budget:
     let nothing = || {
         let message = match (&answer.asked.objective, &optimum.value) {
             (Objective::Tolerance(_), _) => "there are none of a tolerance yet",
-            (_, Best::Zero) => "nothing is better than a best value of 0, so there is nothing to prove",
+            (_, Best::Zero | Best::Exact(_)) => {
+                "nothing is better than a best value of 0, so there is nothing to prove"
+            }
             _ => "there is no best value that is a number",
         };
         refused(message, "the answer is printed without '--certificate'")
     };
     // The best value from the side that is worse, and a value that none have, if it is known.
     let (value, known) = match &optimum.value {
+        Best::Exact(value) if answer.asked.level() == Some(Level::Radius) && value.sign().is_eq() => {
+            return Err(nothing());
+        }
         Best::Exact(value) => {
             let (low, high) = value.refined_to_digits(20).enclosure();
             (low.midpoint(&high), None)

@@ -261,6 +261,9 @@ fn the_program_writes_what_it_verifies() {
     for (more, status, sentence) in [
         (vec![], 0, "For no K from 0 to 50 with K >= 6.00000"),
         (vec!["--bound", "K=7..50"], 1, "For no K from 7 to 50, the loop is stable."),
+        // Where a bound is best, the gain on it is what is found.
+        (vec!["--bound", "K=0.1..3"], 0, "At K = 3 it is, and K is 3 there."),
+        (vec!["--bound", "K=0.1..3", "--objective", "max phase_margin"], 0, "At K = 1/10 it is, with a phase margin"),
         (vec!["--objective", "none"], 0, "the loop is stable"),
     ] {
         let run = folder.jurist(&[vec!["tune", "loop.toml", "--certificate", "c.json"], more].concat());

@@ -135,3 +135,23 @@ fn windows_of_a_dead_time_that_falls_are_mirrored() {
         }
     }
 }
+
+/// With K = 0 the roots of `s + 1 + K exp(-s)` do not depend on the dead time, and one is -1: this end was sought as a number between others without end.
+#[test]
+fn an_end_without_a_delayed_term_on_a_shifted_line_is_known_exactly() {
+    let asked = ["intervals", "K/(s+1)", "--delay", "1", "--decay", "1", "--param", "K", "--json", "--domain"];
+    for (domain, lower, cause) in [("K=-1..5", "0", "s=0"), ("K=0..5", "0", "domain"), ("K=-1..1/2", "0", "s=0")] {
+        let document = json(&[&asked[..], &[domain]].concat());
+        let stable = &document["stable"][0];
+        assert_eq!(
+            (&stable["lower"]["exact"], &stable["lower"]["cause"]),
+            (&lower.into(), &cause.into()),
+            "{document}"
+        );
+        if domain.ends_with('5') {
+            // s + K e exp(-s) has the roots +- pi/2 j at K e = pi/2.
+            let upper: f64 = stable["upper"]["decimal"].as_str().unwrap().parse().unwrap();
+            assert!((upper - std::f64::consts::FRAC_PI_2 / std::f64::consts::E).abs() < 1e-9, "{document}");
+        }
+    }
+}

@@ -202,3 +202,19 @@ fn a_loop_with_dead_time_and_a_zero_on_the_axis_has_margins() {
     });
     assert_eq!(answer.value().crossings.phase.len(), crossings.count());
 }
+
+/// The modulus of the open loop falls from 9/10 to 6/10, so the modulus of the sensitivity comes down to 5/2, again and again, from a greater peak; all margins of such a loop were
+/// undecided. The numbers are minima over a million frequencies.
+#[test]
+fn a_peak_above_the_limit_at_high_frequencies_is_found() {
+    let model = load(
+        "time = 'continuous'\n[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\nname = 'L'\ninput = 'r - y'\noutput = 'y'\n\
+         transfer = '0.9*exp(-s)*(2*s + 1)/(3*s + 1)'\n",
+    );
+    let answer = margins_of(&model, None);
+    let margins = stable(&answer);
+    assert_eq!(margins.modulus.decimal(9), "0.395695352");
+    assert_eq!(margins.peak_complementary.decimal(6), "1.52721");
+    assert_eq!(margins.gain.upper.as_ref().unwrap().value.decimal(7), "1.654801");
+    assert!(matches!(margins.phase, PhaseMargin::Unbounded) && matches!(margins.delay, DelayMargin::Unbounded));
+}

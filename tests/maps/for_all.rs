@@ -3,7 +3,7 @@
 use crate::helpers::certificates::checkers::accept;
 use crate::helpers::model::{example_text, keeping, load, read};
 use crate::helpers::number::{number, ratio};
-use crate::helpers::program::{jurist, jurist_with_input};
+use crate::helpers::program::{json, jurist, jurist_with_input};
 use crate::helpers::random::Random;
 use crate::helpers::thorough::{is_thorough, tried};
 use jurist::certified::certify_required_intervals;
@@ -395,4 +395,19 @@ fn a_single_value_that_spoils_all_is_named() {
         assert!(run.status == 0 && run.stdout.contains(why), "{characteristic}: {}{}", run.stdout, run.stderr);
         assert!(run.stdout.contains("undecided in") && !run.stdout.contains("for\n"), "{}", run.stdout);
     }
+}
+
+/// Where the domain has no end the search stops at a number of its own: `domain` was said of this number in the list of ends, and `undecided` below.
+#[test]
+fn an_end_at_which_the_search_stopped_is_no_end_of_the_domain() {
+    let asked = ["intervals", "K/(s*(s+a))", "--param", "K", "--for-all", "a=1..2", "--domain"];
+    let run = jurist(&[&asked[..], &["K=0.5.."]].concat());
+    let (ends, undecided) = run.stdout.split_once("undecided from ").unwrap_or_else(|| panic!("{}", run.stdout));
+    let far = undecided.split(' ').next().unwrap();
+    assert!(ends.contains(&format!("{far}   no limit: what lies beyond is undecided\n")), "{}", run.stdout);
+    assert!(ends.contains("0.5   domain\n") && ends.matches("domain\n").count() == 1, "{}", run.stdout);
+    let document = json(&[&asked[..], &["K=0.5..", "--json"]].concat());
+    let interval = &document["stable"][0];
+    assert_eq!((&interval["upper"]["cause"], &interval["lower"]["cause"]), (&"undecided".into(), &"domain".into()));
+    assert!(interval["upper"]["requirement"].is_null() && interval["upper"]["closed"] == true, "{document}");
 }

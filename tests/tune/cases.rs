@@ -219,10 +219,10 @@ fn gains_behind_a_hold() {
 #[test]
 fn what_cannot_be_asked_is_refused_with_what_to_do() {
     for (options, code, help) in [
-        (&["--objective", "max radius"][..], "E-tune-objective", "did you mean 'decay'"),
+        (&["--objective", "max radius"][..], "E-tune-objective", "did you mean 'max decay'"),
         (&["--objective", "min decay"], "E-tune-objective", "write 'max decay'"),
         (&["--objective", "max kj"], "E-tune-objective", "did you mean 'k'"),
-        (&["--objective", "best"], "E-tune-objective", "write 'max NAME'"),
+        (&["--objective", "best"], "E-tune-objective", "'max' may be followed by k"),
         (&["--bound", "k=5..1"], "E-tune-bounds", "lower one first"),
         (&["--bound", "T=5..1"], "E-tune-bounds", "add --free T"),
         (&["--free", "k", "--free", "k"], "E-tune-free", "name it once"),
@@ -240,5 +240,5 @@ fn what_cannot_be_asked_is_refused_with_what_to_do() {
             .contains("E-tune-free")
     );
     let nothing = PI.split("[tune]").next().unwrap();
-    assert!(refused(nothing, &[]).contains("name the gains: --free K"));
+    assert!(refused(nothing, &[]).contains("name the gains: --free k"));
 }

@@ -141,3 +141,13 @@ proptest! {
         prop_assert!(own.as_ref().is_some_and(|own| own * &ratio(1_000_001, 1_000_000) >= least), "{:?} {}", own, &found);
     }
 }
+
+/// The best decay of `s + 1 + K exp(-s)` is 2, that of a double root at `K = exp(-2)`. Roots meet on the line of just this number, where no method tells, and it is one of the first that
+/// are asked for; at a decay of 1 an end at K = 0 took all time there is.
+#[test]
+fn the_largest_decay_with_dead_time_is_bracketed_beside_the_number_at_which_roots_meet() {
+    let asked = ["K/(s+1)", "--delay", "1", "--free", "K", "--objective", "max decay", "--gap", "0.5"];
+    let (status, found) = tune(&asked);
+    assert_eq!(status, 0, "{found}");
+    holds(&found, 2.0, 1.0);
+}

@@ -92,7 +92,7 @@ fn what_no_objective_is_says_why() {
     let folder = Folder::new(&[]);
     for (objective, words) in [
         ("max K*X", "'X' is no free gain"),
-        ("max decay*K", "a number of the loop stands alone"),
+        ("max decay*K", "a number of the loop, which is no part of an expression"),
         ("max 2 + 3", "no free gain"),
         ("max exp(K)", "functions are not known"),
         ("max 1/(K - K)", "divides by zero"),

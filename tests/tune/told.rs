@@ -1,5 +1,6 @@
 //! What `jurist tune` tells people: one number as a number, a range as one, what binds, and what is known where the work ended.
 
+use crate::helpers::folder::Folder;
 use crate::helpers::program::jurist;
 
 /// A PI controller for three equal lags.
@@ -152,4 +153,117 @@ fn a_report_has_the_best_gains() {
         assert!(part.contains(&line.replace('>', "&gt;")), "{line}: {part}");
     }
     assert!(!jurist(&["report", "examples/de-gaston-safonov.toml", "-o", "-", "-q"]).stdout.contains("id=\"best\""));
+}
+
+/// Errors named a text `<expression>` or `<objective>` that nobody wrote, or no place at all.
+#[test]
+fn an_error_in_an_objective_underlines_the_word_that_is_wrong() {
+    let quantities = "'max' may be followed by K, by an expression such as 2*K, or by one of gain_margin, phase_margin";
+    for (objective, underlined, help) in [
+        ("max K K", "expected an operator", quantities),
+        ("max foo", "^^^ unknown", quantities),
+        ("max delaymargin", "^^^^^^^^^^^ unknown", "did you mean 'delay_margin'?"),
+        ("max", "^^^ something is missing", quantities),
+        ("biggest K", "^^^^^^^ unknown", "'min' may be followed by K"),
+        ("min radius + K", "^^^^^^ stands alone", "known in expressions: K"),
+        ("max sin(K)", "^^^^^^ a function", "rational expression"),
+        ("max K/K", "^^^ a constant", "an expression of the free gains"),
+        ("max 1/0*K", "^ zero for all gains", ""),
+        ("max radius", "^^^ the other way round", "write 'min radius'"),
+        ("min norm r foo", "^^^ unknown", "known here: y"),
+    ] {
+        let (status, _, err) = told(&["K/(z-1/2)", "--free", "K", "--objective", objective]);
+        assert!(status == 2 && err.contains("--> <command line>:1:"), "{objective}: {err}");
+        assert!(err.contains(underlined) && err.contains(help), "{objective}: {err}");
+    }
+    let model = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/pi-sensitivity.toml")).unwrap();
+    let folder = Folder::new(&[("loop.toml", &model.replace("\"max ki\"", "\"max ki*kj\""))]);
+    let err = folder.jurist(&["tune", "loop.toml"]).stderr;
+    assert!(err.contains("\"max ki*kj\"\n") && err.contains("--> loop.toml:") && err.contains("^^ unknown"), "{err}");
+    // A name that has a value.
+    let (_, _, err) = told(&[PI, "--free", "k", "--objective", "max ki"]);
+    assert!(err.contains("'ki' is not free") && err.contains("free it too: --free ki"), "{err}");
+}
+
+/// The radius 0 of a deadbeat loop stayed a bracket: gains of few digits were never 0.
+#[test]
+fn gains_that_are_nearly_zero_are_tried_as_zero() {
+    let out = told(&["z^3+k*z^2+q", "--free", "k", "--free", "q", "--objective", "min radius"]).1;
+    assert!(out.contains("smallest radius: 0\n    at k = 0, q = 0\n"), "{out}");
+    assert!(out.contains("type in k = 0, q = 0: radius 0, no loss\n") && !out.contains("between"), "{out}");
+}
+
+/// An example was as near to an end that no gain has as the search had come: `K = 1/5000001`.
+#[test]
+fn an_example_beside_an_end_is_a_short_number() {
+    let out = line("K/(z^2*(z-1))", "min K", &[]);
+    assert!(out.contains("smallest K: 0, which is not reached\n") && out.contains("type in K = 0.01\n"), "{out}");
+    let two = ["K*(s+a)/(s*s*(s+3))", "--free", "K", "--free", "a", "--objective"];
+    let (_, out, _) = told(&[&two[..], &["min a"]].concat());
+    assert!(out.contains("type in K = 2, a = 0.01\n"), "{out}");
+    let (_, out, _) = told(&[&two[..], &["max a"]].concat());
+    assert!(out.contains("largest a: 3, which is not reached\n    approached at any K from 0\n"), "{out}");
+    assert!(out.contains("type in K = 2, a = 2.99, loss 0.333 %\n"), "{out}");
+}
+
+/// `binds: s=0+domain` had to be looked up, and on a plateau it named what ends the other gain.
+#[test]
+fn what_binds_is_said_in_words() {
+    for (objective, options, words) in [
+        ("min K", &["--domain", "K=0.."][..], "stability (a root at z=1), the end of a gain's domain"),
+        ("max K", &[], "stability (complex pair)"),
+        ("max modulus_margin", &[], "modulus_margin itself"),
+    ] {
+        let out = line("K/(z^2*(z-1))", objective, options);
+        assert!(out.contains(&format!("    binds: {words}\n")), "{out}");
+    }
+    // Stable for K > -1 and q > -1: the least q is that of a root at 0.
+    let (_, out, _) = told(&["(K*s+q)/(s^2+s+1)", "--free", "K", "--free", "q", "--objective", "min q"]);
+    assert!(out.contains("smallest q: -1, which is not reached\n") && out.contains("(a root at s=0)\n"), "{out}");
+    for (word, part) in [("tune", "--objective"), ("binds", "a bound of a gain")] {
+        let out = jurist(&["explain", word]).stdout;
+        assert!(out.contains(part), "{out}");
+    }
+}
+
+/// A loop with dead time whose open loop is below 1 at all frequencies has no phase margin to bracket.
+#[test]
+fn no_phase_limits_a_small_gain_with_dead_time() {
+    let out = line("K/(s+1)", "max phase_margin", &["--delay", "1"]);
+    assert!(out.contains("no phase limits the loop") && !out.contains("undecided"), "{out}");
+}
+
+/// The refusal was that of a gain margin with one gain, and of more gains nothing was said but that no value was found.
+#[test]
+fn a_norm_with_dead_time_is_refused_with_what_to_ask() {
+    for gains in [
+        &["--free", "K", "--set", "q=1", "--bound", "K=0..1"][..],
+        &["--free", "K", "--free", "q", "--bound", "K=0..1", "--bound", "q=0..1"],
+    ] {
+        let asked = [&["(K*s+q)/(s*(s+1))", "--delay", "1", "--objective", "min norm r y"][..], gains].concat();
+        let (status, _, err) = told(&asked);
+        assert!(status == 2 && err.contains("E-dead-time") && err.contains("jurist norm"), "{err}");
+    }
+}
+
+/// A map of two gains behind a hold with a margin takes minutes: its end left nothing said, though the nominal gains are good, and with bounds boxes are searched.
+#[test]
+fn an_early_end_without_bounds_has_the_nominal_gains_and_asks_for_bounds() {
+    let model = "time = 'discrete'\nsample_time = 2\nparameters = { Kp = 1, Ki = 0.02 }\n[loop]\ninputs = ['r']\noutputs = ['h']\n\
+        [[block]]\nname = 'pi'\ninput = 'r - h'\noutput = 'u'\ntransfer = 'Kp + Ki*2*z/(z - 1)'\n\
+        [[block]]\nname = 'tank'\ninput = 'u'\noutput = 'h'\ntransfer = '1/(60*s + 1)'\ndiscretize = { method = 'zoh', delay = 5 }\n";
+    let folder = Folder::new(&[("loop.toml", model)]);
+    let asked =
+        ["tune", "loop.toml", "--free", "Kp", "--free", "Ki", "--objective", "max Ki", "--modulus-margin", "0.5"];
+    let run = folder.jurist(&[&asked[..], &["--work", "10000000"]].concat());
+    assert_eq!(run.status, 3, "{}", run.stderr);
+    assert!(run.stdout.contains("for example Kp = 1, Ki = 0.02\n"), "{}", run.stdout);
+    assert!(run.stdout.contains("ends sooner: --bound Kp=LO..HI --bound Ki=LO..HI\n"), "{}", run.stdout);
+}
+
+/// The shortest number from 0 on is 0, which no tolerance has: `K = 9111/2375` was the example.
+#[test]
+fn the_middle_of_gains_from_zero_on_is_a_short_number() {
+    let out = line("K/(s*(s+1)^2)", "max tolerance", &["--domain", "K=0.."]);
+    assert!(out.contains("type in K = 1") && !out.contains("for example"), "{out}");
 }

@@ -43,6 +43,31 @@ impl Cause {
         matches!(self, Cause::ComplexPair | Cause::ComplexRoot)
     }
 
+    const ALL: [Cause; 12] = [
+        Cause::RootAtOne,
+        Cause::RootAtMinusOne,
+        Cause::ComplexPair,
+        Cause::ComplexRoot,
+        Cause::RootAtZero,
+        Cause::DegreeLost,
+        Cause::Neutral,
+        Cause::Pole,
+        Cause::SquareRoot,
+        Cause::Duty,
+        Cause::Domain,
+        Cause::Undecided,
+    ];
+
+    /// The cause of a name.
+    ///
+    /// ```
+    /// use jurist_stability::Cause;
+    /// assert_eq!((Cause::named("z=1"), Cause::named("K")), (Some(Cause::RootAtOne), None));
+    /// ```
+    pub fn named(name: &str) -> Option<Cause> {
+        Cause::ALL.into_iter().find(|cause| cause.name() == name)
+    }
+
     /// The name used in all output.
     pub fn name(self) -> &'static str {
         match self {

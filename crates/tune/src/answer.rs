@@ -10,10 +10,14 @@ use jurist_algebra::limits::{Budget, Exhausted, apart};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::MultiPoly;
 use jurist_algebra::real::Real;
+use jurist_engine::coverage::CoefficientRing;
 use jurist_engine::error::{Code, Diagnostic, Error};
 use jurist_engine::problem::{Problem, Question};
 use jurist_engine::response::{AllOf, Level};
 use std::sync::Arc;
+
+/// The part of the budget for the search.
+const SEARCH: (u32, u32) = (9, 10);
 
 /// The best gains of a loop, or that there are none.
 #[derive(Clone, Debug)]
@@ -27,6 +31,8 @@ pub struct TuneAnswer {
     pub outcome: Outcome,
     /// Numerator and denominator of an expression that is to be best, in the gains.
     pub formula: Option<[MultiPoly; 2]>,
+    /// Whether the search ended early and would be shorter with bounds.
+    pub(crate) are_bounds_missing: bool,
 }
 
 /// What was found.
@@ -156,14 +162,26 @@ impl TuneAnswer {
         let lines = Lines::new(question, &asked, budget)?;
         let problem = lines.problem()?;
         problem.refuse_written_complex().map_err(|_| of_complex_loops())?;
+        if asked.between().is_some() && problem.coefficient_ring(budget)? == CoefficientRing::DeadTime {
+            return Err(of_norms_with_dead_time());
+        }
         if matches!(asked.objective, Objective::Tolerance(_)) && !asked.for_all.is_empty() {
             let error = Diagnostic::error(Code::TuneObjective, "a tolerance of the gains is not asked for all plants");
             return Err(error.help("ask for another number, or leave out --for-all and --robust").into());
         }
-        let found = match lines.part(|| best(&lines)) {
+        // What is left is for gains of few digits.
+        let share = budget.share(SEARCH.0, SEARCH.1);
+        let searched = lines.with_budget(&share);
+        let found = match searched.part(|| best(&searched)) {
             // Bounds hold without any work.
             Err(Error::Stopped(stopped)) => Outcome::open(stopped),
             found => found?,
+        };
+        let are_bounds_missing =
+            matches!(&found, Outcome::Open { .. }) && lines.part(|| lines.are_bounds_missing()).unwrap_or(false);
+        let found = match found {
+            Outcome::Open { stopped, proved } => nominal(&lines, stopped, proved)?,
+            found => found,
         };
         let outcome = match found {
             Outcome::Infeasible { cells, .. } => Outcome::Infeasible { conflict: conflict(&lines, cells)?, cells },
@@ -182,6 +200,7 @@ impl TuneAnswer {
                         found => found?,
                     };
                 }
+                no_smaller_radius(&asked, &mut optimum);
                 Outcome::Optimum(optimum)
             }
             Outcome::Open { stopped, proved } => {
@@ -189,7 +208,7 @@ impl TuneAnswer {
             }
         };
         let formula = lines.formula.as_ref().map(|formula| formula.parts().map(Clone::clone));
-        Ok(TuneAnswer { problem, outcome, asked, formula })
+        Ok(TuneAnswer { problem, outcome, asked, formula, are_bounds_missing })
     }
 
     /// The best gains as the section `[tune]` of the model asks for them, with the values of the question for all other names.
@@ -238,11 +257,58 @@ impl TuneAnswer {
     }
 }
 
+/// Where the gains that are typed in have the radius 0, no gains are better.
+fn no_smaller_radius(asked: &Asked, optimum: &mut Optimum) {
+    let is_radius = matches!(asked.level(), Some(Level::Radius));
+    let Some(typed) = optimum.typed.as_ref().filter(|_| is_radius && matches!(optimum.value, Best::Between(_))) else {
+        return;
+    };
+    if typed.value.as_ref().is_none_or(|value| !value.upper().is_zero()) {
+        return;
+    }
+    optimum.found.clone_from(&typed.values);
+    optimum.at = typed.values.iter().map(|x| Place::Exact(x.clone().into())).collect();
+    (optimum.value, optimum.found_value) = (Best::Exact(Rational::ZERO.into()), Some(Rational::ZERO));
+    (optimum.attained, optimum.stopped, optimum.cells) = (Some(true), None, None);
+    optimum.binding.clear();
+}
+
 fn of_complex_loops() -> Error {
     let message = "the best gains of a loop with complex coefficients are not known";
     let help = "'jurist intervals' says which values of one gain are good, 'jurist map' which of two; in real form, with two signals for each \
                 complex one, the loop has best gains";
     Diagnostic::error(Code::Complex, message).help(help).into()
+}
+
+/// The nominal gains, where the search found none and these meet what is required.
+fn nominal(lines: &Lines<'_>, stopped: Exhausted, proved: Option<Rational>) -> Result<Outcome, Error> {
+    match lines.part(|| lines.nominal()) {
+        Ok(Some(point)) => {
+            let own = match (&lines.asked.objective, &lines.formula) {
+                (Objective::Greatest(gain) | Objective::Least(gain), _) => Some(point[*gain].clone()),
+                (Objective::Formula { .. }, Some(formula)) => formula.at(&point),
+                _ => None,
+            };
+            let proved = proved.or_else(|| apart(|| within_bounds(lines)));
+            let optimum = match (own, proved) {
+                (Some(own), Some(proved)) if own != proved => {
+                    let places = point.iter().map(|x| Place::Exact(x.clone().into())).collect();
+                    let bracket = Best::Between([own.clone(), proved]);
+                    Optimum { cells: Some(0), ..Optimum::new(bracket, places, point, Some(own)) }
+                }
+                _ => Optimum::some(point),
+            };
+            Ok(Optimum { stopped: Some(stopped), ..optimum }.into())
+        }
+        Ok(None) | Err(Error::Stopped(_)) => Ok(Outcome::Open { stopped, proved }),
+        Err(error) => Err(error),
+    }
+}
+
+fn of_norms_with_dead_time() -> Error {
+    let message = "the least peak gain between two signals is not known of loops with dead time";
+    let help = "'jurist norm' says the peak gain of given gains; make a margin best, such as 'max modulus_margin', the inverse of the peak of the sensitivity";
+    Diagnostic::error(Code::DeadTime, message).help(help).into()
 }
 
 /// The sample time that a settling time is counted in.

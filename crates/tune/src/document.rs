@@ -71,7 +71,7 @@ pub struct OptimumFound {
     pub at: Named<Option<PlaceFound>>,
     /// Whether gains have the best value; they come as near as you like else. `null` where that is not known.
     pub attained: Option<bool>,
-    /// What binds.
+    /// What binds, in order: names of requirements and of the number that is best, causes of the end of stability, each an entry of its own (`s=0`, `domain`), `bound of NAME`.
     pub binding: Vec<String>,
 }
 

@@ -1,6 +1,7 @@
 //! An expression of the gains that is to be best, as a rational function of them.
 
 use crate::asked::Gain;
+use crate::objective::{SOURCE, expression};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Error, Source, Span};
@@ -27,17 +28,18 @@ pub(crate) struct Formula {
 }
 
 impl Formula {
-    /// Of a text; names that are no gains have the values of the question.
+    /// Of an objective as it is written, `max k*ki`; names that are no gains have the values of the question.
     ///
     /// # Errors
     /// `E-tune-objective` where a name has no value or the expression is no rational function; as [`Expression::parse`].
     pub fn of(text: &str, gains: &[Gain], question: &Question) -> Result<Formula, Error> {
-        let source = Source::new("<objective>", text);
+        let source = Source::new(SOURCE, text);
         let reader = Reader { gains, question, source: &source };
-        let function = reader.value(&Expression::parse(text)?, MOST_DEPTH)?;
+        let expression = expression(text)?;
+        let function = reader.value(&expression, MOST_DEPTH)?;
         if function.is_constant() {
-            let error = refused("the objective is the same for all gains");
-            return Err(error.help("write an expression of the free gains, as in 'max k*ki'").into());
+            let error = refused("the objective is the same for all gains").at(expression.span, "a constant");
+            return Err(reader.wrong(error.help("write an expression of the free gains, as in 'max k*ki'")));
         }
         let (above, below) = (function.numerator().clone(), function.denominator().clone());
         Ok(Formula { above, below })

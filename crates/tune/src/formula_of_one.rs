@@ -7,7 +7,7 @@ use crate::formula::Formula;
 use crate::lines::Lines;
 use crate::near::toward;
 use crate::one_gain::{GAIN, nothing};
-use crate::sets::{is_closed, names};
+use crate::sets::{bound_of, is_closed, names};
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{
@@ -203,7 +203,7 @@ impl<'l, 'a> OfOne<'l, 'a> {
             None => is_closed(end),
         };
         let is_bound = value.is_some_and(|value| gain.bounds.iter().flatten().any(|bound| *bound == value));
-        Ok((attained, if is_bound { vec![format!("bound of {}", gain.name)] } else { names(end) }))
+        Ok((attained, if is_bound { vec![bound_of(&gain.name)] } else { names(end) }))
     }
 
     /// The limit as the gain grows without end, from a number on; `None` where it falls without end.

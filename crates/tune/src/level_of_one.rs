@@ -3,11 +3,11 @@
 use crate::answer::{Best, Optimum, Outcome, Place};
 use crate::critical::Curves;
 use crate::lines::Lines;
-use crate::near::{Near, approach, is_attained};
+use crate::near::{Near, approach, is_attained, toward};
 use crate::one_gain::{GAIN, nothing};
 use crate::search::Search;
 use crate::seed::seed;
-use crate::sets::{outer, point_inside, widest};
+use crate::sets::{bound_of, on_bound, outer, point_inside, widest};
 use jurist_algebra::limits::{Exhausted, apart};
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::poly::{RealAlgebraic, rational_between};
@@ -94,8 +94,11 @@ fn at_wall(
         }
     }
     let binding = binding(lines, level, &near);
-    let found = vec![point_inside(&near.interval)];
-    let optimum = Optimum::new(Best::Exact(value.clone()), vec![near.place], found, Some(near.height));
+    let on_bound = if let Place::Exact(x) = &near.place { on_bound(x, &binding, attained) } else { None };
+    // The gain on its bound has the best value itself.
+    let height = if on_bound.is_some() { toward(value, &near.height, 12) } else { near.height };
+    let found = vec![on_bound.unwrap_or_else(|| point_inside(&near.interval))];
+    let optimum = Optimum::new(Best::Exact(value.clone()), vec![near.place], found, Some(height));
     Ok(Optimum { attained, binding, ..optimum })
 }
 
@@ -325,7 +328,7 @@ fn binding(lines: &Lines<'_>, level: Level, near: &Near) -> Vec<String> {
         _ => false,
     };
     if is_at(&range.lower) || is_at(&range.upper) {
-        return vec![format!("bound of {}", lines.asked.gains[GAIN].name)];
+        return vec![bound_of(&lines.asked.gains[GAIN].name)];
     }
     with_level(level, &near.interval)
 }
@@ -352,6 +355,14 @@ enum Spot {
 /// A bracket of a level: points first, since they are asked sooner than sets, then sets for what no gain has.
 fn bracket(lines: &Lines<'_>, level: Level, plain: &RequiredSet, ends: &[Rational; 2]) -> Result<Outcome, Error> {
     let search = Search { ends: ends.clone(), is_rising: level.is_rising(), is_without_end: is_without_end(level) };
+    // Gains with a level are stable ones.
+    let reach = |one: Option<&RequiredInterval>, by: i64, is_upper: bool| {
+        let (low, high) = one.map(outer)?;
+        Some(Rational::from(if is_upper { high } else { low }?.floor()) + Rational::from(by))
+    };
+    let ends_of_stable = [reach(plain.intervals.first(), -1, false), reach(plain.intervals.last(), 2, true)];
+    let lines =
+        &if plain.undecided.is_empty() { lines.within(GAIN, ends_of_stable) } else { lines.within(GAIN, [None, None]) };
     let met = |scale: &Rational| -> Result<Option<Spot>, Error> {
         let set = lines.set(GAIN, None, Some(scale))?.into_value();
         match (widest(&set), set.undecided.first()) {
@@ -375,6 +386,12 @@ fn bracket(lines: &Lines<'_>, level: Level, plain: &RequiredSet, ends: &[Rationa
             (Place::Exact(gain.clone().into()), gain, with_level(level, interval))
         }
     };
+    if found.not.is_none()
+        && matches!(level, Level::PhaseMargin | Level::GainMargin)
+        && lines.has_no_bound(&[(lines.asked.gains[GAIN].name.clone(), found_at.clone())], level)?
+    {
+        return Ok(Optimum::new(Best::Unbounded, Vec::new(), vec![found_at], None).into());
+    }
     let (value, stopped) = bracketed(level, &scale, found.not, found.stopped);
     let optimum = Optimum::new(value, vec![place], vec![found_at], Some(scale));
     Ok(Optimum { binding, stopped, ..optimum }.into())

@@ -3,6 +3,7 @@
 //! | module | what it is |
 //! |---|---|
 //! | [`asked`] | which gains are free, within which bounds, and what is to be best |
+//! | [`objective`] | the text that says what is to be best |
 //! | [`answer`] | the answer: no gains at all, or the optimum and the gains that are typed in |
 //! | [`plants`] | for which plants the gains are to be good |
 //! | [`document`] | the answer as JSON |
@@ -34,6 +35,7 @@ mod level_of_one;
 mod lines;
 mod many_gains;
 mod near;
+pub mod objective;
 mod one_gain;
 mod parts;
 pub mod plants;

@@ -9,7 +9,7 @@ use jurist_algebra::real::Real;
 use jurist_engine::answer::{Answer, PointVerdict, Verdict};
 use jurist_engine::coverage::CoefficientRing;
 use jurist_engine::error::{Code, Error};
-use jurist_engine::problem::{Bound, Problem, Question, Region};
+use jurist_engine::problem::{Bound, Free, Problem, Question, Region};
 use jurist_engine::response::{AllOf, Level, LevelAsked, RequiredSet, Requirement, RequirementMet};
 use jurist_stability::Range;
 use jurist_stability::plane::Strip;
@@ -46,7 +46,7 @@ impl<'a> Lines<'a> {
         let ranges = asked.gains.iter().zip(whole.free()).map(|(gain, free)| within(gain, &free.domain)).collect();
         let region = asked.requirements.region.clone().unwrap_or_else(|| whole.region().clone());
         let formula = match &asked.objective {
-            Objective::Formula { text, .. } => Some(Formula::of(text, &asked.gains, &base)?),
+            Objective::Formula { .. } => Some(Formula::of(&asked.objective_text(), &asked.gains, &base)?),
             _ => None,
         };
         Ok(Lines { asked, base, ranges, region, formula, budget })
@@ -58,6 +58,15 @@ impl<'a> Lines<'a> {
         'a: 'b,
     {
         Lines::new(&self.base.clone().within(Region::of(self.base.model().time())), asked, self.budget)
+    }
+
+    /// The same with ends for a gain that has none: beyond them nothing is asked for.
+    pub fn within(&self, gain: usize, [low, high]: [Option<Rational>; 2]) -> Lines<'a> {
+        let mut ranges = self.ranges.clone();
+        let own = ranges[gain].clone();
+        ranges[gain] = Range::between(own.lower.or(low), own.upper.or(high));
+        let (base, region, formula) = (self.base.clone(), self.region.clone(), self.formula.clone());
+        Lines { asked: self.asked, base, ranges, region, formula, budget: self.budget }
     }
 
     /// The region that is asked for, where it is smaller than that of plain stability.
@@ -189,13 +198,51 @@ impl<'a> Lines<'a> {
         if self.asked.between().is_some() || matches!(self.asked.objective, Objective::Tolerance(_)) {
             return Ok(true);
         }
-        let is_simple = self.asked.requirements.list.is_empty() && self.asked.level().is_none();
-        let is_bounded = self.ranges.iter().all(|range| range.lower.is_some() && range.upper.is_some());
-        if is_simple || !is_bounded {
+        Ok(self.is_bounded() && self.are_maps_long()?)
+    }
+
+    /// Whether boxes would be searched if all of two gains had bounds.
+    pub fn are_bounds_missing(&self) -> Result<bool, Error> {
+        Ok(self.asked.gains.len() == 2 && !self.is_bounded() && self.are_maps_long()?)
+    }
+
+    fn is_bounded(&self) -> bool {
+        self.ranges.iter().all(|range| range.lower.is_some() && range.upper.is_some())
+    }
+
+    /// Whether a map of two gains with all that is asked takes minutes.
+    fn are_maps_long(&self) -> Result<bool, Error> {
+        if self.asked.requirements.list.is_empty() && self.asked.level().is_none() {
             return Ok(false);
         }
         let ring = self.problem()?.coefficient_ring(self.budget)?;
         Ok(matches!(ring, CoefficientRing::Constants | CoefficientRing::Functions | CoefficientRing::DeadTime))
+    }
+
+    /// The nominal values of the gains, if all have one and they meet what is asked; not beside other plants.
+    pub fn nominal(&self) -> Result<Option<Vec<Rational>>, Error> {
+        if !self.asked.for_all.is_empty() {
+            return Ok(None);
+        }
+        let within = |(free, range): (&Free, &Range)| {
+            let bounds = Range::between(range.lower.clone(), range.upper.clone());
+            free.nominal.clone().filter(|x| bounds.contains(x))
+        };
+        let problem = self.problem()?;
+        let values: Option<Vec<Rational>> = problem.free().iter().zip(&self.ranges).map(within).collect();
+        let Some(values) = values else { return Ok(None) };
+        let names = self.asked.gains.iter().map(|gain| gain.name.clone());
+        let named: Vec<(String, Rational)> = names.zip(values.iter().cloned()).collect();
+        Ok(self.is_met_in_order(&named, None)?.then_some(values))
+    }
+
+    /// The same with another budget.
+    pub fn with_budget<'b>(&self, budget: &'b Budget) -> Lines<'b>
+    where
+        'a: 'b,
+    {
+        let (base, ranges, region) = (self.base.clone(), self.ranges.clone(), self.region.clone());
+        Lines { asked: self.asked, base, ranges, region, formula: self.formula.clone(), budget }
     }
 
     /// Whether a delay margin is required, or to be best: no set of one gain and no map tells it.

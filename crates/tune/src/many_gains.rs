@@ -229,5 +229,5 @@ fn on_bounds(parts: &Parts<'_, '_>, point: &[Rational]) -> Vec<String> {
 }
 
 fn bound_of(parts: &Parts<'_, '_>, gain: usize) -> String {
-    format!("bound of {}", parts.lines.asked.gains[gain].name)
+    crate::sets::bound_of(&parts.lines.asked.gains[gain].name)
 }

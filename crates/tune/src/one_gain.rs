@@ -6,7 +6,7 @@ use crate::centre_of_one;
 use crate::formula_of_one;
 use crate::level_of_one::best_level;
 use crate::lines::Lines;
-use crate::sets::{is_closed, names, near_end, point_inside, widest};
+use crate::sets::{bound_of, is_closed, names, near_end, on_bound, point_inside, widest};
 use jurist_algebra::limits::Exhausted;
 use jurist_engine::error::Error;
 use jurist_engine::response::{Level, RequiredSet};
@@ -86,7 +86,7 @@ fn best_gain(lines: &Lines<'_>, is_greatest: bool) -> Result<Outcome, Error> {
                 None => is_closed(end),
             };
             let binding = match is_bound {
-                true => vec![format!("bound of {}", lines.asked.gains[GAIN].name)],
+                true => vec![bound_of(&lines.asked.gains[GAIN].name)],
                 false => names(end),
             };
             (Best::Exact(end.value()), Place::Exact(end.value()), binding, Some(attained))
@@ -98,6 +98,8 @@ fn best_gain(lines: &Lines<'_>, is_greatest: bool) -> Result<Outcome, Error> {
         }
         _ => None,
     };
+    let on_bound = if let Best::Exact(value) = &value { on_bound(value, &binding, attained) } else { None };
+    let found = on_bound.unwrap_or(found);
     let optimum = Optimum::new(value, vec![at], vec![found.clone()], Some(found));
     Ok(Optimum { attained, binding, stopped, ..optimum }.into())
 }

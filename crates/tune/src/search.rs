@@ -26,6 +26,9 @@ pub(crate) struct Bracketed<T> {
 /// So often the first value is halved or doubled.
 const DOUBLINGS: usize = 48;
 
+/// Shares of the room by which a value is moved.
+const BESIDE: [(i64, i64); 2] = [(-3, 16), (5, 16)];
+
 impl Search {
     /// A value at a distance from the worst end.
     fn at(&self, distance: &Rational) -> Rational {
@@ -44,6 +47,34 @@ impl Search {
             false => whole - tiny() * half,
         };
         distance.min(most)
+    }
+
+    /// How far a distance may be moved and stay between others.
+    fn room(&self, next: &Rational, low: Option<&Rational>, high: &Rational) -> Rational {
+        let below = next - low.unwrap_or(&Rational::ZERO);
+        below.min((high - next).abs())
+    }
+
+    /// Asks about a distance, or about one beside it where the method does not tell: the best value itself is often a short number, at which roots meet.
+    fn ask_about<T>(
+        &self,
+        lines: &Lines<'_>,
+        next: Rational,
+        room: &Rational,
+        met: &dyn Fn(&Rational) -> Result<Option<T>, Error>,
+    ) -> (Rational, Result<Option<T>, Error>) {
+        let first = lines.part(|| met(&self.at(&next)));
+        let is_by_method = |answer: &Result<Option<T>, Error>| matches!(answer, Err(Error::Stopped(stopped)) if !stopped.stop.is_budget());
+        if is_by_method(&first) {
+            for (a, b) in BESIDE {
+                let beside = &next + &(room * &Rational::new(a.into(), b.into()));
+                let answer = lines.part(|| met(&self.at(&beside)));
+                if !is_by_method(&answer) {
+                    return (beside, answer);
+                }
+            }
+        }
+        (next, first)
     }
 
     /// Halves until the gap of the question is reached, or the work ends.
@@ -71,14 +102,16 @@ impl Search {
         };
         for _ in 0..2 * DOUBLINGS {
             lines.budget.step("a bracket of the best value");
-            let value = self.at(&next);
-            match lines.part(|| met(&value)) {
+            let room = self.room(&next, low.as_ref(), high.as_ref().unwrap_or(&whole));
+            let (asked, answer) = self.ask_about(lines, next, &room, met);
+            next = asked;
+            match answer {
                 Ok(Some(found)) => {
-                    out.met = Some((value, found));
+                    out.met = Some((self.at(&next), found));
                     low = Some(next.clone());
                 }
                 Ok(None) => {
-                    out.not = Some(value);
+                    out.not = Some(self.at(&next));
                     high = Some(next.clone());
                 }
                 // What was seen is known all the same.

@@ -4,6 +4,7 @@ use crate::decimals::shortest;
 use crate::near::toward;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::simplest_between;
+use jurist_algebra::real::Real;
 use jurist_engine::response::{RequiredEnd, RequiredInterval, RequiredSet};
 use std::cmp::Ordering;
 
@@ -78,7 +79,19 @@ pub(crate) fn is_closed(end: &RequiredEnd) -> bool {
 /// What binds at an end.
 pub(crate) fn names(end: &RequiredEnd) -> Vec<String> {
     match end {
-        RequiredEnd::Stability(end) => vec![end.causes.to_string()],
+        RequiredEnd::Stability(end) => end.causes.iter().map(|cause| cause.name().to_owned()).collect(),
         RequiredEnd::Requirement { names, .. } => names.iter().map(|name| (*name).to_owned()).collect(),
     }
+}
+
+/// What binds where a gain is on a bound.
+pub(crate) fn bound_of(gain: &str) -> String {
+    format!("bound of {gain}")
+}
+
+/// The best gain, where it is the bound that binds: a gain at which a requirement is met just so is not seen to be good by the checkers.
+pub(crate) fn on_bound(gain: &Real, binding: &[String], attained: Option<bool>) -> Option<Rational> {
+    let is_bound =
+        attained == Some(true) && !binding.is_empty() && binding.iter().all(|name| name.starts_with(&bound_of("")));
+    gain.exact().filter(|_| is_bound)
 }

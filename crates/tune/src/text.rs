@@ -13,6 +13,8 @@ use jurist_engine::show::for_all_text;
 use jurist_engine::show::intervals::heading;
 use jurist_engine::show::layout::short;
 use jurist_engine::show::real::{enclosed, rounded};
+use jurist_engine::show::region::causes_text;
+use jurist_stability::Cause;
 use std::fmt::Write;
 
 /// What a text takes.
@@ -48,6 +50,11 @@ impl TuneAnswer {
             Outcome::Infeasible { conflict, cells } => self.conflict_text(&mut out, conflict, *cells),
             Outcome::Optimum(optimum) => self.optimum_text(&mut out, optimum, digits),
             Outcome::Open { proved, .. } => self.open_text(&mut out, proved.as_ref(), digits),
+        }
+        if self.are_bounds_missing {
+            let gains = names.iter().map(|name| format!("--bound {name}=LO..HI")).collect::<Vec<_>>().join(" ");
+            writeln!(out, "with bounds for both gains the search is another one, which mostly ends sooner: {gains}")
+                .expect(TAKES);
         }
         out
     }
@@ -90,11 +97,32 @@ impl TuneAnswer {
 
     fn optimum_text(&self, out: &mut String, optimum: &Optimum, digits: usize) {
         self.value_text(out, optimum, digits);
-        self.places_text(out, optimum, digits);
-        if !optimum.binding.is_empty() {
-            writeln!(out, "    binds: {}", optimum.binding.join(", ")).expect(TAKES);
+        if !matches!(optimum.value, Best::Nothing) {
+            self.places_text(out, optimum, digits);
+        }
+        if !optimum.binding.is_empty() && !matches!(optimum.value, Best::Nothing) {
+            let words: Vec<String> = optimum.binding.iter().map(|name| self.binding_text(name)).collect();
+            writeln!(out, "    binds: {}", words.join(", ")).expect(TAKES);
         }
         self.typed_text(out, optimum, digits);
+    }
+
+    /// What binds, in words: the name of a requirement, of the number that is best, of a cause or a bound.
+    fn binding_text(&self, name: &str) -> String {
+        if self.asked.level().is_some_and(|level| level.name() == name) {
+            return format!("{} itself", Reading::of(&self.asked).name());
+        }
+        let Some(cause) = Cause::named(name) else { return name.to_owned() };
+        let at = causes_text(&cause.into(), &self.problem);
+        match cause {
+            Cause::RootAtOne | Cause::RootAtMinusOne | Cause::RootAtZero => format!("stability (a root at {at})"),
+            Cause::Domain => "the end of a gain's domain".to_owned(),
+            Cause::Undecided => "nothing that is known: what lies beyond is undecided".to_owned(),
+            Cause::Pole => "the loop, which is undefined there".to_owned(),
+            Cause::SquareRoot => "a square root: the number under it is negative beyond".to_owned(),
+            Cause::Duty => "the duty ratio: no pulse, or no pause, is left".to_owned(),
+            Cause::ComplexPair | Cause::ComplexRoot | Cause::DegreeLost | Cause::Neutral => format!("stability ({at})"),
+        }
     }
 
     fn value_text(&self, out: &mut String, optimum: &Optimum, digits: usize) {
@@ -126,8 +154,8 @@ impl TuneAnswer {
             }
             Best::Between([found, proved]) => {
                 let [low, high] = bracket(&reading, found, proved);
-                let proof = optimum.cells.map(|cells| format!(" (a bracket, proof: {})", counted(cells)));
-                writeln!(out, "{wanted}: between {low} and {high}{}{}", reading.unit(), proof.unwrap_or_default())
+                let proof = optimum.cells.map(proof).unwrap_or_default();
+                writeln!(out, "{wanted}: between {low} and {high}{}{proof}", reading.unit())
             }
         }
         .expect(TAKES);
@@ -156,7 +184,11 @@ impl TuneAnswer {
         });
         let places: Vec<String> = places.collect();
         if !places.is_empty() {
-            let word = if matches!(optimum.value, Best::Between(_)) { "found" } else { "at" };
+            let word = match (&optimum.value, optimum.attained) {
+                (Best::Between(_), _) => "found",
+                (_, Some(false)) => "approached at",
+                _ => "at",
+            };
             writeln!(out, "    {word} {}", places.join(", ")).expect(TAKES);
         }
     }
@@ -249,6 +281,14 @@ pub(crate) fn regional(name: &str, text: &str) -> String {
     format!("{name} {sign} {text}")
 }
 
+/// What proves a bracket.
+fn proof(cells: usize) -> String {
+    match cells {
+        0 => " (a bracket, its better end by the bounds of the gains alone)".to_owned(),
+        cells => format!(" (a bracket, proof: {})", counted(cells)),
+    }
+}
+
 /// `1 cell`, `214 cells`.
 fn counted(cells: usize) -> String {
     if cells == 1 { "1 cell".to_owned() } else { format!("{cells} cells") }
@@ -313,4 +353,16 @@ fn root_of(value: &Real) -> Option<String> {
     let is_short =
         polynomial.degree()? > 1 && polynomial.degree()? <= MOST_DEGREE && polynomial.height_bits() <= MOST_BITS;
     is_short.then(|| MultiPoly::from_univariate(polynomial, 0).display(&["x"]).to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::proof;
+
+    /// `proof: 0 cells` was said of an end that is only that of the bounds.
+    #[test]
+    fn a_bracket_without_cells_says_that_the_bounds_are_its_end() {
+        assert!(proof(0).contains("by the bounds of the gains alone"));
+        assert_eq!([proof(1), proof(2)], [" (a bracket, proof: 1 cell)", " (a bracket, proof: 2 cells)"]);
+    }
 }

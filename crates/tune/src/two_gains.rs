@@ -6,7 +6,7 @@ use crate::level_of_one::{bracketed, is_without_end, not_found, scale};
 use crate::lines::Lines;
 use crate::near::{is_narrow, toward};
 use crate::search::Search;
-use crate::sets::{is_closed, names, outer, point_inside, widest};
+use crate::sets::{bound_of, is_closed, names, outer, point_inside, widest};
 use jurist_algebra::number::Rational;
 use jurist_algebra::real::Real;
 use jurist_engine::error::Error;
@@ -115,14 +115,18 @@ fn beside_best(
                 height = bound.clone();
             }
             let own = widest(&set).unwrap_or(interval);
-            (range_of(own), Some(widest(&set).is_some()), vec![format!("bound of {}", lines.asked.gains[gain].name)])
+            (range_of(own), Some(widest(&set).is_some()), vec![bound_of(&lines.asked.gains[gain].name)])
         }
         None => {
             let ends: Vec<_> = [&interval.lower, &interval.upper].into_iter().flatten().collect();
             let is_closed = !ends.is_empty() && ends.iter().all(|end| is_closed(end));
-            let attained = if is_plateau(&near) { None } else { Some(is_closed) };
-            let place = if is_plateau(&near) { range_of(interval) } else { enclosed(interval) };
-            (place, attained, ends.iter().flat_map(|end| names(end)).collect())
+            match is_plateau(&near) {
+                false => (enclosed(interval), Some(is_closed), ends.iter().flat_map(|end| names(end)).collect()),
+                true => {
+                    let (attained, binding) = across(lines, (gain, is_greatest), &height, &found[1 - gain])?;
+                    (range_of(interval), attained, binding)
+                }
+            }
         }
     };
     let mut at = vec![Place::Exact(value.clone()), place];
@@ -134,6 +138,25 @@ fn beside_best(
     binding.dedup();
     let optimum = Optimum::new(Best::Exact(value.clone()), at, found, Some(height));
     Ok(Optimum { attained, binding, ..optimum })
+}
+
+/// What ends the gain that is to be best on a plateau, at a value of the other one: whether the end has it, and what binds.
+fn across(
+    lines: &Lines<'_>,
+    (gain, is_greatest): (usize, bool),
+    height: &Rational,
+    other: &Rational,
+) -> Result<(Option<bool>, Vec<String>), Error> {
+    let set = lines.set(gain, Some((1 - gain, other)), None)?.into_value();
+    let interval = set.intervals.iter().find(|interval| interval.contains(height));
+    let end = interval.and_then(|interval| if is_greatest { interval.upper.as_ref() } else { interval.lower.as_ref() });
+    let Some(end) = end else { return Ok((None, Vec::new())) };
+    // Where stability alone is asked, no end is stable itself; else other values may have an end that is met.
+    let attained = match is_closed(end) {
+        true => Some(true),
+        false => lines.asked.requirements.list.is_empty().then_some(false),
+    };
+    Ok((attained, names(end)))
 }
 
 fn width(interval: &RequiredInterval) -> Option<Rational> {

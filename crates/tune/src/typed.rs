@@ -66,6 +66,9 @@ fn candidates(
             let (low, high) = sorted(given_up_of_gain(), best.clone());
             by_trial(lines, &optimum.found, None, |values| low <= values[*gain] && values[*gain] <= high)?
         }
+        (Objective::Greatest(gain) | Objective::Least(gain), _) if best.is_zero() && optimum.attained != Some(true) => {
+            return near_zero(lines, *gain, inside, optimum);
+        }
         (Objective::Greatest(gain) | Objective::Least(gain), count) => {
             // The best value itself, where it is one that gains have.
             let nearest = match &optimum.value {
@@ -110,6 +113,38 @@ fn candidates(
     Ok(found.into_iter().collect())
 }
 
+/// Distances from a best value of 0 that are tried, as powers of ten: 0 has no share that may be lost.
+const NEAR_ZERO: [i64; 5] = [-2, -4, -6, -9, -12];
+
+/// Short gains beside a best value of 0 that no gain has, the farthest first.
+fn near_zero(
+    lines: &Lines<'_>,
+    gain: usize,
+    inside: &Rational,
+    optimum: &Optimum,
+) -> Result<Vec<Vec<Rational>>, Error> {
+    let range = lines.range(gain);
+    let size = match (&range.lower, &range.upper) {
+        (Some(low), Some(high)) => (high - low).min(Rational::ONE),
+        _ => Rational::ONE,
+    };
+    let mut all = Vec::new();
+    for exponent in NEAR_ZERO {
+        let far = &size * &power(exponent);
+        let far = if inside.is_negative() { -far } else { far };
+        let (low, high) = sorted(&far * &Rational::new(1.into(), 2.into()), far.clone());
+        let Some(height) = shortest(&low, &high, &far) else { continue };
+        match lines.asked.gains.len() {
+            1 => all.push(vec![height]),
+            _ => all.extend(beside(lines, gain, &height, optimum)?),
+        }
+        if lines.asked.gains.len() > 1 && !all.is_empty() {
+            break;
+        }
+    }
+    Ok(all)
+}
+
 /// What gains have of the objective, enclosed; `None` where that is not a number.
 fn value_at(lines: &Lines<'_>, values: &[Rational]) -> Result<Option<Enclosure>, Error> {
     let named = named(lines, values);
@@ -151,6 +186,9 @@ fn middle_of_one(
         Measure::Relative => [other(Rational::ONE + value, &low), other(Rational::ONE - value, &high)],
     };
     let [Some(from), Some(to)] = ends else { return Ok(None) };
+    // 0 is the shortest number, and no gain with a tolerance.
+    let half = || near * &Rational::new(1.into(), 2.into());
+    let (from, to) = (if from.is_zero() { half() } else { from }, if to.is_zero() { half() } else { to });
     Ok(shortest(&from, &to, near).filter(|_| from <= to).map(|x| vec![x]))
 }
 
@@ -237,17 +275,19 @@ fn short_inside(interval: &RequiredInterval, near: &Rational, with_ends: bool) -
         let is_number = end.as_ref().is_some_and(|end| end.value().exact().is_some());
         if with_ends && is_number { Rational::ZERO } else { step }
     };
+    // An end at 0 has no size of its own.
+    let size = |end: &Rational| if end.is_zero() { Rational::ONE } else { end.abs() };
     let (low, high) = match (low, high) {
         (Some(low), Some(high)) => {
             let step = (&high - &low) * thousandth;
             (low + off(&interval.lower, step.clone()), high - off(&interval.upper, step))
         }
         (Some(low), None) => {
-            let from = &low + off(&interval.lower, low.abs() * &thousandth);
+            let from = &low + off(&interval.lower, size(&low) * &thousandth);
             (from, near.abs() + low.abs() * Rational::from(2) + Rational::ONE)
         }
         (None, Some(high)) => {
-            let to = &high - off(&interval.upper, high.abs() * &thousandth);
+            let to = &high - off(&interval.upper, size(&high) * &thousandth);
             (-(near.abs() + high.abs() * Rational::from(2) + Rational::ONE), to)
         }
         (None, None) => return Some(Rational::ZERO),
@@ -264,6 +304,9 @@ fn beside(lines: &Lines<'_>, gain: usize, height: &Rational, optimum: &Optimum) 
     let both = |other| if gain == 0 { vec![height.clone(), other] } else { vec![other, height.clone()] };
     Ok(others.map(both).collect())
 }
+
+/// A gain below this power of ten of its bounds, or of 1, is tried as 0.
+const TINY: i64 = -6;
 
 /// The nearest points of few digits within the bounds, until one is good and meets all.
 fn by_trial(
@@ -293,8 +336,16 @@ fn by_trial(
         Some(parts) => parts.is_met(values, scale),
         None => lines.is_met_in_order(&named(lines, values), scale),
     };
+    let size = |i: usize| {
+        let range = lines.range(i);
+        [&range.lower, &range.upper].into_iter().flatten().map(Rational::abs).max().unwrap_or(Rational::ONE)
+    };
+    // A gain that is nearly 0 is 0.
+    let tiny = |i: usize| size(i) * power(TINY);
+    let near_zero = |i: usize, x: &Rational| if x.abs() <= tiny(i) { Some(Rational::ZERO) } else { None };
     for digits in DIGITS {
-        let near: Vec<Vec<Rational>> = found.iter().map(|x| rounded(x, digits)).collect();
+        let choices = |(i, x): (usize, &Rational)| near_zero(i, x).into_iter().chain(rounded(x, digits)).collect();
+        let near: Vec<Vec<Rational>> = found.iter().enumerate().map(choices).collect();
         let mut points: Vec<Vec<Rational>> = vec![Vec::new()];
         for choices in &near {
             let longer = points

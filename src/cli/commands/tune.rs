@@ -5,6 +5,7 @@ use super::{Context, Runs, decided};
 use crate::certified::certify_tune;
 use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions, RunOptions};
 use crate::cli::assignments::{bound, in_line, plain_number};
+use crate::cli::command_line::Place;
 use crate::cli::destinations::Files;
 use crate::cli::input::{known_names, load, question};
 use crate::cli::requirements::RequirementOptions;
@@ -20,6 +21,7 @@ use jurist_engine::response::{AllOf, Requirements};
 use jurist_engine::show::documents;
 use jurist_tune::answer::TuneAnswer;
 use jurist_tune::asked::{Asked, Gain, is_share};
+use jurist_tune::objective::SOURCE as OBJECTIVE;
 use jurist_tune::plants::{plants, plants_of_model};
 use std::ffi::OsString;
 use std::sync::Arc;
@@ -107,7 +109,8 @@ fn run(options: &Options, context: &Context) -> Outcome {
     let mut asked = asked(options, (&model, gains), required, context)?;
     asked.for_all = for_all;
     let digits = output.digits() as usize;
-    let answer = match decided(TuneAnswer::of(&question, asked, &context.budget))? {
+    let answer = TuneAnswer::of(&question, asked, &context.budget);
+    let answer = match decided(answer.map_err(|error| about(options, &model, context, error)))? {
         Ok(answer) => answer,
         Err(stopped) => {
             let problem = free.problem()?;
@@ -140,12 +143,10 @@ fn asked(
 ) -> Result<Asked, Error> {
     let written = model.tuning();
     let placed = |place: Option<Span>, error: Error| in_model(model, place, error);
-    let objective = match (&options.objective, written.and_then(|tuning| tuning.objective.as_ref())) {
-        (Some(text), _) => (text.as_str(), None),
-        (None, Some(name)) => (name.name.as_str(), Some(name.span)),
-        (None, None) => ("none", None),
-    };
-    let mut asked = Asked::of(model, gains, objective.0, required).map_err(|error| placed(objective.1, error))?;
+    let objective =
+        options.objective.as_deref().or(written.and_then(|tuning| Some(tuning.objective.as_ref()?.name.as_str())));
+    let mut asked = Asked::of(model, gains, objective.unwrap_or("none"), required)
+        .map_err(|error| about(options, model, context, error))?;
     if let Some(text) = &options.gap {
         asked.gap = share(context, "--gap", text)?;
     } else if let Some(gap) = written.and_then(|tuning| tuning.gap.clone()) {
@@ -165,6 +166,35 @@ fn asked(
         return Err(placed(written.map(|tuning| tuning.span), Error::from(error.help("for example gap = 1e-3"))));
     }
     Ok(asked)
+}
+
+/// An error about the text of the objective, with its places in the command line or in the model.
+fn about(options: &Options, model: &Model, context: &Context, error: Error) -> Error {
+    let Error::Refused(found) = error else { return error };
+    let Some(text) = found.source_text().filter(|source| source.name == OBJECTIVE).map(|source| source.text.clone())
+    else {
+        return Error::Refused(found);
+    };
+    let written = model.tuning().and_then(|tuning| tuning.objective.as_ref());
+    let (source, place) = match (&options.objective, written) {
+        (Some(given), _) if *given == text => (context.line.source(), context.line.option_value("--objective", given)),
+        (None, Some(name)) if name.name == text => {
+            let source = model.source();
+            // A string with escapes has no places in it.
+            let start = source.text.get(name.span.start..name.span.end).and_then(|whole| whole.find(&text));
+            let span = |start| Span::new(name.span.start + start, name.span.start + start + text.len());
+            (source, Place { span: start.map_or(name.span, span), verbatim: start.is_some() })
+        }
+        _ => return Error::Refused(found),
+    };
+    let moved = |one: &Diagnostic| {
+        let mut one = one.clone();
+        for label in one.primary.iter_mut().chain(&mut one.secondary) {
+            label.span = place.part(label.span.start, label.span.end);
+        }
+        one
+    };
+    Diagnostics::new(Some(Arc::clone(source)), found.diagnostics().iter().map(moved).collect()).into()
 }
 
 /// The names of the plant with their ranges: as the command line says, else as the model does.

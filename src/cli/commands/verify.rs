@@ -19,7 +19,7 @@ pub(in crate::cli) struct Options {
     /// The model that the statement is about: a file, '-' for standard input, or a loop in one line
     #[arg(value_name = "MODEL")]
     pub model: OsString,
-    /// The certificate
+    /// What '--certificate FILE' of verdict, intervals, map, tolerance, tune or ship has written
     #[arg(value_name = "CERTIFICATE")]
     pub certificate: OsString,
     #[command(flatten)]

@@ -257,12 +257,18 @@ pub fn rational_between(a: &Real, b: &Real, budget: &Budget) -> Result<Option<Ra
         Ordering::Greater => (b.clone(), a.clone()),
         Ordering::Equal => return Ok(None),
     };
+    let narrow = Rational::dyadic(&Integer::ONE, MOST_HALVINGS as u64);
+    let is_narrow = |(low, high): (Rational, Rational)| high - low <= narrow;
     for _ in 0..MOST_HALVINGS {
         // The simplest of a slightly longer interval is the simplest of this one if it is in it.
         let ((least, below), (above, most)) = (a.enclosure(), b.enclosure());
         let Some(candidate) = simplest_between(&least, &most) else { return Ok(None) };
         if below < candidate && candidate < above {
             return Ok(Some(candidate));
+        }
+        // One step of an enclosure may be thousands of bits.
+        if is_narrow(a.enclosure()) && is_narrow(b.enclosure()) {
+            break;
         }
         budget.check()?;
         (a, b) = budget.enter(|| (halved(&a), halved(&b)))?;

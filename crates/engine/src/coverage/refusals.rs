@@ -76,6 +76,11 @@ pub(crate) static COMPLEX: Refusal = Refusal::new(
     "this cannot be asked of a loop with complex coefficients",
     "what can be asked of it: {known}, and test and check; in real form, with two signals for each complex one, it can be asked everything",
 );
+pub(crate) static COMPLEX_REQUIRED: Refusal = Refusal::new(
+    Code::Complex,
+    "requirements over values of parameters are not known of loops with complex coefficients",
+    "at one point they are: 'jurist verdict' with '--set'; stability alone has sets, maps and tolerances ('--no-require'); in real form, with two signals for each complex one, the loop has all of them",
+);
 pub(crate) static COMPLEX_FOR_ALL: Refusal = Refusal::new(
     Code::Complex,
     "a map for all values of other names is not known of loops with complex coefficients",

@@ -54,6 +54,8 @@ fn unknown_parameter(model: &Model, name: &str) -> Diagnostic {
     let sample_time = (name == "sample_time" && model.sample_time_expression().is_some()).then(|| {
         "give the sample time a name: sample_time = \"T\", and a constant T; then '--param T' asks about it".to_owned()
     });
-    error.help = sample_time.or_else(|| did_you_mean(name, names())).or_else(|| known_names(names()));
+    let none = || "it has no names at all: write one where a number stands, as K in 'K/(s + 1)'".to_owned();
+    error.help =
+        sample_time.or_else(|| did_you_mean(name, names())).or_else(|| known_names(names())).or_else(|| Some(none()));
     error
 }

@@ -21,6 +21,12 @@ use std::cmp::Ordering;
 const OCTAVES: std::ops::Range<i64> = -10..12;
 const IN_AN_OCTAVE: i64 = 4;
 
+/// Peaks are looked for up to these powers of two over the dead time, where values come down to a limit.
+const PERIODS: [i64; 3] = [3, 5, 7];
+
+/// Digits of the square of such a peak.
+const DIGITS_OF_PEAK: usize = 20;
+
 /// Bits of these values.
 const BITS: u64 = 96;
 
@@ -76,7 +82,13 @@ impl DelayedQuotient {
         }
         let (end, limit) = match (self.end(&self.known(&lowest, [&above, &below]), budget), self.limit()) {
             // Moduli may rise to a limit.
-            (Err(stopped), Some(limit)) if !stopped.stop.is_budget() => (self.end(&limit, budget)?, Some(limit)),
+            (Err(stopped), Some(limit)) if !stopped.stop.is_budget() => match self.end(&limit, budget) {
+                // Moduli may also fall to it: then there is a greater one.
+                Err(stopped) if !stopped.stop.is_budget() => {
+                    (self.end_above((&limit, stopped), [&above, &below], &slope, budget)?, None)
+                }
+                end => (end?, Some(limit)),
+            },
             (end, _) => (end?, None),
         };
         let mut best = (Place::Lowest, Real::from(lowest));
@@ -106,6 +118,30 @@ impl DelayedQuotient {
         let found = all.filter_map(at).map(|value| value.lower().clone()).max();
         let square = found.into_iter().chain([lowest.clone()]).max().expect("there is one");
         jurist_algebra::number::Enclosure::from_rational(square).sqrt(BITS).lower().clone().max(Rational::ZERO)
+    }
+
+    /// A frequency beyond which the modulus is below one that is above the limit; the error where no such modulus is found.
+    fn end_above(
+        &self,
+        (limit, stopped): (&Rational, Exhausted),
+        [above, below]: [&MultiPoly; 2],
+        slope: &MultiPoly,
+        budget: &Budget,
+    ) -> Result<Rational, Exhausted> {
+        for octave in PERIODS {
+            let reach = self.unit() * Rational::from(2).pow(octave).expect("two is not zero");
+            let mut best = limit.clone();
+            for omega in self.axis.zeros(slope, &reach, budget)? {
+                let square = self.axis.quotient(above, below, &omega);
+                let least = budget.enter(|| square.refined_to_digits(DIGITS_OF_PEAK).enclosure().0)?;
+                best = best.max(jurist_algebra::number::Enclosure::from_rational(least).sqrt(BITS).lower().clone());
+            }
+            match self.end(&best, budget) {
+                Err(stopped) if !stopped.stop.is_budget() => {}
+                end => return end,
+            }
+        }
+        Err(stopped)
     }
 
     /// A frequency beyond which the modulus is below a value: there `A` and the delayed terms of `B` are outweighed.

@@ -8,7 +8,7 @@ use crate::answer::Answer;
 use crate::coverage::refusals::COMPLEX_FOR_ALL;
 use crate::error::{Code, Diagnostic, Error};
 use crate::problem::{Free, Problem, Question};
-use crate::stability::{StableSet, UndecidedBracket};
+use crate::stability::{Cause, End, StableSet, UndecidedBracket};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use jurist_algebra::real::Real;
@@ -204,13 +204,17 @@ impl MapForAll {
             }
         }
         let mut set = RequiredSet { for_all: self.all.clone(), ..RequiredSet::default() };
-        let end = |x: &Rational, beside: Option<&Known>| {
-            let names = match beside {
-                Some(Known::Spoiled(name)) => vec![*name],
-                Some(Known::Good | Known::Undecided(_)) => vec!["not decided beyond"],
-                None => vec!["domain"],
+        let end = |x: &Rational, beside: Option<&Known>, domain: Option<&Rational>| {
+            let cause = match beside {
+                Some(Known::Spoiled(name)) => {
+                    let (value, names) = (Real::from(x.clone()), vec![*name]);
+                    return Some(RequiredEnd::Requirement { value, names, closed: true });
+                }
+                None if domain == Some(x) => Cause::Domain,
+                // The search ends here.
+                Some(Known::Good | Known::Undecided(_)) | None => Cause::Undecided,
             };
-            Some(RequiredEnd::Requirement { value: Real::from(x.clone()), names, closed: true })
+            Some(RequiredEnd::Stability(End::new(x.clone(), cause.into(), None).closed_if(true)))
         };
         for (i, ([low, high], known)) in runs.iter().enumerate() {
             // Behind a short undecided piece stands what spoils the others.
@@ -223,8 +227,8 @@ impl MapForAll {
             };
             match known {
                 Known::Good => set.intervals.push(RequiredInterval {
-                    lower: end(low, beyond(i as isize, -1)),
-                    upper: end(high, beyond(i as isize, 1)),
+                    lower: end(low, beyond(i as isize, -1), parameter.domain.lower.as_ref()),
+                    upper: end(high, beyond(i as isize, 1), parameter.domain.upper.as_ref()),
                 }),
                 Known::Undecided(why) => {
                     set.undecided.push(UndecidedBracket::new(Some(low.clone()), Some(high.clone()), why.as_str()))

@@ -94,7 +94,7 @@ impl Problem {
         at: Option<&str>,
         budget: &Budget,
     ) -> Result<Answer<MarginRanges>, Error> {
-        self.refuse_complex(budget)?;
+        self.refuse_complex_requirements(budget)?;
         // Where there are no signals the parameter itself is the gain.
         let own = || (!matches!(self.model().form(), Form::Blocks(_))).then_some(self.parameter().name.as_str());
         let at = match self.model().cut(at) {

@@ -15,6 +15,7 @@ mod by_gain;
 mod cells;
 mod complex_loop;
 mod complex_poly;
+mod complex_required;
 mod crossings;
 mod damped;
 mod dead_time;

@@ -95,7 +95,7 @@ impl Answer<MapBoxes> {
         budget: &Budget,
     ) -> Result<Answer<MapBoxes>, Error> {
         let problem = self.problem().clone();
-        problem.refuse_complex(budget)?;
+        problem.refuse_complex_requirements(budget)?;
         problem.refuse_undamped(requirements, budget)?;
         let found = budget.enter(|| problem.required_boxes(requirements, at, self.value(), budget))??;
         let mut boxes = self.into_value();

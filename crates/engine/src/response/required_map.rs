@@ -73,7 +73,7 @@ impl Answer<Map> {
         budget: &Budget,
     ) -> Result<Answer<Map>, Error> {
         let problem = self.problem().clone();
-        problem.refuse_complex(budget)?;
+        problem.refuse_complex_requirements(budget)?;
         let found = budget.enter(|| problem.required_map(requirements, at, budget))??;
         let mut map = self.into_value();
         map.required = Some(found);

@@ -202,7 +202,7 @@ impl Problem {
         budget: &Budget,
     ) -> Result<Answer<RequiredSet>, Error> {
         if !requirements.is_empty() {
-            self.refuse_complex(budget)?;
+            self.refuse_complex_requirements(budget)?;
             self.refuse_undamped(requirements, budget)?;
         }
         budget.enter(|| {

@@ -236,9 +236,12 @@ fn end_lines(set: &StableSet, problem: &Problem, digits: usize) -> String {
     if columns.is_empty() { String::new() } else { format!("ends\n{columns}") }
 }
 
+/// What is said of an end at which the search stopped.
+pub(super) const UNDECIDED_BEYOND: &str = "no limit: what lies beyond is undecided";
+
 fn end_cells(end: &End, decimal: String, problem: &Problem, digits: usize) -> Vec<String> {
     if end.causes.contains(Cause::Undecided) {
-        return vec![decimal, String::new(), "no limit: what lies beyond is undecided".to_owned(), String::new()];
+        return vec![decimal, String::new(), UNDECIDED_BEYOND.to_owned(), String::new()];
     }
     let exact = match end.value.exact() {
         Some(exact) if !is_decimal_of(&decimal, &exact) => match fraction(&exact) {

@@ -1,12 +1,15 @@
 //! Requirements for people.
 
-use super::intervals::{free_domain_text, heading, intervals_text, nominal_first, nowhere, undecided_lines};
+use super::intervals::{
+    UNDECIDED_BEYOND, free_domain_text, heading, intervals_text, nominal_first, nowhere, undecided_lines,
+};
 use super::layout::Columns;
 use super::map::for_all_text;
 use super::{real, region};
 use crate::answer::Answer;
 use crate::problem::Problem;
 use crate::response::{Found, MarginRanges, RequiredEnd, RequiredSet, Requirement, RequirementMet};
+use crate::stability::Cause;
 use jurist_algebra::number::{Rational, parse_number};
 
 impl Answer<RequiredSet> {
@@ -54,6 +57,7 @@ fn interval_lines(set: &RequiredSet, problem: &Problem, digits: usize) -> (Vec<S
         });
         for end in [&interval.lower, &interval.upper].into_iter().flatten() {
             let why = match end {
+                RequiredEnd::Stability(end) if end.causes.contains(Cause::Undecided) => UNDECIDED_BEYOND.to_owned(),
                 RequiredEnd::Stability(end) => region::causes_text(&end.causes, problem),
                 RequiredEnd::Requirement { names, .. } => names.join("+"),
             };

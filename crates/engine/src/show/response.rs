@@ -262,7 +262,15 @@ impl Writer<'_> {
             let factor = decimal(PLACES, |bits| Some(c.factor.enclosure(bits)));
             columns.row(["phase -180".to_owned(), self.at(Some(&c.place)), format!("factor {factor}")]);
         }
-        if columns.is_empty() { "no crossings\n".to_owned() } else { format!("crossings of the open loop\n{columns}") }
+        let is_delayed = self.margins.open_loop.dead_time().is_some();
+        match columns.is_empty() {
+            // Its phase turns without end, so that there are crossings where the open loop is small.
+            true if is_delayed => {
+                "crossings of the open loop: none that is listed, its magnitude is too small\n".to_owned()
+            }
+            true => "no crossings\n".to_owned(),
+            false => format!("crossings of the open loop\n{columns}"),
+        }
     }
 }
 

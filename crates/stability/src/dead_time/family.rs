@@ -14,8 +14,8 @@ use crate::interval_set::zeros_in;
 use crate::precisions::ZERO_AT_EDGE;
 use crate::{Range, Shape, count_roots};
 use jurist_algebra::limits::Budget;
-use jurist_algebra::number::{Rational, Sign};
-use jurist_algebra::poly::{Domain, UniPoly};
+use jurist_algebra::number::{Enclosure, Rational, Sign};
+use jurist_algebra::poly::{Domain, RealAlgebraic, UniPoly};
 use jurist_algebra::real::{Real, Transcendental};
 use std::sync::Arc;
 
@@ -287,6 +287,7 @@ fn piece(family: &FamilyLoop, range: &Range, budget: &Budget) -> Result<Result<G
     let Some(found) = zeros(&function, &frequency, lower, upper, budget)? else {
         return Err(NotSolved::Coincidence);
     };
+    let plain = without_delayed_terms(family, range, budget)?;
     for zero in found {
         let is_real = budget.enter(|| zero.is_real())?;
         if is_real && !grows {
@@ -303,14 +304,20 @@ fn piece(family: &FamilyLoop, range: &Range, budget: &Budget) -> Result<Result<G
             Sign::Less => -1,
             Sign::Equal => unreachable!("a regular zero"),
         };
+        let [omega, p] = budget.enter(|| zero.enclosures(ZERO_AT_EDGE.last))?;
+        let exact = plain.iter().find(|value| is_fixed_at(family, [&omega, &p], value));
         let zero = Arc::new(zero);
         let coordinate =
             |which: Coordinate| Real::from(Transcendental::new(CoordinateOf { zero: Arc::clone(&zero), which }));
         let frequency = if family.is_stretched { Coordinate::Product } else { Coordinate::Frequency };
         let (happening, change) =
             if is_real { (Happening::RootAtZero, step) } else { (Happening::Pair(coordinate(frequency)), 2 * step) };
-        let inverse = Some(coordinate(Coordinate::Reciprocal));
-        points.push(GainPoint { value: coordinate(Coordinate::Parameter), happening, change: Some(change), inverse });
+        // The sign of a zero that is 0 never shows from enclosures.
+        let (value, inverse) = match exact {
+            Some(value) => (value.clone().into(), value.recip().map(Real::from)),
+            None => (coordinate(Coordinate::Parameter), Some(coordinate(Coordinate::Reciprocal))),
+        };
+        points.push(GainPoint { value, happening, change: Some(change), inverse });
     }
     cells_between(range, points, &Beyond::default(), &|value| family.right(value, budget), budget).map(Ok)
 }
@@ -353,25 +360,36 @@ fn inside(family: &FamilyLoop, zero: &FamilyZero, lower: &Rational, upper: &Rati
         if p.lower() > lower && p.upper() < upper {
             return Some(true);
         }
-        for end in [lower, upper] {
-            if !p.contains(end) {
-                continue;
-            }
-            let Some(at) = family.at(end) else { continue };
-            let fixed = if family.tau.at(end).is_zero() { at.without_delay() } else { at.content() };
-            if omega.contains(&Rational::ZERO) && family.growth(end).is_zero() && at.without_delay().coeff(0).is_zero()
-            {
-                return Some(false);
-            }
-            let (even, odd) = even_odd(&fixed);
-            let common = even.gcd(&odd);
-            let square = |x: &Rational| -(x * x);
-            let (a, b) = (square(omega.upper()), square(omega.lower()));
-            if !common.is_constant() && common.sign_at(&a) != common.sign_at(&b) {
-                return Some(false);
-            }
-        }
-        None
+        [lower, upper].into_iter().any(|end| is_fixed_at(family, [&omega, &p], end)).then_some(false)
     });
     found.ok_or(NotSolved::Coincidence)
+}
+
+/// Whether the zero in an enclosure, which is the only one there, is at a value of the parameter at which a root lies on the line whatever the dead time is.
+fn is_fixed_at(family: &FamilyLoop, [omega, p]: [&Enclosure; 2], value: &Rational) -> bool {
+    if !p.contains(value) {
+        return false;
+    }
+    let Some(at) = family.at(value) else { return false };
+    let fixed = if family.tau.at(value).is_zero() { at.without_delay() } else { at.content() };
+    // Without a delayed term the line does not matter.
+    let is_plain = family.growth(value).is_zero() || at.delays() == 0;
+    if omega.contains(&Rational::ZERO) && is_plain && at.without_delay().coeff(0).is_zero() {
+        return true;
+    }
+    let (even, odd) = even_odd(&fixed);
+    let common = even.gcd(&odd);
+    let square = |x: &Rational| -(x * x);
+    let (a, b) = (square(omega.upper()), square(omega.lower()));
+    !common.is_constant() && common.sign_at(&a) != common.sign_at(&b)
+}
+
+/// The rational values in a range at which no delayed term is left.
+fn without_delayed_terms(family: &FamilyLoop, range: &Range, budget: &Budget) -> Result<Vec<Rational>, NotSolved> {
+    let delayed = family.parts[1..].iter().flatten();
+    let common = budget.enter(|| delayed.fold(UniPoly::zero(), |common, c| common.gcd(c)))?;
+    if common.degree().unwrap_or(0) == 0 {
+        return Ok(Vec::new());
+    }
+    Ok(zeros_in(&common, range, budget)?.iter().filter_map(RealAlgebraic::exact).collect())
 }

@@ -10,6 +10,7 @@ use crate::{HalfSizePair, Shape};
 use jurist_algebra::ball::{Ball, enclosed_resultant};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::modular::multimodular_resultant::resultant_multimodular_multivariate;
 use jurist_algebra::poly::{Domain, MultiPoly, Poly};
 use jurist_algebra::real::Origin;
 use jurist_algebra::symbols::{EnclosedPoly, Symbols, common_scale};
@@ -42,6 +43,8 @@ impl PairResultant {
     /// where both polynomials of the pair lose degree. Other such ends follow from the degrees of the coefficients, if these fall or
     /// rise with the power of the unknown: in each product of the determinant the powers have the same sum.
     ///
+    /// Curves that are tangent at an end have more coefficients that are zero: these are seen where the resultant is multiplied out, if it is not too long.
+    ///
     /// Where zeros are looked for in a bounded range, the highest powers may have coefficients that are zero for no reason that is known: they stay.
     ///
     /// # Errors
@@ -65,6 +68,7 @@ impl PairResultant {
         out.scale =
             budget.enter(|| likely_scale(out.a.iter().chain(&out.b), &out.symbols, ENDS_OF_DETERMINANT.first))?;
         let mut known = None;
+        let mut expanded = None;
         let step = "zeros among the coefficients of the resultant";
         let (low, high) = ENDS_OF_DETERMINANT.decide(step, |bits| {
             let all = budget.enter(|| out.coefficients(bits))?;
@@ -84,7 +88,15 @@ impl PairResultant {
                     *known.insert((common(&least)?, if is_bounded { 0 } else { common(&greatest)? }))
                 }
             };
-            Ok::<_, Exhausted>(is_known(below, above).then_some((first, last)))
+            if is_known(below, above) {
+                return Ok::<_, Exhausted>(Some((first, last)));
+            }
+            let exact = match &expanded {
+                Some(exact) => exact,
+                None => expanded.insert(out.expanded_ends(budget)?),
+            };
+            let is_exact = |(low, high): &(usize, usize)| *low == first && (is_bounded || *high == last);
+            Ok(exact.filter(|ends| is_exact(ends)).map(|_| (first, last)))
         })?;
         Ok(PairResultant { low, high, ..out })
     }
@@ -103,6 +115,26 @@ impl PairResultant {
         // Whether 0 is a common root is asked first, which it often is.
         let pair = Arc::new(Pair { a, b, region: Shape::LeftHalfPlane });
         Ok(PairResultant { name: "resultant of boundary curves", ..PairResultant::new(&pair, symbols, false, budget)? })
+    }
+
+    /// The orders of the first and the last coefficient that are not zero whatever the symbols are, from the resultant that is multiplied out; `None` where it is
+    /// too long.
+    fn expanded_ends(&self, budget: &Budget) -> Result<Option<(usize, usize)>, Exhausted> {
+        let [a, b] = [&self.pair.a, &self.pair.b].map(|list| Poly::new(list.clone()));
+        let (m, n) = (self.a.len() - 1, self.b.len() - 1);
+        let degree = |list: &[MultiPoly], v: usize| list.iter().map(|c| c.degree_in(v)).max().unwrap_or(0) as usize;
+        let points = (0..=self.symbols.len()).try_fold(1_usize, |points, v| {
+            points.checked_mul(n * degree(&self.pair.a, v) + m * degree(&self.pair.b, v) + 1)
+        });
+        if points.is_none_or(|points| points > MOST_POINTS) {
+            return Ok(None);
+        }
+        let found = budget.enter(|| resultant_multimodular_multivariate(&a, m, &b, n))?;
+        let orders = |f: &MultiPoly| {
+            let all = || f.terms().iter().map(|(monomial, _)| monomial.exponent(0) as usize);
+            Some((all().min()?, all().max()?))
+        };
+        Ok(found.as_ref().and_then(orders))
     }
 
     /// How many roots the polynomials of a face have in common: so many coefficients of the resultant are zero at its end.
@@ -143,6 +175,9 @@ impl EnclosedPoly for PairResultant {
         Origin::Function { function: self.name.to_owned(), details: symbols.collect() }
     }
 }
+
+/// A resultant is multiplied out from so many values at most.
+const MOST_POINTS: usize = 1 << 18;
 
 /// The slopes with which the degrees of coefficients may fall with the power of the unknown.
 const SLOPES: std::ops::RangeInclusive<i64> = -4..=4;

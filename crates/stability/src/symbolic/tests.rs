@@ -6,7 +6,7 @@ use crate::{End, Range, RootCount, StableSet};
 use jurist_algebra::number::{Integer, parse_number};
 use jurist_algebra::poly::RationalFunction;
 use jurist_algebra::real::Real;
-use jurist_algebra::symbols::Definition;
+use jurist_algebra::symbols::{Definition, EnclosedPoly};
 
 fn number(text: &str) -> Rational {
     parse_number(text).unwrap()
@@ -329,4 +329,17 @@ fn a_function_that_is_given_twice_has_its_zeros_once() {
     let found: Vec<_> = zeros.iter().map(|(value, of)| (value.decimal(10), of.clone())).collect();
     assert_eq!(found, [("0.5671432904".to_string(), vec![0, 1])]);
     assert!(open.is_empty(), "{open:?}");
+}
+
+/// Curves that touch at infinity leave more zero coefficients than they have common roots there; this ended with the last precision.
+#[test]
+fn zero_coefficients_of_curves_that_are_tangent_at_infinity_are_known() {
+    // x y = x^2 + X and x y = x^2 + 2 X: both follow y = x, and their resultant is X x up to the sign.
+    let mut symbols = Symbols::new();
+    symbols.insert("X", Definition::exponential(-1));
+    let (x, constant) = (MultiPoly::variable(0), MultiPoly::variable(1));
+    let curve = |k: i64| vec![x.power(2).plus(&constant.scaled_by(&Integer::from(k))).negated(), x.clone()];
+    let found = resultant::PairResultant::of_curves(curve(1), curve(2), &Arc::new(symbols), &Budget::unlimited());
+    let coefficients = found.unwrap().enclose(64);
+    assert!(coefficients.len() == 1 && !coefficients[0].contains_zero());
 }

@@ -43,7 +43,7 @@ impl Problem {
         base: &F,
         budget: &Budget,
     ) -> Result<RequiredBox, Error> {
-        self.refuse_complex(budget)?;
+        self.refuse_complex_requirements(budget)?;
         Requirement::refuse_signals(std::slice::from_ref(requirement))?;
         let breaks =
             |point: &[Rational]| self.breaks(requirement, &point[..sides.len()], request, (base, truth), budget);
