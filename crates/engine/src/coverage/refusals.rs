@@ -157,8 +157,11 @@ pub(crate) static MARGINS_IN_ONE: Refusal = Refusal::new(
     "of this loop requirements on margins are decided in one parameter only",
     "ask 'intervals' for one of the parameters, or 'margins' with a value for each",
 );
-pub(crate) static DELAY_AT_POINTS: Refusal =
-    Refusal::new(Code::Require, "a delay margin is decided at points only, not as a set of a parameter", AT_A_POINT);
+pub(crate) static DELAY_BESIDE: Refusal = Refusal::new(
+    Code::Require,
+    "a delay margin of a continuous loop with functions that are not rational is decided at points only",
+    "write the values of exp, sqrt, sin, cos, tan and pi as numbers, or ask 'verdict' with a value for every parameter",
+);
 pub(crate) static NOT_IN_A_PLANE: Refusal =
     Refusal::new(Code::Require, "the requirement {name} is not decided for two parameters", "{help}");
 pub(crate) static NOT_FOR_ALL: Refusal = Refusal::new(

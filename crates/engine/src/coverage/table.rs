@@ -111,7 +111,7 @@ static ROWS: &[Row] = &[
     Row::new(Asked::ToleranceWithDamping, "tolerance --tol NAME=10% --damping 1/10", [A(&TENSOR), A(&TENSOR), A(&REQUIRED_BOXES), UNDAMPED, UNDAMPED, NO_ORDER]).in_time(Time::Continuous),
     Row::new(Asked::ToleranceWithDampingDiscrete, "tolerance --tol NAME=10% --damping 1/10", [R(&NOT_OVER_A_BOX), R(&NOT_OVER_A_BOX), R(&NOT_OVER_A_BOX), BOX_ALONE, BOX_ALONE, NO_ORDER]).in_time(Time::Discrete),
     at_a_point(Asked::VerdictWithDelayMargin, "verdict --delay-margin 1/1000", [A(&FREQUENCIES), A(&FREQUENCIES), OPEN_LOOP, BESIDE]),
-    Row::new(Asked::IntervalsWithDelayMargin, "intervals --param NAME --delay-margin 1/1000", [R(&DELAY_AT_POINTS), R(&DELAY_AT_POINTS), R(&DELAY_AT_POINTS), R(&DELAY_AT_POINTS), BESIDE, NO_ORDER]),
+    Row::new(Asked::IntervalsWithDelayMargin, "intervals --param NAME --delay-margin 1/1000", [R(&DELAY_BESIDE), R(&DELAY_BESIDE), R(&DELAY_BESIDE), R(&DELAY_BESIDE), BESIDE, NO_ORDER]),
     Row::new(Asked::MapWithDelayMargin, "map -x NAME -y NAME --delay-margin 1/1000", [R(&NOT_IN_A_PLANE), R(&NOT_IN_A_PLANE), R(&NOT_IN_A_PLANE), NO_DELAY, NO_DELAY, NO_ORDER]),
     Row::new(Asked::ToleranceWithDelayMargin, "tolerance --tol NAME=10% --delay-margin 1/1000", [R(&NOT_OVER_A_BOX), R(&NOT_OVER_A_BOX), R(&NOT_OVER_A_BOX), BOX_ALONE, BOX_ALONE, NO_ORDER]),
     Row::new(Asked::BoxMapWithRequirements, "map -x NAME -y NAME --method boxes --modulus-margin 1/100", [B(&REQUIRED_BOXES), B(&REQUIRED_BOXES), B(&REQUIRED_BOXES), BOXES_WITH_DEAD_TIME, BESIDE, NO_ORDER]),

@@ -32,7 +32,7 @@ const CELLS: [usize; 2] = [64, 12];
 const MOST_CORNERS: usize = 8;
 
 /// A least delay margin over boxes.
-pub(super) struct DelayBoxes {
+pub(crate) struct DelayBoxes {
     open: OverDeadTime,
     near: Vec<Rational>,
     /// The loop in its parameters, the dead time at the cut being the last one.
@@ -72,6 +72,11 @@ impl DelayBoxes {
         })??;
         let (Some(with_any), Some(with_all)) = families else { return Ok(None) };
         Ok(Some(DelayBoxes { open, near: near.to_vec(), with_any, with_all, least: least.clone() }))
+    }
+
+    /// The loop in its parameters, the dead time at the cut being one more: a stable point has the delay margin where it is stable with all up to the least.
+    pub fn with_any(&self) -> &DelayedFunction {
+        &self.with_any
     }
 
     /// Whether all stable points of a closed box have the delay margin, or no point has it.

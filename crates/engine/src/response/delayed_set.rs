@@ -5,7 +5,6 @@ use super::over_symbols::{left_open, where_changed};
 use super::requirement::{Requirement, Rule};
 use super::requirement_boxes::{OverPoints, RequirementBoxes};
 use super::{RequiredEnd, RequiredSet};
-use crate::coverage::refusals::DELAY_AT_POINTS;
 use crate::error::Error;
 use crate::problem::Problem;
 use crate::stability::subdivision::{BoxPart, Look, Octaves, Order, Tally, subdivide};
@@ -53,9 +52,6 @@ impl Problem {
         at: Option<&str>,
         budget: &Budget,
     ) -> Result<RequiredSet, Error> {
-        if requirements.iter().any(|r| matches!(r.rule(), Rule::DeadTime(_))) {
-            return Err(DELAY_AT_POINTS.diagnostic(&[]).into());
-        }
         let parameter = &self.free()[0];
         let first = stable.intervals().first().map(|interval| interval.bare().sample(budget)).transpose()?;
         let near = parameter.nominal.clone().or(first).unwrap_or(Rational::ONE);
@@ -219,9 +215,7 @@ impl DelayedSet<'_> {
                 OverPoints::Open { .. } => {
                     let name = self.problem.free()[0].name.clone();
                     let question = self.problem.model().ask().set_all(self.problem.set().to_vec());
-                    let problem = question.set(name, value.clone()).problem()?;
-                    let met = problem.requirements_met(std::slice::from_ref(requirement), self.at, self.budget)?;
-                    met.iter().all(|found| found.met)
+                    question.set(name, value.clone()).problem()?.meets(requirement, self.at, self.budget)?
                 }
             };
             if !is_met {

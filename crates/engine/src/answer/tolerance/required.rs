@@ -6,7 +6,9 @@ use super::{RequiredBox, ToleranceRequest};
 use crate::coverage::refusals::{MARGINS_IN_ONE, NOT_OVER_A_BOX};
 use crate::error::Error;
 use crate::problem::Problem;
-use crate::response::{Family, RequiredFamily, Requirement, RequirementBoxes, Rule, half_tangent, radius_below};
+use crate::response::{
+    DelayBoxes, Family, RequiredFamily, Requirement, RequirementBoxes, Rule, half_tangent, radius_below,
+};
 use crate::stability::boxes::{
     BoxDecision, BoxPolynomial, Family as StableFamily, LargestFactor, OpenReason, Side, ToleranceProblem, Witness,
 };
@@ -49,6 +51,19 @@ impl Problem {
             |point: &[Rational]| self.breaks(requirement, &point[..sides.len()], request, (base, truth), budget);
         let mut asked =
             BoxAsked { sides, request, most, breaks: &breaks, budget, found: RequiredBox::new(requirement) };
+        if let Rule::DeadTime(least) = requirement.rule() {
+            // The dead time at the cut is one side more.
+            let (cut, near) = (requirement.cut(self, request.at.as_deref())?, asked.nominal());
+            let delay = DelayBoxes::of(&self.without_region(), least, cut, &near, budget)?;
+            let delay = delay.ok_or_else(|| not_over_a_box(requirement, "ask 'verdict' at points"))?;
+            if let Some(witness) = breaks(&near)? {
+                asked.found.decision = BoxDecision::NotStable { witness: Some(witness) };
+                return Ok(asked.found);
+            }
+            let own = Side::fixed(least.clone(), [least.clone(), Rational::ZERO]);
+            asked.add(delay.with_any(), sides.iter().cloned().chain([own]).collect())?;
+            return Ok(asked.found);
+        }
         if base.as_polynomial().is_none() {
             let at = request.at.as_deref();
             let boxes = RequirementBoxes::of(self, requirement, at, &asked.nominal(), budget)?;
@@ -99,10 +114,9 @@ impl Problem {
         }
         let names = self.free().iter().map(|free| free.name.clone());
         let question = self.model().ask().set_all(self.set().to_vec()).set_all(names.zip(point.iter().cloned()));
-        let one = std::slice::from_ref(requirement);
-        let is_met = match question.problem()?.requirements_met(one, request.at.as_deref(), budget) {
+        let is_met = match question.problem()?.meets(requirement, request.at.as_deref(), budget) {
             Err(Error::Undefined(_)) => false,
-            met => met?.iter().all(|found| found.met),
+            met => met?,
         };
         if is_met {
             return Ok(None);
@@ -120,11 +134,6 @@ impl Problem {
     ) -> Result<Vec<FamilyOfLoops>, Error> {
         let (whole, shape) = (self.without_region(), self.shape());
         match requirement.rule() {
-            Rule::DeadTime(_) => {
-                let help =
-                    "dead time makes no polynomial: ask for a phase margin over the box, or 'verdict' at a point";
-                return Err(not_over_a_box(requirement, help));
-            }
             Rule::Sector(_) if shape == Shape::UnitDisc => {
                 return Err(not_over_a_box(
                     requirement,

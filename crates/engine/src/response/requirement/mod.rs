@@ -232,6 +232,11 @@ impl Requirement {
         }
     }
 
+    /// Whether it is about the dead time that the loop bears.
+    pub(crate) fn is_delay_margin(&self) -> bool {
+        matches!(self.rule, Rule::DeadTime(_))
+    }
+
     /// Whether it is about the open loop at a cut.
     pub(crate) fn needs_cut(&self) -> bool {
         !matches!(self.rule, Rule::Sector(_) | Rule::Modulus { .. })
