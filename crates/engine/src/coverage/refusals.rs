@@ -162,6 +162,16 @@ pub(crate) static DELAY_BESIDE: Refusal = Refusal::new(
     "a delay margin of a continuous loop with functions that are not rational is decided at points only",
     "write the values of exp, sqrt, sin, cos, tan and pi as numbers, or ask 'verdict' with a value for every parameter",
 );
+pub(crate) static DELAY_OF_NUMBERS: Refusal = Refusal::new(
+    Code::Require,
+    "a delay margin of a discrete loop is decided over values of names that are not in its sample time, or in the dead time behind its hold",
+    AT_A_POINT,
+);
+pub(crate) static MANY_SAMPLES: Refusal = Refusal::new(
+    Code::Require,
+    "a delay margin of more than {most} samples of this loop is decided at points only",
+    AT_A_POINT,
+);
 pub(crate) static NOT_IN_A_PLANE: Refusal =
     Refusal::new(Code::Require, "the requirement {name} is not decided for two parameters", "{help}");
 pub(crate) static NOT_FOR_ALL: Refusal = Refusal::new(

@@ -2,7 +2,7 @@
 //!
 //! A stable loop has a delay margin of a time at least where it is stable with all less dead time at the cut. With a parameter that begins or ceases to be so
 //! where a root is on the axis with the whole time, or where a crossing of the open loop appears at once: its modulus touches one at some frequency, or in
-//! the limit of high ones. In discrete time the delay is a whole number of samples, and the loop is stable with one sample, with two, and so on.
+//! the limit of high ones.
 
 use super::RequiredSet;
 use super::cells::{Unmet, inside_of, outward, parts_beside, required_parts};
@@ -52,6 +52,9 @@ impl Problem {
         budget: &Budget,
     ) -> Result<RequiredSet, Error> {
         budget.step("boundaries of the requirements");
+        if self.shape() == Shape::UnitDisc {
+            return self.bearing_samples(requirement, stable, at, budget);
+        }
         let set = BorneSet::of(self, requirement, at, budget)?;
         let mut found = RequiredSet { undecided: stable.undecided().to_vec(), ..RequiredSet::default() };
         for interval in stable.intervals() {
@@ -98,7 +101,7 @@ impl<'a> BorneSet<'a> {
         let Some(set) = self.stable_with_all(interval)? else {
             let alone = StableSet::from_intervals(vec![interval.clone()], Vec::new());
             let whole = self.problem.without_region();
-            let known = whole.required_with_dead_time(from_ref(self.requirement), &alone, self.at, self.budget)?;
+            let known = whole.required_in_boxes(from_ref(self.requirement), &alone, self.at, self.budget)?;
             found.intervals.extend(known.intervals);
             found.undecided.extend(known.undecided);
             return Ok(());
@@ -182,7 +185,7 @@ fn zeros(list: &[UniPoly], budget: &Budget) -> Result<Vec<Real>, Exhausted> {
 }
 
 /// Values in ascending order, each once; what is said of one is said of those that equal it.
-fn ascending(values: Vec<(Real, bool)>, budget: &Budget) -> Result<Vec<(Real, bool)>, Exhausted> {
+pub(super) fn ascending(values: Vec<(Real, bool)>, budget: &Budget) -> Result<Vec<(Real, bool)>, Exhausted> {
     let mut out: Vec<(Real, bool)> = Vec::with_capacity(values.len());
     for (value, said) in values {
         let mut place = out.len();

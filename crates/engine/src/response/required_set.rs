@@ -244,7 +244,7 @@ impl Problem {
         let whole = self.without_region();
         if !self.algebra_over_symbols(budget)?.symbols().delays().is_empty() {
             budget.step("boundaries of the requirements");
-            return whole.required_with_dead_time(requirements, stable, at, budget);
+            return whole.required_in_boxes(requirements, stable, at, budget);
         }
         let cut = requirements[0].cut(self, at)?;
         let over_symbols = SymbolicFamily::of(&whole, cut.clone(), budget)?;

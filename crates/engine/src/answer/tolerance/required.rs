@@ -7,7 +7,7 @@ use crate::coverage::refusals::{MARGINS_IN_ONE, NOT_OVER_A_BOX};
 use crate::error::Error;
 use crate::problem::Problem;
 use crate::response::{
-    DelayBoxes, Family, RequiredFamily, Requirement, RequirementBoxes, Rule, half_tangent, radius_below,
+    DelayBoxes, DelayedLoops, Family, RequiredFamily, Requirement, RequirementBoxes, Rule, half_tangent, radius_below,
 };
 use crate::stability::boxes::{
     BoxDecision, BoxPolynomial, Family as StableFamily, LargestFactor, OpenReason, Side, ToleranceProblem, Witness,
@@ -52,7 +52,6 @@ impl Problem {
         let mut asked =
             BoxAsked { sides, request, most, breaks: &breaks, budget, found: RequiredBox::new(requirement) };
         if let Rule::DeadTime(least) = requirement.rule() {
-            // The dead time at the cut is one side more.
             let (cut, near) = (requirement.cut(self, request.at.as_deref())?, asked.nominal());
             let delay = DelayBoxes::of(&self.without_region(), least, cut, &near, budget)?;
             let delay = delay.ok_or_else(|| not_over_a_box(requirement, "ask 'verdict' at points"))?;
@@ -60,8 +59,7 @@ impl Problem {
                 asked.found.decision = BoxDecision::NotStable { witness: Some(witness) };
                 return Ok(asked.found);
             }
-            let own = Side::fixed(least.clone(), [least.clone(), Rational::ZERO]);
-            asked.add(delay.with_any(), sides.iter().cloned().chain([own]).collect())?;
+            asked.add_delays(&delay)?;
             return Ok(asked.found);
         }
         if base.as_polynomial().is_none() {
@@ -278,6 +276,36 @@ impl<B: Fn(&[Rational]) -> Result<Option<Witness>, Error>> BoxAsked<'_, B> {
             false => worse(self.found.decision.clone(), decision),
         };
         Ok(true)
+    }
+}
+
+impl<B: Fn(&[Rational]) -> Result<Option<Witness>, Error>> BoxAsked<'_, B> {
+    /// Asks the families of a delay margin: the delay at the cut is one side more, and so is each constant.
+    fn add_delays(&mut self, delay: &DelayBoxes) -> Result<(), Error> {
+        for family in delay.families().unwrap_or_default() {
+            let own = family.delays.map(|[low, high]| Side::fixed(high.clone(), [&high - &low, Rational::ZERO]));
+            let mut all: Vec<Side> = self.sides.iter().cloned().chain(own).collect();
+            let is_stable = match family.loops {
+                DelayedLoops::Delayed(p) => self.add(p, all)?,
+                DelayedLoops::Moving(p) => self.add(p, all)?,
+                DelayedLoops::Polynomial(p, constants) => {
+                    all.extend(constants.iter().map(|[low, high]| {
+                        let middle = low.midpoint(high);
+                        let widths = [&middle - low, high - &middle];
+                        Side::fixed(middle, widths)
+                    }));
+                    let boxes = ToleranceProblem::new(p, all.clone());
+                    if let Some(boxes) = boxes.filter(|boxes| boxes.coefficients().is_none()) {
+                        return Err(too_many(&boxes));
+                    }
+                    self.add(p, all)?
+                }
+            };
+            if !is_stable {
+                break;
+            }
+        }
+        Ok(())
     }
 }
 
