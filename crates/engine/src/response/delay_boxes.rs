@@ -18,8 +18,11 @@ use std::sync::Arc;
 /// A delay with which a loop is unstable is made longer so much.
 const LONGER: [(i64, i64); 4] = [(3, 2), (1, 1), (2, 1), (3, 1)];
 
-/// The delays from zero to the greatest are not cut into more parts.
+/// The delays from zero to the greatest are not cut into more parts of a large box.
 const MOST_PARTS: usize = 12;
+
+/// So many parts, and cells of each, more for each halving of a small box: it is near to where a loop with one of the delays is not stable.
+const MORE_PARTS: usize = 2;
 
 /// Cells of frequency and parameters after which a box is rather halved: with one delay, and with a range of them.
 const CELLS: [usize; 2] = [64, 12];
@@ -183,13 +186,14 @@ fn is_stable_with(
     delays: [Rational; 2],
     budget: &Budget,
 ) -> Result<bool, Exhausted> {
+    let more = MORE_PARTS * halvings(sides);
     let mut open = vec![delays];
     let mut looked = 0;
     while let Some(delays) = open.pop() {
         looked += 1;
-        match loops.over(sides, &delays, CELLS[1], budget)? {
+        match loops.over(sides, &delays, CELLS[1] + more, budget)? {
             OverPoints::All => {}
-            OverPoints::Open { .. } if looked < MOST_PARTS && delays[0] < delays[1] => {
+            OverPoints::Open { .. } if looked < MOST_PARTS + more && delays[0] < delays[1] => {
                 let [low, high] = delays;
                 let middle = low.midpoint(&high);
                 open.extend([[low, middle.clone()], [middle, high]]);
@@ -199,6 +203,20 @@ fn is_stable_with(
     }
     Ok(true)
 }
+
+/// How often a box was about halved along each of its sides, by how much farther from zero than long they are.
+fn halvings(sides: &[[Rational; 2]]) -> usize {
+    let of = |[low, high]: &[Rational; 2]| match (high - low).checked_div(&low.abs().max(high.abs())) {
+        Some(share) if share.sign().is_gt() => {
+            share.denominator().bit_length().saturating_sub(share.numerator().bit_length()) as usize
+        }
+        _ => MOST_HALVINGS,
+    };
+    sides.iter().map(of).min().unwrap_or(0).min(MOST_HALVINGS)
+}
+
+/// A box that was halved oftener is a point.
+const MOST_HALVINGS: usize = 48;
 
 /// Shares of the greatest delay with which a loop may be unstable, from the longest to the shortest.
 const SHARES: [(i64, i64); 12] =
