@@ -167,6 +167,11 @@ pub(crate) static DELAY_OF_NUMBERS: Refusal = Refusal::new(
     "a delay margin of a discrete loop is decided over values of names that are not in its sample time, or in the dead time behind its hold",
     AT_A_POINT,
 );
+pub(crate) static NO_SAMPLE_TIME: Refusal = Refusal::new(
+    Code::Require,
+    "a delay margin of a discrete loop needs its sample time",
+    "give the model a 'sample_time': the margin is in its unit",
+);
 pub(crate) static MANY_SAMPLES: Refusal = Refusal::new(
     Code::Require,
     "a delay margin of more than {most} samples of this loop is decided at points only",

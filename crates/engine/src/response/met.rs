@@ -9,8 +9,8 @@ use super::requirement::{Circle, Found, Requirement, Rule};
 use super::value::{Value, square_root};
 use super::{DelayMargin, HeldDelay};
 use crate::answer::Verdict;
-use crate::coverage::refusals::NO_DAMPING;
-use crate::error::{Code, Diagnostic, Error};
+use crate::coverage::refusals::{NO_DAMPING, NO_SAMPLE_TIME};
+use crate::error::Error;
 use crate::precisions::REQUIRED_DELAY;
 use crate::problem::Problem;
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -168,8 +168,7 @@ impl KnownDelay<'_> {
             }
             (DelayMargin::Samples(m) | DelayMargin::SamplesAtLeast(m), None) => {
                 let Some(step) = self.open_loop.sample_time() else {
-                    let message = "a delay margin of a discrete loop needs its sample time";
-                    return Err(Diagnostic::error(Code::Require, message).into());
+                    return Err(NO_SAMPLE_TIME.diagnostic(&[]).into());
                 };
                 Ok(&Rational::from(*m) * step >= *least)
             }

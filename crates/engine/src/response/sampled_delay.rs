@@ -11,8 +11,8 @@ use super::parts::with_parts;
 use super::requirement_boxes::OverPoints;
 use super::same_count::same_count;
 use crate::answer::SYMBOL_BITS;
-use crate::coverage::refusals::{DELAY_OF_NUMBERS, MANY_SAMPLES};
-use crate::error::{Code, Diagnostic, Error};
+use crate::coverage::refusals::{DELAY_OF_NUMBERS, MANY_SAMPLES, NO_SAMPLE_TIME};
+use crate::error::Error;
 use crate::model::{Cut, MoreDeadTime, Symbols};
 use crate::problem::{Problem, fixed_symbols, parametric_symbols};
 use crate::stability::Shape;
@@ -102,10 +102,7 @@ impl<'p> SampledLoop<'p> {
     ) -> Result<SampledLoop<'p>, Error> {
         let opened = OpenedLoop::of(problem, cut.clone(), budget)?;
         let (quotient, undefined) = opened.quotient(MultiPoly::clone, budget)?;
-        let Some(time) = &opened.sample_time else {
-            let message = "a delay margin of a discrete loop needs its sample time";
-            return Err(Diagnostic::error(Code::Require, message).into());
-        };
+        let Some(time) = &opened.sample_time else { return Err(NO_SAMPLE_TIME.diagnostic(&[]).into()) };
         let Some(period) = time.as_constant() else { return Err(DELAY_OF_NUMBERS.diagnostic(&[]).into()) };
         let counted = match is_held(problem, (&opened, &quotient), near, budget)? {
             Some(period) => Counted::Held(least.checked_div(&period).expect("a sample time is positive")),
