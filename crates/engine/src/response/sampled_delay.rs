@@ -102,13 +102,14 @@ impl<'p> SampledLoop<'p> {
     ) -> Result<SampledLoop<'p>, Error> {
         let opened = OpenedLoop::of(problem, cut.clone(), budget)?;
         let (quotient, undefined) = opened.quotient(MultiPoly::clone, budget)?;
-        let Some(time) = &opened.sample_time else { return Err(NO_SAMPLE_TIME.diagnostic(&[]).into()) };
-        let Some(period) = time.as_constant() else { return Err(DELAY_OF_NUMBERS.diagnostic(&[]).into()) };
+        let in_samples = |period: &Rational| least.checked_div(period).expect("a sample time is positive");
         let counted = match is_held(problem, (&opened, &quotient), near, budget)? {
-            Some(period) => Counted::Held(least.checked_div(&period).expect("a sample time is positive")),
+            Some(period) => Counted::Held(in_samples(&period)),
             None => {
-                let samples = least.checked_div(&period).expect("a sample time is positive").ceil();
-                Counted::Whole(samples.to_i64().map_or(u64::MAX, |samples| samples.max(0) as u64))
+                let Some(time) = &opened.sample_time else { return Err(NO_SAMPLE_TIME.diagnostic(&[]).into()) };
+                let Some(period) = time.as_constant() else { return Err(DELAY_OF_NUMBERS.diagnostic(&[]).into()) };
+                let samples = in_samples(&period).ceil().to_i64();
+                Counted::Whole(samples.map_or(u64::MAX, |samples| samples.max(0) as u64))
             }
         };
         let is_many = match &counted {
