@@ -246,10 +246,13 @@ impl SampledDelay {
 impl Delays for SampledDelay {
     fn tried(&self) -> Vec<Rational> {
         let greatest = &self.families.last().expect("a delay margin is above 0").1[1];
-        match self.is_held {
-            true => shares_of(greatest),
-            false => self.families.iter().rev().map(|(_, [delay, _])| delay.clone()).collect(),
-        }
+        let ends = self.families.iter().map(|(_, [_, delay])| delay.clone());
+        // Where another loop begins the delay may be borne least.
+        let mut all: Vec<Rational> =
+            if self.is_held { ends.chain(shares_of(greatest)).collect() } else { ends.collect() };
+        all.sort_by(|a, b| b.cmp(a));
+        all.dedup();
+        all
     }
 
     fn ranges(&self) -> Vec<[Rational; 2]> {
