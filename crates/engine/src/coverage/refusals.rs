@@ -182,7 +182,7 @@ pub(crate) static NOT_IN_A_PLANE: Refusal =
 pub(crate) static NOT_FOR_ALL: Refusal = Refusal::new(
     Code::Require,
     "the requirement {name} is not decided for all values of other names",
-    "ask 'verdict' with a value for every parameter; phase, gain, modulus and disk margins and the peak of T are decided for all values",
+    "ask 'verdict' with a value for every parameter; phase, gain, modulus, disk and delay margins and the peak of T are decided for all values",
 );
 pub(crate) static NOT_OVER_A_BOX: Refusal =
     Refusal::new(Code::Require, "the requirement {name} is not decided over a box of tolerances", "{help}");
