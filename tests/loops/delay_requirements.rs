@@ -73,9 +73,9 @@ fn a_lag_whose_delay_has_no_bound() {
 /// `K (s + 2)/(s + 1)` goes to `K` at high frequencies: from 1 on no delay is borne at all, and of less any up to one that goes to 0.
 #[test]
 fn an_open_loop_that_does_not_fall() {
-    let found = set(&continuous("(s + 2)/(s + 1)"), "1/1000");
+    let found = set(&continuous("(s + 2)/(s + 1)"), "1/10");
     let end = number(&upper(&found).0);
-    assert!(end > number("0.999") && end < number("1"), "{end}");
+    assert!(end > number("0.99") && end < number("1"), "{end}");
     assert!(found.intervals[0].contains(&number("-1/4")) && !found.intervals[0].contains(&number("5")));
 }
 
@@ -125,7 +125,7 @@ fn bears(plant: &str, gain: &Rational, least: &Rational) -> bool {
 fn random_loops_against_the_windows_of_the_dead_time() {
     let mut random = Random::new(37);
     let mut seen = [0, 0];
-    for _ in 0..count(12, 120) {
+    for _ in 0..count(8, 120) {
         let mut number = |below: usize| ratio(1 + random.below(below) as i64, 4);
         let (a, b, c, d) = (number(8), number(8), number(4), number(10));
         let plants = [

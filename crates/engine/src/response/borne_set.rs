@@ -5,7 +5,7 @@
 //! the limit of high ones.
 
 use super::RequiredSet;
-use super::cells::{Unmet, inside_of, outward, parts_beside, required_parts};
+use super::cells::{Unmet, inside_of, parts_beside, required_parts};
 use super::loop_functions::dead_time;
 use super::opened::OpenedLoop;
 use super::place::modulus_squared;
@@ -25,6 +25,9 @@ use std::cmp::Ordering;
 use std::slice::from_ref;
 use std::sync::Arc;
 
+/// Digits of the numbers around an end up to which the loop is asked.
+const DIGITS: usize = 9;
+
 /// A least delay margin of loops in one parameter, in continuous time.
 struct BorneSet<'a> {
     problem: &'a Arc<Problem>,
@@ -34,6 +37,9 @@ struct BorneSet<'a> {
     with_all: Option<DelayedLoop>,
     /// Where a crossing may appear at once.
     touches: Vec<Real>,
+    /// Of these where the modulus of the open loop is one in the limit of high frequencies, and what is positive where it is more.
+    limits: Vec<Real>,
+    above: UniPoly,
     /// Where the open loop is undefined.
     undefined: Vec<Real>,
     budget: &'a Budget,
@@ -84,13 +90,20 @@ impl<'a> BorneSet<'a> {
         let undefined = in_one(&undefined);
         let tau = &own.unwrap_or_else(RationalFunction::zero) + &RationalFunction::from(least.clone());
         let with_all = budget.enter(|| DelayedLoop::of_factor([&d, &n], &tau, &undefined))?;
-        let touches = touches([&d, &n], budget)?;
+        let Touches { above, limits, elsewhere } = touches([&d, &n], budget)?;
+        let limits = zeros(&limits, budget)?;
+        let touches = limits.iter().cloned().chain(zeros(&elsewhere, budget)?).collect();
         Ok(BorneSet {
             problem,
             requirement,
             at,
             with_all,
-            touches: zeros(&touches, budget)?,
+            touches,
+            limits: ascending(limits.into_iter().map(|value| (value, true)).collect(), budget)?
+                .into_iter()
+                .map(|(value, _)| value)
+                .collect(),
+            above,
             undefined: zeros(from_ref(&undefined), budget)?,
             budget,
         })
@@ -125,17 +138,30 @@ impl<'a> BorneSet<'a> {
         })
     }
 
-    /// The values around an interval with which the loop is stable with the whole time; `None` where they are not found.
+    /// The values around an interval with which the loop is stable with the whole time, where any is borne; `None` where they are not found.
     fn stable_with_all(&self, interval: &StableInterval) -> Result<Option<StableSet>, Error> {
         let Some(with_all) = &self.with_all else { return Ok(None) };
-        let domain = Range::between(outward(&interval.lower, true), outward(&interval.upper, false));
-        let parameter = Free { domain, ..self.problem.free()[0].clone() };
-        match stable_set_with_dead_time(&parameter, with_all, self.budget) {
-            Ok(set) => Ok(Some(set)),
-            Err(Error::Refused(_)) => Ok(None),
-            Err(Error::Stopped(_)) if self.budget.check().is_ok() => Ok(None),
-            Err(other) => Err(other),
+        let (mut intervals, mut undecided) = (Vec::new(), Vec::new());
+        for part in interval.bare().cut(&inside_of(interval, &self.limits, self.budget)?) {
+            if self.above.sign_at(&part.sample(self.budget)?).is_ge() {
+                continue;
+            }
+            let end = |value: &Option<Real>, is_lower: bool| {
+                let (low, high) = value.as_ref()?.refined_to_digits(DIGITS).enclosure();
+                Some(if is_lower { low } else { high })
+            };
+            let domain = Range::between(end(&part.lower, true), end(&part.upper, false));
+            let parameter = Free { domain, ..self.problem.free()[0].clone() };
+            let set = match stable_set_with_dead_time(&parameter, with_all, self.budget) {
+                Ok(set) => set,
+                Err(Error::Refused(_)) => return Ok(None),
+                Err(Error::Stopped(_)) if self.budget.check().is_ok() => return Ok(None),
+                Err(other) => return Err(other),
+            };
+            intervals.extend(set.intervals().iter().cloned());
+            undecided.extend(set.undecided().iter().cloned());
         }
+        Ok(Some(StableSet::from_intervals(intervals, undecided)))
     }
 
     /// The name of the requirement, where a stable value does not meet it.
@@ -150,29 +176,34 @@ impl<'a> BorneSet<'a> {
     }
 }
 
-/// Functions of the parameter at whose zeros a crossing of the open loop may appear: its modulus touches one, or is one in the limit of high frequencies.
-fn touches([d, n]: [&Poly<UniPoly>; 2], budget: &Budget) -> Result<Vec<UniPoly>, Exhausted> {
-    let excess = budget.enter(|| {
+/// Functions of the parameter at whose zeros a crossing of the open loop may appear at once.
+struct Touches {
+    /// Positive where the modulus is above one in the limit of high frequencies.
+    above: UniPoly,
+    /// The modulus is one in that limit.
+    limits: Vec<UniPoly>,
+    /// It touches one.
+    elsewhere: Vec<UniPoly>,
+}
+
+fn touches([d, n]: [&Poly<UniPoly>; 2], budget: &Budget) -> Result<Touches, Exhausted> {
+    let (above, excess) = budget.enter(|| {
         let common = d.gcd(n);
         let [d, n] = [d, n].map(|p| p.div_exact(&common).expect("a gcd divides"));
         let degree = d.coeffs().len().max(n.coeffs().len()) - 1;
         let [below, above] = [&d, &n].map(|p| modulus_squared(p, degree, Shape::LeftHalfPlane));
         let excess = above.minus(&below);
-        // The limit is told by what is not square-free yet.
-        let free = if excess.is_zero() { Poly::zero() } else { excess.square_free_part() };
-        (excess.coeff(degree), free)
+        // The variable is the square of s, which is not positive.
+        let highest = excess.coeff(degree);
+        let highest = if degree % 2 == 1 { highest.negated() } else { highest };
+        let excess = if excess.is_zero() { excess } else { excess.square_free_part() };
+        (highest, excess)
     })?;
-    let (highest, excess) = excess;
-    if excess.is_zero() {
-        return Ok(Vec::new());
-    }
-    let mut found = vec![highest];
-    found.extend(excess.leading().cloned());
+    let mut elsewhere: Vec<UniPoly> = excess.leading().cloned().into_iter().collect();
     if excess.degree().is_some_and(|degree| degree > 1) {
-        found.push(discriminant(&excess, budget)?);
+        elsewhere.push(discriminant(&excess, budget)?);
     }
-    found.retain(|f| !f.is_constant());
-    Ok(found)
+    Ok(Touches { limits: vec![above.clone()], above, elsewhere })
 }
 
 fn zeros(list: &[UniPoly], budget: &Budget) -> Result<Vec<Real>, Exhausted> {
