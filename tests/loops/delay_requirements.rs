@@ -125,7 +125,7 @@ fn bears(plant: &str, gain: &Rational, least: &Rational) -> bool {
 fn random_loops_against_the_windows_of_the_dead_time() {
     let mut random = Random::new(37);
     let mut seen = [0, 0];
-    for _ in 0..count(8, 120) {
+    for _ in 0..count(30, 300) {
         let mut number = |below: usize| ratio(1 + random.below(below) as i64, 4);
         let (a, b, c, d) = (number(8), number(8), number(4), number(10));
         let plants = [
@@ -163,7 +163,7 @@ fn random_loops_against_the_windows_of_the_dead_time() {
 fn random_loops_against_a_count_for_each_number_of_samples() {
     let mut random = Random::new(38);
     let mut seen = [0, 0];
-    for _ in 0..count(12, 120) {
+    for _ in 0..count(40, 300) {
         let [a, b, c] = [0, 0, 0].map(|_| ratio(random.below(9) as i64 - 3, 6));
         let samples = 1 + random.below(4);
         let least = ratio(samples as i64, 10) - &ratio(random.below(2) as i64, 40);

@@ -28,9 +28,12 @@ pub(crate) struct SampledDelay {
     problem: Arc<Problem>,
     cut: Cut,
     /// Each with the delays that it is of: behind a hold they are one parameter more.
-    families: Vec<(SampledFamily, [Rational; 2])>,
+    families: Families,
     is_held: bool,
 }
+
+/// Loops with the delays of each, which follow each other.
+type Families = Vec<(SampledFamily, [Rational; 2])>;
 
 /// The loop with some delays.
 enum SampledFamily {
@@ -314,7 +317,7 @@ fn stretches(
     near: &[Rational],
     samples: &Rational,
     budget: &Budget,
-) -> Result<Option<Vec<(SampledFamily, [Rational; 2])>>, Error> {
+) -> Result<Option<Families>, Error> {
     let hold = problem.model().only_hold(names, problem.set(), budget)?.expect("it was asked");
     let mut values = problem.set().to_vec();
     values.extend(names.iter().cloned().zip(near.iter().cloned()));
