@@ -1,6 +1,7 @@
 //! A dead time at the cut of continuous loops, over boxes.
 
 use super::delay_boxes::{DelayFamily, DelayedLoops, Delays, shares_of};
+use super::family::Quotient;
 use super::opened::OpenedLoop;
 use super::requirement_boxes::OverPoints;
 use super::same_count::same_count;
@@ -11,8 +12,8 @@ use crate::problem::{OverDeadTime, Problem};
 use crate::stability::AtPoint;
 use crate::stability::boxes::{DelayedFunction, Family, corners};
 use jurist_algebra::limits::{Budget, Exhausted};
-use jurist_algebra::number::Rational;
-use jurist_algebra::poly::{MultiPoly, RationalFunction};
+use jurist_algebra::number::{Enclosure, Rational};
+use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
 
 /// So many corners of a box are looked at before a proof is tried.
 const MOST_CORNERS: usize = 8;
@@ -25,8 +26,13 @@ pub(crate) struct ContinuousDelay {
     with_any: DelayedFunction,
     /// The loop with all of the dead time.
     with_all: DelayedFunction,
+    /// Positive where the modulus of the open loop is above one in the limit of high frequencies; `None` where dead times are in that limit.
+    above: Option<MultiPoly>,
     least: Rational,
 }
+
+/// Bits of sums over a box.
+const BITS: u64 = 64;
 
 impl ContinuousDelay {
     /// `None` for a loop that vanishes identically.
@@ -46,6 +52,7 @@ impl ContinuousDelay {
             return Err(DELAY_BESIDE.diagnostic(&[]).into());
         }
         let (quotient, undefined) = opened.quotient(MultiPoly::clone, budget)?;
+        let above = above_at_highest(&quotient, near.len());
         let (denominator, numerator) = (quotient.denominator, quotient.numerator);
         let open = OverDeadTime { denominator, numerator, undefined, delays, parameters: near.len() };
         let usual: Vec<Rational> = near.iter().chain([least]).cloned().collect();
@@ -54,7 +61,7 @@ impl ContinuousDelay {
             Ok((with_any, open.closed(&least.clone().into(), near)?))
         })??;
         let (Some(with_any), Some(with_all)) = families else { return Ok(None) };
-        Ok(Some(ContinuousDelay { open, near: near.to_vec(), with_any, with_all, least: least.clone() }))
+        Ok(Some(ContinuousDelay { open, near: near.to_vec(), with_any, with_all, above, least: least.clone() }))
     }
 
     /// The loop in its parameters and the dead time.
@@ -75,6 +82,10 @@ impl Delays for ContinuousDelay {
 
     fn is_delay(&self, _: &Rational) -> bool {
         true
+    }
+
+    fn bears_none(&self, sides: &[[Rational; 2]]) -> bool {
+        self.above.as_ref().is_some_and(|above| over_box(above, sides).lower().sign().is_gt())
     }
 
     fn at(&self, point: &[Rational], delay: &Rational, budget: &Budget) -> Result<Option<bool>, Exhausted> {
@@ -102,6 +113,36 @@ impl Delays for ContinuousDelay {
             _ => Ok(OverPoints::Open { middle: None }),
         }
     }
+}
+
+/// What is positive where the modulus of the open loop is above one in the limit of high frequencies.
+fn above_at_highest(quotient: &Quotient<MultiPoly>, parameters: usize) -> Option<MultiPoly> {
+    let degree = quotient.denominator.degree().max(quotient.numerator.degree())?;
+    let highest = [&quotient.numerator, &quotient.denominator].map(|p| {
+        let p = p.coeff(degree);
+        // One dead time that all terms have turns the loop alone.
+        let delays = |exponents: &[u32]| exponents.iter().skip(parameters).copied().collect::<Vec<u32>>();
+        let mut all = p.terms().iter().map(|(monomial, _)| delays(monomial.exponents()));
+        let first = all.next();
+        let is_one = all.all(|other| Some(&other) == first.as_ref());
+        let own = p.terms().iter().map(|(monomial, c)| {
+            (monomial.exponents().iter().take(parameters).copied().collect::<Vec<u32>>(), c.clone())
+        });
+        is_one.then(|| MultiPoly::from_terms(own))
+    });
+    let [Some(above), Some(below)] = highest else { return None };
+    Some(above.times(&above).minus(&below.times(&below)))
+}
+
+/// A range of the values of a polynomial over a box.
+fn over_box(p: &MultiPoly, sides: &[[Rational; 2]]) -> Enclosure {
+    let sides: Vec<Enclosure> = sides.iter().map(|[low, high]| Enclosure::new(low.clone(), high.clone())).collect();
+    p.terms().iter().fold(Enclosure::from_rational(Rational::ZERO), |sum, (monomial, c)| {
+        let powers = monomial.exponents().iter().zip(&sides);
+        let factors = powers.flat_map(|(&e, side)| std::iter::repeat_n(side, e as usize));
+        let c = Enclosure::from_rational(c.clone().into());
+        sum.add(&factors.fold(c, |product, side| product.mul(side, BITS)), BITS)
+    })
 }
 
 /// Whether all points of a box are stable, or none is.

@@ -35,6 +35,11 @@ pub(super) trait Delays {
     /// Closed ranges of delays: a loop has the margin where it is stable with each of them.
     fn ranges(&self) -> Vec<[Rational; 2]>;
 
+    /// Whether it is seen that no point of a closed box bears any delay at all.
+    fn bears_none(&self, _: &[[Rational; 2]]) -> bool {
+        false
+    }
+
     /// Whether a delay is one that the loop is asked with.
     fn is_delay(&self, delay: &Rational) -> bool;
 
@@ -123,6 +128,9 @@ impl DelayBoxes {
 }
 
 fn look(loops: &impl Delays, sides: &[[Rational; 2]], budget: &Budget) -> Result<OverPoints, Exhausted> {
+    if budget.enter(|| loops.bears_none(sides))? {
+        return Ok(OverPoints::None);
+    }
     let with_one = |delay: &Rational| loops.over(sides, &[delay.clone(), delay.clone()], CELLS[0], budget);
     let tried = loops.tried();
     let greatest = &tried[0];
