@@ -43,6 +43,7 @@ mod loops {
     mod corridor;
     mod dead_time;
     mod dead_time_margins;
+    mod delay_requirements;
     mod delayed_requirements;
     mod drive;
     mod events_oracle;

@@ -72,6 +72,9 @@ pub fn certify_tolerance(
             text => return Ok(CertifiedTolerance { text: text?, factor: None }),
         }
     }
+    for required in &answer.value().required {
+        required.requirement.refuse_uncertified()?;
+    }
     let none = || {
         let (why, help) = match misses_at_nominal(answer.value()) {
             true => (

@@ -26,6 +26,19 @@ fn a_requirement_that_is_no_set_of_factors_is_named() {
     }
 }
 
+/// What is said of points is said of the values of a parameter, of maps and of tolerances.
+#[test]
+fn a_delay_margin_over_values_has_no_certificate() {
+    let line = "K*L/s";
+    let box_of = ["-x", "K=1..2", "-y", "L=1/4..1/2", "--undecided", "0.5"];
+    let tolerances = ["--set", "K=1", "--set", "L=1", "--tol", "K=10%", "--tol", "L=10%"];
+    let (one, map) = (["intervals", line, "--param", "K", "--set", "L=1"], [&["map", line], &box_of[..]].concat());
+    for arguments in [&one[..], &map, &[&["tolerance", line], &tolerances[..]].concat()] {
+        let said = refused(&[arguments, &["--delay-margin", "1"]].concat());
+        assert!(said.contains("no certificate of 'delay_margin >= 1'"), "{arguments:?}: {said}");
+    }
+}
+
 #[test]
 fn a_box_around_a_point_that_misses_a_requirement_is_not_certified_but_the_point_is() {
     let line = "K/(s*(s + 1))";
@@ -34,14 +47,13 @@ fn a_box_around_a_point_that_misses_a_requirement_is_not_certified_but_the_point
     assert!(said.contains("the nominal point itself misses") && said.contains("verdict --certificate"), "{said}");
 }
 
+/// `K L/s` bears `pi/(2 K L)`: a second for all `L` up to 2 as long as `K <= pi/4`.
 #[test]
-fn a_delay_margin_is_not_asked_for_all_values() {
-    let line = "K*(s + L)/(s*(s + 1)*(s + 2))";
-    let run = jurist(&["intervals", line, "--param", "K", "--for-all", "L=1..6", "--delay-margin", "1/10", "-q"]);
-    assert!(
-        run.status == 2 && run.stderr.contains("delay_margin is not decided for all values of other names"),
-        "{}",
-        run.stderr
-    );
-    assert!(!run.stderr.contains("two parameters"), "{}", run.stderr);
+fn a_delay_margin_for_all_values_has_no_certificate() {
+    let file = std::env::temp_dir().join(format!("jurist-for-all-{}.cert", std::process::id()));
+    let arguments = ["intervals", "K*L/s", "--param", "K", "--domain", "K=1/2..1", "--for-all", "L=1..2"];
+    let certificate = ["--delay-margin", "1", "--certificate", file.to_str().expect("a path"), "-q"];
+    let run = jurist(&[&arguments[..], &certificate].concat());
+    assert!(run.status == 2 && run.stdout.contains("0.5 <= K <= 0.785398"), "{} {}", run.stdout, run.stderr);
+    assert!(run.stderr.contains("no certificate of 'delay_margin >= 1'") && !file.exists(), "{}", run.stderr);
 }

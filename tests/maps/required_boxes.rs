@@ -184,15 +184,59 @@ fn a_requirement_that_is_known_by_hand() {
 
 /// A requirement that boxes do not decide is refused in words, not left undecided.
 #[test]
-fn a_delay_margin_is_refused() {
+fn a_damping_of_discrete_loops_is_refused() {
     let model = diagram("discrete", ["K", "L"], "K + L*T/(z - 1)", "1/(0.5*s + 1)", true);
     let problem = keeping(&model, &["K", "L"]).plane_problem().unwrap();
     let side = || Range::between(Some(0.into()), Some(1.into()));
     let request = BoxRequest::new([side(), side()], number("1/10"));
-    let delay = Requirement::delay_margin(number("1/10")).unwrap();
-    let found = problem.required_map_by((MapMethod::Boxes, &request), (&[delay], Some("u")), 6, &Budget::unlimited());
+    let damping = Requirement::damping(number("1/10")).unwrap();
+    let found = problem.required_map_by((MapMethod::Boxes, &request), (&[damping], Some("u")), 6, &Budget::unlimited());
     let Err(Error::Refused(all)) = found else { panic!("a set was found") };
-    assert!(format!("{all}").contains("delay_margin"), "{all}");
+    assert!(format!("{all}").contains("damping"), "{all}");
+}
+
+/// `K L/s` bears `pi/(2 K L)`: as long as 1 below a hyperbola, of which the window from 0 to 2 holds the area `pi/2 (1 + ln(8/pi))`.
+#[test]
+fn a_delay_margin_below_a_hyperbola() {
+    let model = diagram("continuous", ["K", "L"], "K", "L/s", false);
+    let found =
+        boxes(&model, ["K", "L"], [["0", "2"], ["0", "2"]], "1/20", &[Requirement::delay_margin(1.into()).unwrap()]);
+    let areas = &found.value().required.as_ref().unwrap().areas;
+    let half = std::f64::consts::FRAC_PI_2;
+    let exact = half * (1.0 + (4.0 / half).ln());
+    let [met, undecided] = [&areas.met, &areas.undecided].map(Rational::to_f64_approximate);
+    assert!(met <= exact && exact <= met + undecided && undecided <= 0.2, "{met} {exact} {undecided}");
+    for b in required(&found) {
+        let at = |[x, y]: [&Rational; 2]| (x * y).to_f64_approximate() < half;
+        let [low, high] = [0, 1].map(|k| at([&b.window.x[k], &b.window.y[k]]));
+        match b.met {
+            Some(true) => assert!(high, "{b:?}"),
+            Some(false) => assert!(!low, "{b:?}"),
+            None => {}
+        }
+    }
+}
+
+/// The same in whole samples: `z^2 (z - 1) + K L` is stable for `K L < 2 sin(pi/10)`.
+#[test]
+fn two_samples_below_a_hyperbola() {
+    let model = diagram("discrete", ["K", "L"], "K", "L/(z - 1)", false);
+    let found = boxes(
+        &model,
+        ["K", "L"],
+        [["0", "2"], ["0", "2"]],
+        "1/20",
+        &[Requirement::delay_margin(number("0.2")).unwrap()],
+    );
+    let areas = &found.value().required.as_ref().unwrap().areas;
+    let least = 2.0 * (std::f64::consts::PI / 10.0).sin();
+    let exact = least * (1.0 + (4.0 / least).ln());
+    let [met, undecided] = [&areas.met, &areas.undecided].map(Rational::to_f64_approximate);
+    assert!(met <= exact && exact <= met + undecided + 0.2, "{met} {exact} {undecided}");
+    assert!(required(&found).iter().all(|b| {
+        let product = |k: usize| (&b.window.x[k] * &b.window.y[k]).to_f64_approximate();
+        b.met.is_none_or(|met| if met { product(1) < least } else { product(0) > least })
+    }));
 }
 
 /// `L(0)` is -2 whatever the parameters are: with half the gain a root is at 0, so a gain margin of more than 2 is met nowhere.

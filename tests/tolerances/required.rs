@@ -191,14 +191,57 @@ fn an_open_loop_inside_of_the_circle_does_not_have_the_modulus_margin() {
 #[test]
 fn requirements_that_are_no_polynomials_are_refused_with_the_reason() {
     let model = load(SERVO);
-    let delay = requirement(&model, "delay_margin", "1/10");
     let refused_for =
         |request: &ToleranceRequest| model.ask().tolerance(request, &Budget::unlimited()).unwrap_err().to_string();
-    let why = refused_for(&request(&model, &["K"], delay));
-    assert!(why.contains("E-require") && why.contains("delay_margin"), "{why}");
     let phase = || requirement(&model, "phase_margin", "30");
     assert!(refused_for(&request(&model, &["K"], phase()).limit("a")).contains("E-require"));
     refused(&["tolerance", "--tol", "R_a=1%", "--damping", "0.1"], "E-require");
+}
+
+/// `K/s` bears `pi/(2 K)`: at `K = 1` with a tenth more or less a second as long as `1 + f/10 <= pi/2`.
+#[test]
+fn a_delay_margin_by_hand() {
+    let text = |plant: &str, further: &str| {
+        load(&format!(
+            "time = 'continuous'\n[parameters]\nK = {{ nominal = 1, tolerance = '10%' }}\n[loop]\ninputs = ['r']\noutputs = ['y']\n\
+             [[block]]\ninput = 'K*(r - y)'\noutput = 'y'\ntransfer = '{plant}'\n{further}"
+        ))
+    };
+    for (plant, further, least, most) in [
+        ("1/s", "", "1", 5.707_963_267_948_966),
+        // Beside dead time of its own.
+        ("exp(-s/5)/s", "", "4/5", 5.707_963_267_948_966),
+    ] {
+        let model = text(plant, further);
+        let found = asked(&model, &request(&model, &["K"], requirement(&model, "delay_margin", least)));
+        let own = &found.value().required[0];
+        assert!(own.decision.is_stable(), "{own:?}");
+        let factor = own.factor.as_ref().unwrap();
+        let [low, high] = [&factor.lower, factor.upper.as_ref().unwrap()].map(Rational::to_f64_approximate);
+        assert!(low <= most && most <= high && high - low < 1e-2, "{plant}: {low} {high}");
+    }
+}
+
+/// Points of a box that is proved, and the one that bounds it, against the margins themselves.
+#[test]
+fn a_delay_margin_over_boxes_against_points() {
+    let model = load(SERVO);
+    let delay = requirement(&model, "delay_margin", "1");
+    let found = asked(&model, &request(&model, &["K", "a"], delay.clone()));
+    let own = &found.value().required[0];
+    assert!(own.decision.is_stable(), "{own:?}");
+    let factor = own.factor.as_ref().unwrap();
+    let mut random = Random::new(41);
+    for _ in 0..12 {
+        let mut within = |side: &jurist_engine::stability::boxes::Side| {
+            let [low, high] = side.at(&factor.lower);
+            &low + &(&(&high - &low) * &Rational::new((random.below(101) as i64).into(), 100.into()))
+        };
+        let point: Vec<Rational> = found.value().sides.iter().map(&mut within).collect();
+        assert!(is_met(&found, &delay, &point, None), "{point:?}");
+    }
+    let witness = factor.witness.as_ref().expect("a point beyond");
+    assert!(!is_met(&found, &delay, &witness.point, None), "{witness:?}");
 }
 
 #[test]

@@ -62,6 +62,17 @@ fn without_bound() {
     assert!(run.stdout.contains("\nlargest delay_margin: none, the loop is stable with any delay\n"), "{}", run.stdout);
 }
 
+/// From `K = 1` on nothing is borne, as the open loop goes to `K` at high frequencies; below a half any delay is.
+#[test]
+fn of_a_box_of_which_only_a_part_bears_any_delay() {
+    let options = ["K*(s+2)/(s+1)", "--free", "K", "--bound", "K=0.25..2", OBJECTIVE[0], OBJECTIVE[1]];
+    let (status, found) = tune(&options);
+    assert!(status == 0 && found["proved"].is_null(), "{found}");
+    // Without these it is not decided, and ends.
+    let options = ["K*(s+2)/(s+1)", "--free", "K", "--bound", "K=0.6..2", OBJECTIVE[0], OBJECTIVE[1]];
+    assert_eq!(tune(&options).0, 3);
+}
+
 /// `(kp s + ki)/s^2`: with `w^2` the root of `x^2 = kp^2 x + ki^2` the margin is `atan(kp w/ki)/w`, less where `ki` is more.
 #[test]
 fn of_two_gains() {

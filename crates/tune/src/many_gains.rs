@@ -19,6 +19,9 @@ const MOST_PARTS: usize = 1 << 20;
 const FIRST_GAP: (i64, i64) = (1, 2);
 const FINER: (i64, i64) = (1, 8);
 
+/// Dead times as powers of a half: a gain that bears one of them is looked for where the first one bears none.
+const SHORT_DELAYS: [u64; 2] = [10, 30];
+
 /// The best of what is asked over many gains.
 ///
 /// # Errors
@@ -87,7 +90,11 @@ impl Search<'_, '_> {
         let first = self.point.clone();
         self.value = self.target.first_value(&self.parts, &first)?;
         if self.value.is_none() {
-            return Ok(Some(not_found()));
+            // Near to gains that bear none no box is refuted: there is no bracket.
+            if self.finds_some_delay()? {
+                self.improve()?;
+            }
+            return Ok(if self.bears_any_delay()? { None } else { Some(not_found()) });
         }
         self.improve()?;
         if self.bears_any_delay()? {
@@ -108,6 +115,25 @@ impl Search<'_, '_> {
             }
             gap *= share(FINER);
         }
+    }
+
+    /// Looks for a point that bears some delay, where the first one bears none: the modulus of its open loop is one or more at high frequencies. False
+    /// where no point is found.
+    fn finds_some_delay(&mut self) -> Result<bool, Error> {
+        if self.parts.lines.asked.level() != Some(Level::DelayMargin) {
+            return Ok(false);
+        }
+        for bits in SHORT_DELAYS {
+            let short: Value = Rational::dyadic(&1.into(), bits);
+            let beside = self.target.beside(&self.parts, Some(&short))?;
+            let whole = vec![self.parts.all()];
+            if let Sweep::Found(point, _) = self.parts.sweep(whole, self.target.scale(&short), beside.as_ref())? {
+                self.value = self.target.first_value(&self.parts, &point)?;
+                self.point = point;
+                return Ok(self.value.is_some());
+            }
+        }
+        Ok(false)
     }
 
     /// Whether the best point has every delay margin; it is not looked for beside other plants.

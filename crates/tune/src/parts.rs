@@ -159,7 +159,7 @@ impl<'l, 'a> Parts<'l, 'a> {
 
     fn test(&self, problem: &Arc<Problem>, requirement: &Requirement) -> Result<RequirementBoxes, Error> {
         let (at, budget) = (self.lines.at(), self.lines.budget);
-        let test = RequirementBoxes::with_delay_margin(problem, requirement, at, &self.near, budget)?;
+        let test = RequirementBoxes::of(problem, requirement, at, &self.near, budget)?;
         test.ok_or_else(|| not_in_boxes(requirement.name()))
     }
 

@@ -2,7 +2,7 @@
 
 use super::verdict::PointVerdict;
 use crate::error::Error;
-use crate::problem::{BaseDelay, DelayedLoop, Problem, refused};
+use crate::problem::{BaseDelay, DelayedLoop, Free, Problem, refused};
 use crate::stability::dead_time::{
     GainCells, GainLoop, Line, NotCounted, NotSolved, count_delayed_roots, delay_cells, family_cells, gain_cells,
 };
@@ -35,13 +35,17 @@ fn undecided(why: &str) -> Error {
 }
 
 /// The stable set of the free parameter.
-pub(super) fn stable_set(problem: &Problem, delayed: &DelayedLoop, budget: &Budget) -> Result<StableSet, Error> {
-    let set = with_positive_dead_time(problem, delayed, budget)?;
+pub(crate) fn stable_set_with_dead_time(
+    parameter: &Free,
+    delayed: &DelayedLoop,
+    budget: &Budget,
+) -> Result<StableSet, Error> {
+    let set = with_positive_dead_time(parameter, delayed, budget)?;
     // Where the dead time is zero nothing is beside: what holds for small ones need not hold there.
     let BaseDelay::Line { slope, offset } = delayed.delay() else { return Ok(set) };
     let zero = -offset / slope;
     let is_pole = delayed.poles().iter().any(|pole| pole.sign_at(&zero).is_eq());
-    if delayed.is_rational() || is_pole || !problem.parameter().domain.contains(&zero) {
+    if delayed.is_rational() || is_pole || !parameter.domain.contains(&zero) {
         return Ok(set);
     }
     let Some(family) = delayed.family() else { return Ok(set) };
@@ -56,8 +60,8 @@ pub(super) fn stable_set(problem: &Problem, delayed: &DelayedLoop, budget: &Budg
 }
 
 /// The values at which no dead time is zero.
-fn with_positive_dead_time(problem: &Problem, delayed: &DelayedLoop, budget: &Budget) -> Result<StableSet, Error> {
-    let domain = &problem.parameter().domain;
+fn with_positive_dead_time(parameter: &Free, delayed: &DelayedLoop, budget: &Budget) -> Result<StableSet, Error> {
+    let domain = &parameter.domain;
     if delayed.is_rational() {
         return Ok(crate::stability::stable_set(&delayed.polynomial(), domain, Shape::LeftHalfPlane, budget)?);
     }
@@ -75,17 +79,17 @@ fn with_positive_dead_time(problem: &Problem, delayed: &DelayedLoop, budget: &Bu
                 false => upper = Some(upper.map_or(zero.clone(), |upper| upper.min(zero))),
             }
             let domain = Range { lower, upper };
-            anywhere(problem, delayed, &domain, budget)
+            anywhere(&parameter.name, delayed, &domain, budget)
         }
         BaseDelay::Number(_) => match delayed.gain_loop().filter(|_| from_the_axis) {
-            Some(gain) => gains(problem, delayed, &gain, domain, budget),
-            None => anywhere(problem, delayed, domain, budget),
+            Some(gain) => gains(&parameter.name, delayed, &gain, domain, budget),
+            None => anywhere(&parameter.name, delayed, domain, budget),
         },
     }
 }
 
 /// A parameter that enters in more than one way, or the decay rate.
-fn anywhere(problem: &Problem, delayed: &DelayedLoop, domain: &Range, budget: &Budget) -> Result<StableSet, Error> {
+fn anywhere(name: &str, delayed: &DelayedLoop, domain: &Range, budget: &Budget) -> Result<StableSet, Error> {
     let Some(family) = delayed.family().filter(|_| !domain.is_empty()) else {
         return Ok(StableSet::from_intervals(Vec::new(), Vec::new()));
     };
@@ -93,7 +97,6 @@ fn anywhere(problem: &Problem, delayed: &DelayedLoop, domain: &Range, budget: &B
         Ok(Ok(cells)) => Ok(cells.stable_set(&family, delayed.poles(), domain, budget)?),
         Ok(Err(_)) => Ok(StableSet::from_intervals(Vec::new(), Vec::new())),
         Err(NotSolved::Unbounded) => {
-            let name = &problem.parameter().name;
             let message = format!("roots can be on the boundary at frequencies without end in the domain of '{name}'");
             let help = format!(
                 "give the domain both ends, away from where the highest power of s vanishes: --domain {name}=LO..HI"
@@ -150,7 +153,7 @@ fn windows(
 
 /// A parameter at a fixed dead time.
 fn gains(
-    problem: &Problem,
+    name: &str,
     delayed: &DelayedLoop,
     gain: &GainLoop,
     domain: &Range,
@@ -180,14 +183,13 @@ fn gains(
         Err(reason) => reason,
     };
     // What is special about an affine parameter does not help: as any other.
-    match anywhere(problem, delayed, domain, budget) {
+    match anywhere(name, delayed, domain, budget) {
         Err(Error::Refused(_)) => {}
         Err(Error::Stopped(_)) if budget.check().is_ok() => {}
         other => return other,
     }
     match first {
         NotSolved::Unbounded => {
-            let name = &problem.parameter().name;
             let message =
                 format!("'{name}' enters in several terms with different dead times, and its domain has no end");
             Err(refused(message, format!("give the domain both ends: --domain {name}=LO..HI")))

@@ -273,7 +273,9 @@ impl Problem {
             return by(method, budget);
         }
         let ring = self.coefficient_ring(budget)?;
-        let has_exact = Asked::ExactMap.over(ring).is_answered();
+        // The curve of a delay margin is not algebraic.
+        let is_of_boxes = requirements.iter().any(Requirement::is_delay_margin);
+        let has_exact = Asked::ExactMap.over(ring).is_answered() && !is_of_boxes;
         let has_boxes = self.window_over(ring, request, budget).is_ok();
         let is_short = match ring {
             CoefficientRing::Constants => {

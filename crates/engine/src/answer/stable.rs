@@ -120,7 +120,7 @@ impl Problem {
                 };
             }
             if let Some(delayed) = self.delayed(budget)? {
-                let set = super::dead_time::stable_set(self, delayed, budget)?;
+                let set = super::dead_time::stable_set_with_dead_time(self.parameter(), delayed, budget)?;
                 return Ok(Answer::new(Arc::clone(self), set));
             }
             if !self.algebra_over_symbols(budget)?.symbols().is_empty() {

@@ -117,12 +117,18 @@ questions! {
     ToleranceWithDampingDiscrete,
     /// A delay margin at a point.
     VerdictWithDelayMargin,
-    /// A delay margin in one parameter.
+    /// A delay margin in one parameter, continuous time.
     IntervalsWithDelayMargin,
-    /// A delay margin in two parameters.
+    /// The same in discrete time.
+    IntervalsWithDelayMarginDiscrete,
+    /// A delay margin in two parameters, continuous time.
     MapWithDelayMargin,
-    /// A delay margin over a box.
+    /// The same in discrete time.
+    MapWithDelayMarginDiscrete,
+    /// A delay margin over a box, continuous time.
     ToleranceWithDelayMargin,
+    /// The same in discrete time.
+    ToleranceWithDelayMarginDiscrete,
     /// Boxes of two parameters with requirements.
     BoxMapWithRequirements,
     /// Slices with requirements.
@@ -184,22 +190,31 @@ impl Asked {
     /// assert_eq!(Asked::Map.with_requirement(&damping, Time::Discrete), Asked::MapWithDampingDiscrete);
     /// ```
     pub fn with_requirement(self, requirement: &Requirement, time: Time) -> Asked {
-        let of = |[margins, damping, discrete, delay]: [Asked; 4]| match requirement.rule() {
-            Rule::DeadTime(_) => delay,
-            Rule::Sector(_) | Rule::Modulus { .. } if time == Time::Discrete => discrete,
-            Rule::Sector(_) | Rule::Modulus { .. } => damping,
+        let is_discrete = time == Time::Discrete;
+        // In continuous time, and in discrete time.
+        let of = |margins: Asked, damping: [Asked; 2], delay: [Asked; 2]| match requirement.rule() {
+            Rule::DeadTime(_) => delay[usize::from(is_discrete)],
+            Rule::Sector(_) | Rule::Modulus { .. } => damping[usize::from(is_discrete)],
             Rule::Factors(_) | Rule::Turned { .. } | Rule::Circle(_) => margins,
         };
         use Asked::*;
         match self {
-            Verdict => of([VerdictWithMargins, VerdictWithDamping, VerdictWithDamping, VerdictWithDelayMargin]),
-            Intervals => {
-                of([IntervalsWithMargins, IntervalsWithDamping, IntervalsWithDamping, IntervalsWithDelayMargin])
-            }
-            Map => of([MapWithMargins, MapWithDamping, MapWithDampingDiscrete, MapWithDelayMargin]),
-            Tolerance => {
-                of([ToleranceWithMargins, ToleranceWithDamping, ToleranceWithDampingDiscrete, ToleranceWithDelayMargin])
-            }
+            Verdict => of(VerdictWithMargins, [VerdictWithDamping; 2], [VerdictWithDelayMargin; 2]),
+            Intervals => of(
+                IntervalsWithMargins,
+                [IntervalsWithDamping; 2],
+                [IntervalsWithDelayMargin, IntervalsWithDelayMarginDiscrete],
+            ),
+            Map => of(
+                MapWithMargins,
+                [MapWithDamping, MapWithDampingDiscrete],
+                [MapWithDelayMargin, MapWithDelayMarginDiscrete],
+            ),
+            Tolerance => of(
+                ToleranceWithMargins,
+                [ToleranceWithDamping, ToleranceWithDampingDiscrete],
+                [ToleranceWithDelayMargin, ToleranceWithDelayMarginDiscrete],
+            ),
             other => other,
         }
     }

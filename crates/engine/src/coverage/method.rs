@@ -132,6 +132,30 @@ pub(super) static DELAYED_REQUIRED: Method = Method::new(
      whether the requirement allows it there.",
     "answer::MapBoxes",
 );
+pub(super) static BORNE: Method = Method::new(
+    "crossings with all of the dead time",
+    "A delay margin begins or ceases to be met where the loop with the whole dead time has a root on the axis, or where the modulus of the open loop touches \
+     one, at some frequency or in the limit of high ones. Between two such values a first crossing is compared with the dead time.",
+    "problem::Problem::required_set",
+);
+pub(super) static BORNE_SAMPLES: Method = Method::new(
+    "the loop with one sample more, with two, and so on",
+    "Each number of whole samples makes a loop, whose stable set is found as any other; all of them have to be stable. Dead time at the input of the only plant \
+     behind a hold is one parameter more of boxes, from one sample to the next.",
+    "problem::Problem::required_set",
+);
+pub(super) static BORNE_BOXES: Method = Method::new(
+    "boxes with the delay as one parameter more",
+    "A box meets a delay margin where the loop is stable with all less delay, which is one parameter more. It does not where one delay is found with \
+     which none of its points is stable. Others are halved.",
+    "answer::MapBoxes",
+);
+pub(super) static BORNE_TENSOR: Method = Method::new(
+    "tolerances with the delay as one side more",
+    "The loop with a delay at the cut is asked over the box with one side more, which holds all delays up to the one that is required. A point that is not \
+     stable with one of them is confirmed by its first crossing.",
+    "stability::boxes::ToleranceProblem",
+);
 pub(super) static POLYNOMIAL: Method = Method::new(
     "characteristic polynomial",
     "The determinant of the closed loop by the multimodular Hessenberg form; constants and functions that are not rational are further variables.",

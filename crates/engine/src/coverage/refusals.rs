@@ -162,14 +162,32 @@ pub(crate) static MARGINS_IN_ONE: Refusal = Refusal::new(
     "of this loop requirements on margins are decided in one parameter only",
     "ask 'intervals' for one of the parameters, or 'margins' with a value for each",
 );
-pub(crate) static DELAY_AT_POINTS: Refusal =
-    Refusal::new(Code::Require, "a delay margin is decided at points only, not as a set of a parameter", AT_A_POINT);
+pub(crate) static DELAY_BESIDE: Refusal = Refusal::new(
+    Code::Require,
+    "a delay margin of a continuous loop with functions that are not rational is decided at points only",
+    "write the values of exp, sqrt, sin, cos, tan and pi as numbers, or ask 'verdict' with a value for every parameter",
+);
+pub(crate) static DELAY_OF_NUMBERS: Refusal = Refusal::new(
+    Code::Require,
+    "a delay margin of a discrete loop is decided over values of names that are not in its sample time, or in the dead time behind its hold",
+    AT_A_POINT,
+);
+pub(crate) static NO_SAMPLE_TIME: Refusal = Refusal::new(
+    Code::Require,
+    "a delay margin of a discrete loop needs its sample time",
+    "give the model a 'sample_time': the margin is in its unit",
+);
+pub(crate) static MANY_SAMPLES: Refusal = Refusal::new(
+    Code::Require,
+    "a delay margin of more than {most} samples of this loop is decided at points only",
+    AT_A_POINT,
+);
 pub(crate) static NOT_IN_A_PLANE: Refusal =
     Refusal::new(Code::Require, "the requirement {name} is not decided for two parameters", "{help}");
 pub(crate) static NOT_FOR_ALL: Refusal = Refusal::new(
     Code::Require,
     "the requirement {name} is not decided for all values of other names",
-    "ask 'verdict' with a value for every parameter; phase, gain, modulus and disk margins and the peak of T are decided for all values",
+    "ask 'verdict' with a value for every parameter; phase, gain, modulus, disk and delay margins and the peak of T are decided for all values",
 );
 pub(crate) static NOT_OVER_A_BOX: Refusal =
     Refusal::new(Code::Require, "the requirement {name} is not decided over a box of tolerances", "{help}");

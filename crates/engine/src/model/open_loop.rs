@@ -93,8 +93,8 @@ impl OnlyHold {
 pub(crate) enum MoreDeadTime {
     /// So much.
     Samples(Rational),
-    /// A variable, near this number.
-    Near(Rational),
+    /// A variable; near these values of the kept names and of itself.
+    Near(Vec<Rational>),
 }
 
 impl Model {
@@ -288,12 +288,17 @@ impl Model {
         Err(Diagnostics::new(Some(self.source().clone()), vec![error]).into())
     }
 
-    /// The only block behind a hold or a modulator, if it has one input: what its dead time in samples is.
+    /// The only block behind a hold or a modulator, if it has one input: what its dead time in samples is. `None` also where that depends on a kept name.
     ///
     /// # Errors
     /// As [`Model::evaluate`].
-    pub(crate) fn only_hold(&self, values: &[(String, Rational)], budget: &Budget) -> Result<Option<OnlyHold>, Error> {
-        let answer = self.answer(&[], values, budget)?;
+    pub(crate) fn only_hold(
+        &self,
+        kept: &[String],
+        values: &[(String, Rational)],
+        budget: &Budget,
+    ) -> Result<Option<OnlyHold>, Error> {
+        let answer = self.answer(kept, values, budget)?;
         let Values::Blocks { blocks, .. } = &answer.values else { return Ok(None) };
         let mut holds = blocks.iter().filter_map(|b| match &b.discretization {
             Some(DiscretizationValues::Hold(hold)) => Some((b, hold)),
@@ -311,7 +316,7 @@ impl Model {
         Ok(Some(OnlyHold { block: block.name.clone(), period, places }))
     }
 
-    /// The closed loop with more dead time at the only hold: a number of samples, or one that is the only variable before the symbols.
+    /// The closed loop with more dead time at the only hold: a number of samples, or the variable behind those of the kept names.
     ///
     /// # Errors
     /// As [`Model::evaluate`].
@@ -321,22 +326,23 @@ impl Model {
     pub(crate) fn with_dead_time(
         &self,
         more: &MoreDeadTime,
+        free: &[String],
         values: &[(String, Rational)],
         budget: &Budget,
     ) -> Result<(ClosedLoop, Symbols), Error> {
-        let kept = match more {
-            MoreDeadTime::Samples(_) => Vec::new(),
-            MoreDeadTime::Near(_) => vec!["more samples".to_owned()],
-        };
+        let mut kept = free.to_vec();
+        if let MoreDeadTime::Near(_) = more {
+            kept.push("more samples".to_owned());
+        }
         let mut answer = self.answer(&kept, values, budget)?;
         // One more variable of the values, whose image is the number or the variable that is free.
         let variable = RationalFunction::variable(answer.images.len());
         answer.images.push(match more {
             MoreDeadTime::Samples(samples) => samples.clone().into(),
-            MoreDeadTime::Near(_) => RationalFunction::variable(0),
+            MoreDeadTime::Near(_) => RationalFunction::variable(free.len()),
         });
         if let MoreDeadTime::Near(near) = more {
-            answer.symbols = RefCell::new(answer.symbols.into_inner().near(std::slice::from_ref(near)));
+            answer.symbols = RefCell::new(answer.symbols.into_inner().near(near));
         }
         let Values::Blocks { blocks, .. } = &mut answer.values else { return Err(self.has_no_states()) };
         for block in blocks {

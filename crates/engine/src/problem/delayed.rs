@@ -9,7 +9,7 @@ use crate::stability::ParametricPolynomial;
 use crate::stability::dead_time::{FamilyLoop, GainLoop, Line, QuasiPolynomial};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction, UniPoly};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
 
 /// The characteristic function `sum P_k(s) z^k`, `z = exp(-tau s)`, of a loop with dead times that are multiples of one.
 #[derive(Clone, Debug, PartialEq)]
@@ -91,16 +91,34 @@ impl DelayedLoop {
             let pole = |p: &MultiPoly| p.to_univariate(0).filter(|p| !p.is_constant());
             let mut poles: Vec<UniPoly> = polynomial.poles.iter().filter_map(pole).collect();
             poles.extend(pole(&common));
-            let content = parts.iter().flatten().fold(UniPoly::zero(), |g, p| g.gcd(p));
-            if !content.is_constant() {
-                // The function vanishes identically there.
-                for p in parts.iter_mut().flatten() {
-                    *p = p.div_exact(&content).expect("the content divides");
-                }
-                poles.push(content);
-            }
-            Ok(Some(DelayedLoop { parts, delay, decay, poles }))
+            Ok(Some(DelayedLoop { parts, delay, decay, poles }.without_content()))
         })?
+    }
+
+    /// `D0 + N exp(-tau s)` in one parameter, at a dead time that is not zero, and what must not vanish; `None` where the dead time is no straight line in
+    /// the parameter.
+    pub(crate) fn of_factor(
+        [denominator, numerator]: [&Poly<UniPoly>; 2],
+        tau: &RationalFunction,
+        undefined: &UniPoly,
+    ) -> Option<DelayedLoop> {
+        let (delay, _) = base_delay(&[(0, tau.clone())]).ok()?;
+        let order = denominator.coeffs().len().max(numerator.coeffs().len());
+        let parts = [denominator, numerator].map(|p| (0..order).map(|j| p.coeff(j)).collect()).into();
+        let decay = Line::constant(Rational::ZERO);
+        Some(DelayedLoop { parts, delay, decay, poles: vec![undefined.clone()] }.without_content())
+    }
+
+    /// Where a common factor of all coefficients vanishes the function does so identically.
+    fn without_content(mut self) -> DelayedLoop {
+        let content = self.parts.iter().flatten().fold(UniPoly::zero(), |g, p| g.gcd(p));
+        if !content.is_constant() {
+            for p in self.parts.iter_mut().flatten() {
+                *p = p.div_exact(&content).expect("the content divides");
+            }
+            self.poles.push(content);
+        }
+        self
     }
 
     /// The dead time of which the others are multiples.

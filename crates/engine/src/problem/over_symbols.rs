@@ -36,15 +36,23 @@ impl Problem {
     /// The same from algebra that is known.
     pub(super) fn symbolic_of(&self, algebra: &Algebra) -> Result<Option<SymbolicPolynomial>, Error> {
         let Some(polynomial) = algebra.polynomial() else { return Ok(None) };
-        let (symbols, free) = (algebra.symbols(), self.free().len());
+        self.symbolic_polynomial(polynomial, algebra.symbols()).map(Some)
+    }
+
+    /// The same from a polynomial in the free parameter, if there is one, and symbols.
+    pub(crate) fn symbolic_polynomial(
+        &self,
+        polynomial: &CharacteristicPolynomial,
+        symbols: &model::Symbols,
+    ) -> Result<SymbolicPolynomial, Error> {
         let found = match symbols.is_moving() {
-            false => SymbolicPolynomial::new(polynomial, free, &Arc::new(fixed_symbols(symbols)?)),
+            false => SymbolicPolynomial::new(polynomial, self.free().len(), &Arc::new(fixed_symbols(symbols)?)),
             true => SymbolicPolynomial::with_moving(polynomial, &Arc::new(moving_symbols(symbols)?)),
         };
-        Ok(Some(match self.free().first().and_then(|free| free.nominal.clone()) {
+        Ok(match self.free().first().and_then(|free| free.nominal.clone()) {
             Some(usual) => found.with_usual_value(usual),
             None => found,
-        }))
+        })
     }
 }
 

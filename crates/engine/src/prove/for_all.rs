@@ -125,10 +125,7 @@ impl Problem {
         at: Option<&str>,
         budget: &Budget,
     ) -> Result<Value, Error> {
-        let refused = || Err(REQUIREMENT_NOT_CERTIFIED.diagnostic(&[("asked", &requirement.text())]).into());
-        if requirement.signals().is_some() {
-            return refused();
-        }
+        requirement.refuse_uncertified()?;
         let mut bound = match requirement.rule() {
             Rule::Factors(factor) => vec![("bound", number(&above(factor)))],
             Rule::Turned { twice_cosine } => {
@@ -144,13 +141,15 @@ impl Problem {
                 return Err(WIDE_DISK.diagnostic(&[("asked", &requirement.text())]).into());
             }
             Rule::Circle(circle) => vec![("bound", number(circle.asked()))],
-            Rule::DeadTime(_) | Rule::Sector(_) | Rule::Modulus { .. } => return refused(),
+            Rule::DeadTime(_) | Rule::Sector(_) | Rule::Modulus { .. } => unreachable!("it is refused"),
         };
         let cut = match self.model().cut(at)? {
             Cut::Signal(name) => object([("signal", name.into())]),
             Cut::Input(name) => object([("input", name.into())]),
             Cut::Gain(name) => object([("parameter", name.into())]),
-            Cut::PlantInput | Cut::Between(_) => return refused(),
+            Cut::PlantInput | Cut::Between(_) => {
+                return Err(REQUIREMENT_NOT_CERTIFIED.diagnostic(&[("asked", &requirement.text())]).into());
+            }
         };
         let mut all = vec![("kind", requirement.name().into()), ("at", cut)];
         all.append(&mut bound);

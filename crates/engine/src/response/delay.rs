@@ -90,7 +90,7 @@ fn is_above_at_highest<G: Ground>(parts: &Parts<G>, crossings: &Crossings, budge
 }
 
 /// `z^m D0 + N`.
-fn delayed<G: Ground>(parts: &Parts<G>, m: u64) -> ComplexPoly<G::Number> {
+pub(super) fn delayed<G: Ground>(parts: &Parts<G>, m: u64) -> ComplexPoly<G::Number> {
     parts.denominator.shifted_up(m as usize).plus(&parts.numerator)
 }
 

@@ -1,77 +1,115 @@
-//! The delay margin over boxes: the loop with dead time at the cut, which is one parameter more.
+//! The delay margin over boxes: the loop with a delay at the cut, which is one parameter more.
 //!
-//! A loop has a delay margin of a time at least where it is stable with all less dead time at the cut. So a box is refuted by one dead time with which
+//! A loop has a delay margin of a time at least where it is stable with all less delay at the cut. So a box is refuted by one delay with which
 //! no point of it is stable.
 
-use super::opened::OpenedLoop;
+use super::continuous_delay::ContinuousDelay;
 use super::requirement_boxes::OverPoints;
-use super::same_count::same_count;
+use super::sampled_delay::SampledDelay;
 use crate::error::Error;
 use crate::model::Cut;
-use crate::problem::{OverDeadTime, Problem};
-use crate::stability::boxes::{DelayedFunction, Family, corners};
-use crate::stability::{AtPoint, Shape};
+use crate::problem::Problem;
+use crate::stability::Shape;
+use crate::stability::boxes::{BoxPolynomial, DelayedFunction, MovingPolynomial};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::{MultiPoly, RationalFunction};
+use std::sync::Arc;
 
-/// Shares of the greatest dead time with which a loop may be unstable, from the longest to the shortest.
-const SHARES: [(i64, i64); 12] =
-    [(1, 1), (7, 8), (3, 4), (5, 8), (1, 2), (3, 8), (1, 4), (1, 8), (1, 16), (1, 32), (1, 64), (1, 128)];
-
-/// A dead time with which a loop is unstable is made longer so much.
+/// A delay with which a loop is unstable is made longer so much.
 const LONGER: [(i64, i64); 4] = [(3, 2), (1, 1), (2, 1), (3, 1)];
 
-/// The dead times from zero to the greatest are not cut into more parts.
+/// The delays from zero to the greatest are not cut into more parts of a large box.
 const MOST_PARTS: usize = 12;
 
-/// Cells of frequency and parameters after which a box is rather halved: with one dead time, and with a range of them.
+/// So many parts, and cells of each, more for each halving of a small box: it is near to where a loop with one of the delays is not stable.
+const MORE_PARTS: usize = 2;
+
+/// Cells of frequency and parameters after which a box is rather halved: with one delay, and with a range of them.
 const CELLS: [usize; 2] = [64, 12];
 
-/// So many corners of a box are looked at before a proof is tried.
-const MOST_CORNERS: usize = 8;
+/// Loops with a delay at the cut.
+pub(super) trait Delays {
+    /// Delays with which a loop may be unstable, from the greatest to the least; there is one at least.
+    fn tried(&self) -> Vec<Rational>;
+
+    /// Closed ranges of delays: a loop has the margin where it is stable with each of them.
+    fn ranges(&self) -> Vec<[Rational; 2]>;
+
+    /// Whether it is seen that no point of a closed box bears any delay at all.
+    fn bears_none(&self, _: &[[Rational; 2]]) -> bool {
+        false
+    }
+
+    /// Whether a delay is one that the loop is asked with.
+    fn is_delay(&self, delay: &Rational) -> bool;
+
+    /// Whether a point is stable with a delay, as far as that is seen; that it is not is certain.
+    ///
+    /// # Errors
+    /// When the budget runs out.
+    fn at(&self, point: &[Rational], delay: &Rational, budget: &Budget) -> Result<Option<bool>, Exhausted>;
+
+    /// Whether all points of a closed box are stable with all delays of a range, or none is with any.
+    ///
+    /// # Errors
+    /// When the budget runs out.
+    fn over(
+        &self,
+        sides: &[[Rational; 2]],
+        delays: &[Rational; 2],
+        cells: usize,
+        budget: &Budget,
+    ) -> Result<OverPoints, Exhausted>;
+}
 
 /// A least delay margin over boxes.
-pub(super) struct DelayBoxes {
-    open: OverDeadTime,
-    near: Vec<Rational>,
-    /// The loop in its parameters, the dead time at the cut being the last one.
-    with_any: DelayedFunction,
-    /// The loop with all of the dead time.
-    with_all: DelayedFunction,
-    least: Rational,
+pub(crate) enum DelayBoxes {
+    Continuous(Box<ContinuousDelay>),
+    Sampled(Box<SampledDelay>),
+    /// No loop has it.
+    Never,
+}
+
+/// A family whose stability is asked, in the parameters and, where a range is given, the delay.
+pub(crate) struct DelayFamily<'a> {
+    pub loops: DelayedLoops<'a>,
+    pub delays: Option<[Rational; 2]>,
+}
+
+pub(crate) enum DelayedLoops<'a> {
+    Delayed(&'a DelayedFunction),
+    /// With constants, each of which is a parameter more in this range.
+    Polynomial(&'a BoxPolynomial, &'a [[Rational; 2]]),
+    Moving(&'a MovingPolynomial),
 }
 
 impl DelayBoxes {
-    /// `None` in discrete time, beside functions other than dead times, and for a loop that vanishes identically.
+    /// `None` for a loop that vanishes identically.
     ///
     /// # Errors
-    /// As [`OpenedLoop::of`] and [`OpenedLoop::quotient`].
+    /// As [`OpenedLoop::of`](super::opened::OpenedLoop::of); `E-require` for loops of which boxes are not known.
     pub fn of(
-        problem: &Problem,
+        problem: &Arc<Problem>,
         least: &Rational,
         cut: Cut,
         near: &[Rational],
         budget: &Budget,
     ) -> Result<Option<DelayBoxes>, Error> {
         if problem.shape() == Shape::UnitDisc {
-            return Ok(None);
+            let sampled = SampledDelay::of(problem, least, cut, near, budget)?;
+            return Ok(Some(sampled.map_or(DelayBoxes::Never, |one| DelayBoxes::Sampled(Box::new(one)))));
         }
-        let opened = OpenedLoop::of(problem, cut, budget)?;
-        let delays = opened.symbols.delays();
-        if opened.symbols.iter().count() > delays.len() {
-            return Ok(None);
+        let continuous = ContinuousDelay::of(problem, least, cut, near, budget)?;
+        Ok(continuous.map(|one| DelayBoxes::Continuous(Box::new(one))))
+    }
+
+    /// The families of which each is stable over a box where all its points have the margin; `None` where no loop has it.
+    pub fn families(&self) -> Option<Vec<DelayFamily<'_>>> {
+        match self {
+            DelayBoxes::Continuous(one) => Some(vec![one.family()]),
+            DelayBoxes::Sampled(one) => Some(one.families()),
+            DelayBoxes::Never => None,
         }
-        let (quotient, undefined) = opened.quotient(MultiPoly::clone, budget)?;
-        let (denominator, numerator) = (quotient.denominator, quotient.numerator);
-        let open = OverDeadTime { denominator, numerator, undefined, delays, parameters: near.len() };
-        let usual: Vec<Rational> = near.iter().chain([least]).cloned().collect();
-        let families = budget.enter(|| -> Result<_, Error> {
-            let with_any = open.closed(&RationalFunction::variable(near.len()), &usual)?;
-            Ok((with_any, open.closed(&least.clone().into(), near)?))
-        })??;
-        let (Some(with_any), Some(with_all)) = families else { return Ok(None) };
-        Ok(Some(DelayBoxes { open, near: near.to_vec(), with_any, with_all, least: least.clone() }))
     }
 
     /// Whether all stable points of a closed box have the delay margin, or no point has it.
@@ -81,106 +119,118 @@ impl DelayBoxes {
     /// # Errors
     /// When the budget runs out.
     pub fn look(&self, sides: &[[Rational; 2]], budget: &Budget) -> Result<OverPoints, Exhausted> {
-        let with_all = with(&self.with_all, sides, CELLS[0], budget)?;
-        if with_all == OverPoints::None {
+        match self {
+            DelayBoxes::Continuous(one) => look(one.as_ref(), sides, budget),
+            DelayBoxes::Sampled(one) => look(one.as_ref(), sides, budget),
+            DelayBoxes::Never => Ok(OverPoints::None),
+        }
+    }
+}
+
+fn look(loops: &impl Delays, sides: &[[Rational; 2]], budget: &Budget) -> Result<OverPoints, Exhausted> {
+    if budget.enter(|| loops.bears_none(sides))? {
+        return Ok(OverPoints::None);
+    }
+    let with_one = |delay: &Rational| loops.over(sides, &[delay.clone(), delay.clone()], CELLS[0], budget);
+    let tried = loops.tried();
+    let greatest = &tried[0];
+    let with_all = with_one(greatest)?;
+    if with_all == OverPoints::None {
+        return Ok(OverPoints::None);
+    }
+    let middle: Vec<Rational> = sides.iter().map(|[low, high]| low.midpoint(high)).collect();
+    let lost = without_stability(loops, &tried, &middle, budget)?;
+    for delay in lost.iter().filter(|delay| *delay != greatest) {
+        if with_one(delay)? == OverPoints::None {
             return Ok(OverPoints::None);
         }
-        let middle: Vec<Rational> = sides.iter().map(|[low, high]| low.midpoint(high)).collect();
-        let times = self.times_without_stability(&middle, budget)?;
-        for time in times.iter().filter(|time| **time != self.least) {
-            let family = budget.enter(|| self.open.closed(&time.clone().into(), &self.near))?;
-            if let Ok(Some(family)) = family
-                && with(&family, sides, CELLS[0], budget)? == OverPoints::None
-            {
-                return Ok(OverPoints::None);
-            }
-        }
-        if !times.is_empty() {
-            return Ok(OverPoints::Open { middle: Some(false) });
-        }
-        if with_all == OverPoints::All && self.is_stable_with_less(sides, budget)? {
-            return Ok(OverPoints::All);
-        }
-        Ok(OverPoints::Open { middle: None })
     }
-
-    /// Dead times up to the greatest with which a point is not stable: one that is near to the least such one, and longer ones. With a longer one further
-    /// roots may cross somewhere in a box, with a shorter one the first root may.
-    fn times_without_stability(&self, point: &[Rational], budget: &Budget) -> Result<Vec<Rational>, Exhausted> {
-        let share = |(above, below): (i64, i64)| Rational::new(above.into(), below.into());
-        let is_lost = |time: &Rational| budget.enter(|| self.is_stable(point, time) == Some(false));
-        let mut shortest = None;
-        for part in SHARES {
-            let time = &self.least * &share(part);
-            match (is_lost(&time)?, &shortest) {
-                (true, _) => shortest = Some(time),
-                (false, Some(_)) => break,
-                (false, None) => {}
-            }
-        }
-        let Some(shortest) = shortest else { return Ok(Vec::new()) };
-        let mut out = Vec::new();
-        for part in LONGER {
-            let time = &shortest * &share(part);
-            if time <= self.least && is_lost(&time)? {
-                out.push(time);
-            }
-        }
-        Ok(out)
+    if !lost.is_empty() {
+        return Ok(OverPoints::Open { middle: Some(false) });
     }
-
-    /// Whether all points are stable with all dead times from zero to the greatest; `false` where that is not seen.
-    fn is_stable_with_less(&self, sides: &[[Rational; 2]], budget: &Budget) -> Result<bool, Exhausted> {
-        let mut open = vec![[Rational::ZERO, self.least.clone()]];
-        let mut looked = 0;
-        while let Some(times) = open.pop() {
-            looked += 1;
-            let all: Vec<[Rational; 2]> = sides.iter().cloned().chain([times.clone()]).collect();
-            match with(&self.with_any, &all, CELLS[1], budget)? {
-                OverPoints::All => {}
-                OverPoints::Open { .. } if looked < MOST_PARTS => {
-                    let [low, high] = times;
-                    let middle = low.midpoint(&high);
-                    open.extend([[low, middle.clone()], [middle, high]]);
-                }
-                _ => return Ok(false),
-            }
-        }
-        Ok(true)
-    }
-
-    fn is_stable(&self, point: &[Rational], time: &Rational) -> Option<bool> {
-        let point: Vec<Rational> = point.iter().chain([time]).cloned().collect();
-        told(&self.with_any, &point)
-    }
-}
-
-/// Whether all points of a box are stable, or none is.
-fn with(
-    family: &DelayedFunction,
-    sides: &[[Rational; 2]],
-    cells: usize,
-    budget: &Budget,
-) -> Result<OverPoints, Exhausted> {
-    let right = |point: &[Rational]| match family.count(point) {
-        Some(AtPoint::Delayed { on: 0, right }) => right,
-        _ => None,
-    };
-    let is_same = || {
-        let middle: Vec<Rational> = sides.iter().map(|[low, high]| low.midpoint(high)).collect();
-        right(&middle).is_some_and(|own| corners(sides).take(MOST_CORNERS).all(|corner| right(&corner) == Some(own)))
-    };
-    // Further roots cross where a loop is not stable: a proof that they do not takes long to fail.
-    if !budget.enter(is_same)? {
+    if with_all != OverPoints::All {
         return Ok(OverPoints::Open { middle: None });
     }
-    same_count(family, sides, (cells, budget), |point| budget.enter(|| told(family, point)))
+    for delays in loops.ranges() {
+        if !is_stable_with(loops, sides, delays, budget)? {
+            return Ok(OverPoints::Open { middle: None });
+        }
+    }
+    Ok(OverPoints::All)
 }
 
-/// Whether a point is stable; `None` where one walk along the imaginary axis does not tell.
-fn told(family: &DelayedFunction, point: &[Rational]) -> Option<bool> {
-    match family.count(point) {
-        Some(AtPoint::Delayed { on: 0, right: Some(right) }) => Some(right == 0),
-        _ => None,
+/// Delays with which a point is not stable: one that is near to the least such one, and longer ones. With a longer one further
+/// roots may cross somewhere in a box, with a shorter one the first root may.
+fn without_stability(
+    loops: &impl Delays,
+    tried: &[Rational],
+    point: &[Rational],
+    budget: &Budget,
+) -> Result<Vec<Rational>, Exhausted> {
+    let is_lost = |delay: &Rational| Ok::<bool, Exhausted>(loops.at(point, delay, budget)? == Some(false));
+    let mut shortest = None;
+    for delay in tried {
+        match (is_lost(delay)?, &shortest) {
+            (true, _) => shortest = Some(delay),
+            (false, Some(_)) => break,
+            (false, None) => {}
+        }
     }
+    let Some(shortest) = shortest else { return Ok(Vec::new()) };
+    let mut out = Vec::new();
+    for (above, below) in LONGER {
+        let delay = shortest * &Rational::new(above.into(), below.into());
+        if delay <= tried[0] && loops.is_delay(&delay) && is_lost(&delay)? {
+            out.push(delay);
+        }
+    }
+    Ok(out)
+}
+
+/// Whether all points are stable with all delays of a range; `false` where that is not seen.
+fn is_stable_with(
+    loops: &impl Delays,
+    sides: &[[Rational; 2]],
+    delays: [Rational; 2],
+    budget: &Budget,
+) -> Result<bool, Exhausted> {
+    let more = MORE_PARTS * halvings(sides);
+    let mut open = vec![delays];
+    let mut looked = 0;
+    while let Some(delays) = open.pop() {
+        looked += 1;
+        match loops.over(sides, &delays, CELLS[1] + more, budget)? {
+            OverPoints::All => {}
+            OverPoints::Open { .. } if looked < MOST_PARTS + more && delays[0] < delays[1] => {
+                let [low, high] = delays;
+                let middle = low.midpoint(&high);
+                open.extend([[low, middle.clone()], [middle, high]]);
+            }
+            _ => return Ok(false),
+        }
+    }
+    Ok(true)
+}
+
+/// How often a box was about halved along each of its sides, by how much farther from zero than long they are.
+fn halvings(sides: &[[Rational; 2]]) -> usize {
+    let of = |[low, high]: &[Rational; 2]| match (high - low).checked_div(&low.abs().max(high.abs())) {
+        Some(share) if share.sign().is_gt() => {
+            share.denominator().bit_length().saturating_sub(share.numerator().bit_length()) as usize
+        }
+        _ => MOST_HALVINGS,
+    };
+    sides.iter().map(of).min().unwrap_or(0).min(MOST_HALVINGS)
+}
+
+/// A box that was halved oftener is a point.
+const MOST_HALVINGS: usize = 48;
+
+/// Shares of the greatest delay with which a loop may be unstable, from the longest to the shortest.
+const SHARES: [(i64, i64); 12] =
+    [(1, 1), (7, 8), (3, 4), (5, 8), (1, 2), (3, 8), (1, 4), (1, 8), (1, 16), (1, 32), (1, 64), (1, 128)];
+
+/// Delays up to the greatest that may be any number.
+pub(super) fn shares_of(greatest: &Rational) -> Vec<Rational> {
+    SHARES.iter().map(|&(above, below)| greatest * &Rational::new(above.into(), below.into())).collect()
 }

@@ -1,11 +1,11 @@
-//! For which values of one parameter a loop with dead time meets requirements on margins.
+//! For which values of one parameter a loop meets requirements on margins that are asked of boxes: with dead time, and on a delay margin.
 
 use super::cells::{beyond, inside_of, outward, parts_beside, required_parts};
 use super::over_symbols::{left_open, where_changed};
+use super::required_set::not_decided;
 use super::requirement::{Requirement, Rule};
 use super::requirement_boxes::{OverPoints, RequirementBoxes};
 use super::{RequiredEnd, RequiredSet};
-use crate::coverage::refusals::DELAY_AT_POINTS;
 use crate::error::Error;
 use crate::problem::Problem;
 use crate::stability::subdivision::{BoxPart, Look, Octaves, Order, Tally, subdivide};
@@ -44,23 +44,20 @@ struct DelayedSet<'a> {
 }
 
 impl Problem {
-    /// The parts of the stable set in which requirements on margins are met, of a loop with dead time: short intervals are decided as a whole, and
+    /// The parts of the stable set in which requirements on margins are met: short intervals are decided as a whole, and
     /// what is left has one end each, or stays open.
-    pub(super) fn required_with_dead_time(
+    pub(super) fn required_in_boxes(
         self: &Arc<Self>,
         requirements: &[Requirement],
         stable: &StableSet,
         at: Option<&str>,
         budget: &Budget,
     ) -> Result<RequiredSet, Error> {
-        if requirements.iter().any(|r| matches!(r.rule(), Rule::DeadTime(_))) {
-            return Err(DELAY_AT_POINTS.diagnostic(&[]).into());
-        }
         let parameter = &self.free()[0];
         let first = stable.intervals().first().map(|interval| interval.bare().sample(budget)).transpose()?;
         let near = parameter.nominal.clone().or(first).unwrap_or(Rational::ONE);
         let of = |r: &Requirement| {
-            Ok(RequirementBoxes::of(self, r, at, std::slice::from_ref(&near), budget)?.expect("asked of boxes"))
+            RequirementBoxes::of(self, r, at, std::slice::from_ref(&near), budget)?.ok_or_else(|| not_decided(r))
         };
         let boxes = requirements.iter().map(of).collect::<Result<Vec<_>, Error>>()?;
         let set = DelayedSet { problem: self, requirements, at, boxes, budget };
@@ -219,9 +216,7 @@ impl DelayedSet<'_> {
                 OverPoints::Open { .. } => {
                     let name = self.problem.free()[0].name.clone();
                     let question = self.problem.model().ask().set_all(self.problem.set().to_vec());
-                    let problem = question.set(name, value.clone()).problem()?;
-                    let met = problem.requirements_met(std::slice::from_ref(requirement), self.at, self.budget)?;
-                    met.iter().all(|found| found.met)
+                    question.set(name, value.clone()).problem()?.meets(requirement, self.at, self.budget)?
                 }
             };
             if !is_met {

@@ -50,7 +50,7 @@ impl HeldDelay {
             return Ok(None);
         }
         let (model, values) = (problem.model(), problem.set());
-        let Some(hold) = model.only_hold(values, budget)? else { return Ok(None) };
+        let Some(hold) = model.only_hold(&[], values, budget)? else { return Ok(None) };
         let Ok(at_hold) = OpenLoop::of(problem, Some(&hold.block), budget) else { return Ok(None) };
         if !open_loop.is_same(&at_hold) {
             return Ok(None);
@@ -62,7 +62,7 @@ impl HeldDelay {
         let mut from = Rational::ZERO;
         for _ in 0..=HeldDelay::LOOKED_AT {
             let Some(to) = hold.next_break(&from) else { return Ok(None) };
-            let more = MoreDeadTime::Near(from.midpoint(&to));
+            let more = MoreDeadTime::Near(vec![from.midpoint(&to)]);
             let set = stable_fractions(problem, &more, Range::between(Some(from.clone()), Some(to.clone())), budget)?;
             let first = set.intervals().first();
             let begins = |end: &Real| end.compare_rational(&from).is_eq();
@@ -104,7 +104,7 @@ impl HeldDelay {
 
 /// For which dead times, in samples, the loop is stable.
 fn stable_fractions(problem: &Problem, more: &MoreDeadTime, range: Range, budget: &Budget) -> Result<StableSet, Error> {
-    let (closed_loop, symbols) = problem.model().with_dead_time(more, problem.set(), budget)?;
+    let (closed_loop, symbols) = problem.model().with_dead_time(more, &[], problem.set(), budget)?;
     let (mut d, complex) = closed_loop.real_polynomial(&symbols, budget)?;
     d.poles = Vec::new();
     let p = match symbols.is_moving() {
@@ -122,9 +122,9 @@ fn stable_fractions(problem: &Problem, more: &MoreDeadTime, range: Range, budget
 }
 
 /// Whether the loop is stable with a dead time that is a number of samples; `None` where a sample stands on an edge of a pulse.
-fn is_stable_with(problem: &Problem, samples: &Rational, budget: &Budget) -> Result<Option<bool>, Error> {
+pub(super) fn is_stable_with(problem: &Problem, samples: &Rational, budget: &Budget) -> Result<Option<bool>, Error> {
     let more = MoreDeadTime::Samples(samples.clone());
-    let (closed_loop, symbols) = match problem.model().with_dead_time(&more, problem.set(), budget) {
+    let (closed_loop, symbols) = match problem.model().with_dead_time(&more, &[], problem.set(), budget) {
         Err(Error::Undefined(_)) => return Ok(None),
         found => found?,
     };

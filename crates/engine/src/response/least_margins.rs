@@ -186,7 +186,7 @@ impl Search<'_> {
             let Some(asked) = margin.asked(&gap)? else { break };
             let near: Vec<Rational> = self.sides.iter().map(|[low, high]| low.midpoint(high)).collect();
             let at = Some(seen[0].1.value().open_loop.cut().name());
-            let test = RequirementBoxes::with_delay_margin(&self.together, &asked.requirement, at, &near, self.budget)?;
+            let test = RequirementBoxes::of(&self.together, &asked.requirement, at, &near, self.budget)?;
             let Some(test) = test else {
                 margin.why = Some("no way to prove it for all values is known".to_owned());
                 return Ok(());

@@ -8,8 +8,9 @@ use super::parts::with_parts;
 use super::requirement::{Circle, Found, Requirement, Rule};
 use super::value::{Value, square_root};
 use super::{DelayMargin, HeldDelay};
-use crate::coverage::refusals::NO_DAMPING;
-use crate::error::{Code, Diagnostic, Error};
+use crate::answer::Verdict;
+use crate::coverage::refusals::{NO_DAMPING, NO_SAMPLE_TIME};
+use crate::error::Error;
 use crate::precisions::REQUIRED_DELAY;
 use crate::problem::Problem;
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -17,6 +18,7 @@ use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction, RealAlgebraic, UniPoly};
 use jurist_algebra::real::Real;
 use std::cmp::Ordering;
+use std::sync::Arc;
 
 /// The open loop of a stable loop at a point; each margin is computed once, when it is first asked for.
 pub(super) struct AtPoint<'a> {
@@ -139,32 +141,46 @@ fn circle_extreme(open_loop: &OpenLoop, circle: &Circle, budget: &Budget) -> Res
     })
 }
 
+/// What is known of the delay of a stable loop.
+pub(super) struct KnownDelay<'a> {
+    pub open_loop: &'a OpenLoop,
+    pub crossings: &'a Crossings,
+    pub margin: &'a DelayMargin,
+    pub held: Option<&'a HeldDelay>,
+}
+
+impl KnownDelay<'_> {
+    /// Whether all dead times less than one are borne.
+    fn is_at_least(&self, least: &Rational, budget: &Budget) -> Result<bool, Error> {
+        match (self.margin, self.held) {
+            (DelayMargin::Unbounded, _) => Ok(true),
+            (DelayMargin::Zero, _) => Ok(false),
+            (DelayMargin::DeadTime(i), _) => {
+                let enclose = |bits| self.crossings.gain[*i].delay(self.open_loop.frequencies(), bits);
+                Ok(is_at_least(enclose, least, budget)?)
+            }
+            (_, Some(HeldDelay { samples, period, .. })) => {
+                let needed = least.checked_div(period).expect("a sample time is positive");
+                Ok(match samples {
+                    Some(samples) => budget.enter(|| samples.compare_rational(&needed).is_ge())?,
+                    None => needed <= Rational::from(HeldDelay::LOOKED_AT),
+                })
+            }
+            (DelayMargin::Samples(m) | DelayMargin::SamplesAtLeast(m), None) => {
+                let Some(step) = self.open_loop.sample_time() else {
+                    return Err(NO_SAMPLE_TIME.diagnostic(&[]).into());
+                };
+                Ok(&Rational::from(*m) * step >= *least)
+            }
+        }
+    }
+}
+
 /// Whether a stable loop bears all dead times less than one.
 pub(super) fn bears(margins: &Margins, least: &Rational, budget: &Budget) -> Result<bool, Error> {
     let Some(stable) = &margins.stable else { return Ok(false) };
-    match (&stable.delay, &margins.held_delay) {
-        (DelayMargin::Unbounded, _) => Ok(true),
-        (DelayMargin::Zero, _) => Ok(false),
-        (DelayMargin::DeadTime(i), _) => {
-            let crossing = &margins.crossings.gain[*i];
-            let enclose = |bits| crossing.delay(margins.open_loop.frequencies(), bits);
-            Ok(is_at_least(enclose, least, budget)?)
-        }
-        (_, Some(HeldDelay { samples, period, .. })) => {
-            let needed = least.checked_div(period).expect("a sample time is positive");
-            Ok(match samples {
-                Some(samples) => budget.enter(|| samples.compare_rational(&needed).is_ge())?,
-                None => needed <= Rational::from(HeldDelay::LOOKED_AT),
-            })
-        }
-        (DelayMargin::Samples(m) | DelayMargin::SamplesAtLeast(m), None) => {
-            let Some(step) = margins.open_loop.sample_time() else {
-                let message = "a delay margin of a discrete loop needs its sample time";
-                return Err(Diagnostic::error(Code::Require, message).into());
-            };
-            Ok(&Rational::from(*m) * step >= *least)
-        }
-    }
+    let Margins { open_loop, crossings, held_delay, .. } = margins;
+    KnownDelay { open_loop, crossings, margin: &stable.delay, held: held_delay.as_ref() }.is_at_least(least, budget)
 }
 
 fn is_at_least(
@@ -182,6 +198,51 @@ fn is_at_least(
 }
 
 impl Problem {
+    /// Whether the loop is stable and meets a requirement, with every parameter at its set or nominal value; of a delay margin no other margins are computed.
+    ///
+    /// # Errors
+    /// As [`Problem::requirements_met`].
+    pub(crate) fn meets(
+        self: &Arc<Self>,
+        requirement: &Requirement,
+        at: Option<&str>,
+        budget: &Budget,
+    ) -> Result<bool, Error> {
+        let Rule::DeadTime(least) = requirement.rule() else {
+            let met = self.requirements_met(std::slice::from_ref(requirement), at, budget)?;
+            return Ok(met.iter().all(|found| found.met));
+        };
+        budget.enter(|| {
+            if self.verdict(budget)?.value().verdict != Verdict::Stable {
+                return Ok(false);
+            }
+            let open_loop = OpenLoop::of_any(self, at, budget)?;
+            match self.bears_dead_time(&open_loop, least, budget) {
+                Err(Error::Stopped(stopped)) if open_loop.is_enclosed() && stopped.stop.is_precision() => {
+                    self.bears_dead_time(&OpenLoop::exact(self, at, budget)?, least, budget)
+                }
+                told => told,
+            }
+        })?
+    }
+
+    /// Whether a stable loop bears all dead times less than one.
+    fn bears_dead_time(&self, open_loop: &OpenLoop, least: &Rational, budget: &Budget) -> Result<bool, Error> {
+        if open_loop.is_zero() {
+            return Ok(true);
+        }
+        let mut crossings = Crossings::of(open_loop, budget)?;
+        for crossing in &mut crossings.gain {
+            crossing.dead_time = open_loop.dead_time().cloned();
+        }
+        let margin = DelayMargin::of(open_loop, &crossings, budget)?;
+        let held = match &margin {
+            DelayMargin::Samples(borne) => HeldDelay::of(self, open_loop, *borne, budget)?,
+            _ => None,
+        };
+        KnownDelay { open_loop, crossings: &crossings, margin: &margin, held: held.as_ref() }.is_at_least(least, budget)
+    }
+
     /// Refuses a damping of a loop with dead time: `|exp(-tau s)|` grows with the distance of a root from the axis, that of a chain of roots only as the
     /// logarithm of their frequency.
     pub(crate) fn refuse_undamped(&self, requirements: &[Requirement], budget: &Budget) -> Result<(), Error> {

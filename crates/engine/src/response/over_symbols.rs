@@ -9,7 +9,6 @@ use super::opened::OpenedLoop;
 use super::over_boxes::{OverBoxes, certain, segments};
 use super::requirement::{Requirement, Rule};
 use super::{RequiredEnd, RequiredInterval, RequiredSet};
-use crate::coverage::refusals::DELAY_AT_POINTS;
 use crate::error::{Code, Diagnostic, Error};
 use crate::model::Cut;
 use crate::problem::{Problem, moving_symbols};
@@ -108,9 +107,6 @@ impl<'a> SymbolicFamily<'a> {
         stable: &StableSet,
         budget: &Budget,
     ) -> Result<RequiredSet, Error> {
-        if requirements.iter().any(|r| matches!(r.rule(), Rule::DeadTime(_))) {
-            return Err(DELAY_AT_POINTS.diagnostic(&[]).into());
-        }
         let mut found = RequiredSet { undecided: stable.undecided().to_vec(), ..RequiredSet::default() };
         let of = |requirement: &Requirement| {
             let symbols = self.symbols_of(requirement);

@@ -10,7 +10,6 @@ use super::open_loop::OpenLoop;
 use super::over_symbols::SymbolicFamily;
 use super::requirement::{Requirement, Rule};
 use crate::answer::{Answer, Verdict};
-use crate::coverage::refusals::DELAY_AT_POINTS;
 use crate::error::{Code, Diagnostic, Error};
 use crate::problem::Problem;
 use crate::stability::{End, Shape, StableInterval, StableSet, UndecidedBracket};
@@ -211,12 +210,18 @@ impl Problem {
                 requirements.iter().cloned().partition(Requirement::needs_cut);
             let (between, on_margins): (Vec<Requirement>, Vec<Requirement>) =
                 on_margins.into_iter().partition(|requirement| requirement.signals().is_some());
+            let (borne, on_margins): (Vec<Requirement>, Vec<Requirement>) =
+                on_margins.into_iter().partition(Requirement::is_delay_margin);
             let mut found = match on_margins.is_empty() {
                 true => RequiredSet::from(&stable),
                 false => self.with_margins(&on_margins, &stable, at, budget)?,
             };
             for requirement in &between {
                 let own = self.with_margins(std::slice::from_ref(requirement), &stable, at, budget)?;
+                found = found.intersection(&own, budget)?;
+            }
+            for requirement in &borne {
+                let own = self.bearing_set(requirement, &stable, at, budget)?;
                 found = found.intersection(&own, budget)?;
             }
             for requirement in &on_roots {
@@ -239,7 +244,7 @@ impl Problem {
         let whole = self.without_region();
         if !self.algebra_over_symbols(budget)?.symbols().delays().is_empty() {
             budget.step("boundaries of the requirements");
-            return whole.required_with_dead_time(requirements, stable, at, budget);
+            return whole.required_in_boxes(requirements, stable, at, budget);
         }
         let cut = requirements[0].cut(self, at)?;
         let over_symbols = SymbolicFamily::of(&whole, cut.clone(), budget)?;
@@ -300,7 +305,7 @@ impl Problem {
             let is_at_cut = |r: &Requirement| r.needs_cut() && r.signals().is_none();
             let (margins, zero_loop) = match requirements.iter().any(is_at_cut) {
                 true => {
-                    let is_delay = requirements.iter().any(|r| matches!(r.rule(), Rule::DeadTime(_)));
+                    let is_delay = requirements.iter().any(Requirement::is_delay_margin);
                     match self.margins_with(at, &Rational::ZERO, is_delay, budget) {
                         Ok(margins) => (Some(Arc::new(margins.into_value())), None),
                         // A gain of zero opens the loop at this point: it has no margins, and no change at the cut matters.
@@ -353,9 +358,6 @@ fn boundaries(
     family: &Family<UniPoly>,
     budget: &Budget,
 ) -> Result<Boundaries<UniPoly>, Error> {
-    if let Rule::DeadTime(_) = requirement.rule() {
-        return Err(DELAY_AT_POINTS.diagnostic(&[]).into());
-    }
     let mut found = family.boundaries(requirement, budget)?;
     found.zeros.push(family.undefined.clone());
     if found.zeros.iter().any(UniPoly::is_zero) || found.touches.is_zero() {

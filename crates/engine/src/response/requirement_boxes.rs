@@ -40,7 +40,7 @@ use std::sync::Arc;
 /// ```
 pub struct RequirementBoxes {
     problem: Arc<Problem>,
-    /// `None` where stability of a loop with dead time is asked.
+    /// `None` where stability of a loop with dead time is asked, or a delay margin.
     over: Option<OverBox>,
     /// Where a delay margin is asked.
     delay: Option<DelayBoxes>,
@@ -103,7 +103,7 @@ impl RequirementBoxes {
     /// Of a requirement, margins being taken at a cut; `near` is a point that tells how fast the loop is. `None` for a requirement that is not asked of
     /// boxes.
     ///
-    /// Cost: the open loop in the free parameters.
+    /// Cost: the open loop in the free parameters; of a delay margin with one dead time more.
     ///
     /// # Errors
     /// As [`OpenLoop::of`](super::OpenLoop::of); [`Error::Refused`] for a loop with dead time.
@@ -114,31 +114,16 @@ impl RequirementBoxes {
         near: &[Rational],
         budget: &Budget,
     ) -> Result<Option<RequirementBoxes>, Error> {
-        let over = OverBox::of(problem, requirement, at, near, budget)?;
-        let (problem, asked) = (Arc::clone(problem), Asked::of(requirement, at));
-        Ok(over.map(|over| RequirementBoxes { problem, over: Some(over), delay: None, asked }))
-    }
-
-    /// The same of a delay margin too, in continuous time.
-    ///
-    /// Cost: that of [`RequirementBoxes::of`]; of a delay margin the open loop with one dead time more.
-    ///
-    /// # Errors
-    /// As [`RequirementBoxes::of`].
-    pub fn with_delay_margin(
-        problem: &Arc<Problem>,
-        requirement: &Requirement,
-        at: Option<&str>,
-        near: &[Rational],
-        budget: &Budget,
-    ) -> Result<Option<RequirementBoxes>, Error> {
-        let Rule::DeadTime(least) = requirement.rule() else {
-            return RequirementBoxes::of(problem, requirement, at, near, budget);
+        let asked = Asked::of(requirement, at);
+        let (over, delay) = match requirement.rule() {
+            Rule::DeadTime(least) => {
+                let cut = requirement.cut(problem, at)?;
+                (None, DelayBoxes::of(&problem.without_region(), least, cut, near, budget)?)
+            }
+            _ => (OverBox::of(problem, requirement, at, near, budget)?, None),
         };
-        let cut = requirement.cut(problem, at)?;
-        let delay = DelayBoxes::of(&problem.without_region(), least, cut, near, budget)?;
-        let (problem, asked) = (Arc::clone(problem), Asked::of(requirement, at));
-        Ok(delay.map(|delay| RequirementBoxes { problem, over: None, delay: Some(delay), asked }))
+        let is_known = over.is_some() || delay.is_some();
+        Ok(is_known.then(|| RequirementBoxes { problem: Arc::clone(problem), over, delay, asked }))
     }
 
     /// Of stability, in the region of the problem. `None` for a loop that is undefined everywhere.
@@ -372,9 +357,7 @@ impl RequirementBoxes {
         at: Option<&str>,
         budget: &Budget,
     ) -> Result<Option<bool>, Exhausted> {
-        let list = std::slice::from_ref(one);
-        let met = self.at(point).problem().and_then(|problem| problem.requirements_met(list, at, budget));
-        Ok(told(met)?.map(|met| met.iter().all(|found| found.met)))
+        told(self.at(point).problem().and_then(|problem| problem.meets(one, at, budget)))
     }
 }
 

@@ -7,7 +7,7 @@ use crate::answer::Answer;
 use crate::coverage::refusals::ONLY_THE_BOX;
 use crate::error::{Code, Diagnostic, Error};
 use crate::problem::Problem;
-use crate::response::{Requirement, Rule};
+use crate::response::Requirement;
 use crate::stability::boxes::{
     BoxDecision, BoxPolynomial, BoxVolume, ExactProof, Family, LargestFactor, MOST_PARAMETERS, OpenReason, Side,
     ToleranceProblem, ray,
@@ -362,11 +362,10 @@ fn refuse_volume(parameters: usize, request: &ToleranceRequest) -> Result<(), Er
 
 /// What is not asked of loops with dead time.
 fn refuse_beside_dead_time(request: &ToleranceRequest) -> Result<(), Error> {
-    let is_asked = |r: &Requirement| r.needs_cut() && !matches!(r.rule(), Rule::DeadTime(_));
-    if request.requirements.iter().all(is_asked) {
+    if request.requirements.iter().all(Requirement::needs_cut) {
         return refuse_exact(request);
     }
-    Err(ONLY_THE_BOX.diagnostic(&[("what", "requirements on settling or a delay margin are")]).into())
+    Err(ONLY_THE_BOX.diagnostic(&[("what", "requirements on settling are")]).into())
 }
 
 /// What is not asked of loops with functions of parameters.

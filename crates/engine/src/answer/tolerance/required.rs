@@ -6,7 +6,9 @@ use super::{RequiredBox, ToleranceRequest};
 use crate::coverage::refusals::{MARGINS_IN_ONE, NOT_OVER_A_BOX};
 use crate::error::Error;
 use crate::problem::Problem;
-use crate::response::{Family, RequiredFamily, Requirement, RequirementBoxes, Rule, half_tangent, radius_below};
+use crate::response::{
+    DelayBoxes, DelayedLoops, Family, RequiredFamily, Requirement, RequirementBoxes, Rule, half_tangent, radius_below,
+};
 use crate::stability::boxes::{
     BoxDecision, BoxPolynomial, Family as StableFamily, LargestFactor, OpenReason, Side, ToleranceProblem, Witness,
 };
@@ -49,6 +51,17 @@ impl Problem {
             |point: &[Rational]| self.breaks(requirement, &point[..sides.len()], request, (base, truth), budget);
         let mut asked =
             BoxAsked { sides, request, most, breaks: &breaks, budget, found: RequiredBox::new(requirement) };
+        if let Rule::DeadTime(least) = requirement.rule() {
+            let (cut, near) = (requirement.cut(self, request.at.as_deref())?, asked.nominal());
+            let delay = DelayBoxes::of(&self.without_region(), least, cut, &near, budget)?;
+            let delay = delay.ok_or_else(|| not_over_a_box(requirement, "ask 'verdict' at points"))?;
+            if let Some(witness) = breaks(&near)? {
+                asked.found.decision = BoxDecision::NotStable { witness: Some(witness) };
+                return Ok(asked.found);
+            }
+            asked.add_delays(&delay)?;
+            return Ok(asked.found);
+        }
         if base.as_polynomial().is_none() {
             let at = request.at.as_deref();
             let boxes = RequirementBoxes::of(self, requirement, at, &asked.nominal(), budget)?;
@@ -99,10 +112,9 @@ impl Problem {
         }
         let names = self.free().iter().map(|free| free.name.clone());
         let question = self.model().ask().set_all(self.set().to_vec()).set_all(names.zip(point.iter().cloned()));
-        let one = std::slice::from_ref(requirement);
-        let is_met = match question.problem()?.requirements_met(one, request.at.as_deref(), budget) {
+        let is_met = match question.problem()?.meets(requirement, request.at.as_deref(), budget) {
             Err(Error::Undefined(_)) => false,
-            met => met?.iter().all(|found| found.met),
+            met => met?,
         };
         if is_met {
             return Ok(None);
@@ -120,11 +132,6 @@ impl Problem {
     ) -> Result<Vec<FamilyOfLoops>, Error> {
         let (whole, shape) = (self.without_region(), self.shape());
         match requirement.rule() {
-            Rule::DeadTime(_) => {
-                let help =
-                    "dead time makes no polynomial: ask for a phase margin over the box, or 'verdict' at a point";
-                return Err(not_over_a_box(requirement, help));
-            }
             Rule::Sector(_) if shape == Shape::UnitDisc => {
                 return Err(not_over_a_box(
                     requirement,
@@ -269,6 +276,36 @@ impl<B: Fn(&[Rational]) -> Result<Option<Witness>, Error>> BoxAsked<'_, B> {
             false => worse(self.found.decision.clone(), decision),
         };
         Ok(true)
+    }
+}
+
+impl<B: Fn(&[Rational]) -> Result<Option<Witness>, Error>> BoxAsked<'_, B> {
+    /// Asks the families of a delay margin: the delay at the cut is one side more, and so is each constant.
+    fn add_delays(&mut self, delay: &DelayBoxes) -> Result<(), Error> {
+        for family in delay.families().unwrap_or_default() {
+            let own = family.delays.map(|[low, high]| Side::fixed(high.clone(), [&high - &low, Rational::ZERO]));
+            let mut all: Vec<Side> = self.sides.iter().cloned().chain(own).collect();
+            let is_stable = match family.loops {
+                DelayedLoops::Delayed(p) => self.add(p, all)?,
+                DelayedLoops::Moving(p) => self.add(p, all)?,
+                DelayedLoops::Polynomial(p, constants) => {
+                    all.extend(constants.iter().map(|[low, high]| {
+                        let middle = low.midpoint(high);
+                        let widths = [&middle - low, high - &middle];
+                        Side::fixed(middle, widths)
+                    }));
+                    let boxes = ToleranceProblem::new(p, all.clone());
+                    if let Some(boxes) = boxes.filter(|boxes| boxes.coefficients().is_none()) {
+                        return Err(too_many(&boxes));
+                    }
+                    self.add(p, all)?
+                }
+            };
+            if !is_stable {
+                break;
+            }
+        }
+        Ok(())
     }
 }
 

@@ -8,10 +8,7 @@ use jurist_algebra::number::Rational;
 pub(super) const KIND: RequirementKind = RequirementKind {
     name: "delay_margin",
     about: "a dead time in units of time",
-    option: Some(RequirementOption {
-        value: "TIME",
-        help: "Asks for a delay margin: dead time in units of time (points only)",
-    }),
+    option: Some(RequirementOption { value: "TIME", help: "Asks for a delay margin: dead time in units of time" }),
     is_listed: false,
     sense: ">=",
     units: &[],

@@ -24,6 +24,7 @@ pub(crate) use circle::Circle;
 pub(crate) use settling_time::radius_below;
 
 use super::{Margins, StableMargins};
+use crate::coverage::refusals::REQUIREMENT_NOT_CERTIFIED;
 use crate::error::{Code, Diagnostic, Error};
 use crate::model::{Between, Cut, Time};
 use crate::problem::{Problem, Region};
@@ -230,6 +231,28 @@ impl Requirement {
             Some(requirement) => Err(super::required_set::not_decided(requirement)),
             None => Ok(()),
         }
+    }
+
+    /// The refusal of a certificate of a requirement that has none.
+    ///
+    /// # Errors
+    /// `E-no-certificate` unless the requirement is stability for all factors at a cut.
+    ///
+    /// ```
+    /// use jurist_engine::response::Requirement;
+    /// assert!(Requirement::modulus_margin("1/2".parse().unwrap()).unwrap().refuse_uncertified().is_ok());
+    /// assert!(Requirement::delay_margin("1/2".parse().unwrap()).unwrap().refuse_uncertified().is_err());
+    /// ```
+    pub fn refuse_uncertified(&self) -> Result<(), Error> {
+        match self.rule {
+            Rule::Factors(_) | Rule::Turned { .. } | Rule::Circle(_) if self.signals().is_none() => Ok(()),
+            _ => Err(REQUIREMENT_NOT_CERTIFIED.diagnostic(&[("asked", &self.text())]).into()),
+        }
+    }
+
+    /// Whether it is about the dead time that the loop bears.
+    pub(crate) fn is_delay_margin(&self) -> bool {
+        matches!(self.rule, Rule::DeadTime(_))
     }
 
     /// Whether it is about the open loop at a cut.

@@ -1,0 +1,176 @@
+//! A dead time at the cut of continuous loops, over boxes.
+
+use super::delay_boxes::{DelayFamily, DelayedLoops, Delays, shares_of};
+use super::family::Quotient;
+use super::opened::OpenedLoop;
+use super::requirement_boxes::OverPoints;
+use super::same_count::same_count;
+use crate::coverage::refusals::DELAY_BESIDE;
+use crate::error::Error;
+use crate::model::Cut;
+use crate::problem::{OverDeadTime, Problem};
+use crate::stability::AtPoint;
+use crate::stability::boxes::{DelayedFunction, Family, corners};
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::{Enclosure, Rational};
+use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
+
+/// So many corners of a box are looked at before a proof is tried.
+const MOST_CORNERS: usize = 8;
+
+/// Continuous loops with dead time at the cut.
+pub(crate) struct ContinuousDelay {
+    open: OverDeadTime,
+    near: Vec<Rational>,
+    /// The loop in its parameters, the dead time at the cut being the last one.
+    with_any: DelayedFunction,
+    /// The loop with all of the dead time.
+    with_all: DelayedFunction,
+    /// Positive where the modulus of the open loop is above one in the limit of high frequencies; `None` where dead times are in that limit.
+    above: Option<MultiPoly>,
+    least: Rational,
+}
+
+/// Bits of sums over a box.
+const BITS: u64 = 64;
+
+impl ContinuousDelay {
+    /// `None` for a loop that vanishes identically.
+    ///
+    /// # Errors
+    /// As [`OpenedLoop::of`] and [`OpenedLoop::quotient`]; `E-require` beside functions other than dead times.
+    pub fn of(
+        problem: &Problem,
+        least: &Rational,
+        cut: Cut,
+        near: &[Rational],
+        budget: &Budget,
+    ) -> Result<Option<ContinuousDelay>, Error> {
+        let opened = OpenedLoop::of(problem, cut, budget)?;
+        let delays = opened.symbols.delays();
+        if opened.symbols.iter().count() > delays.len() {
+            return Err(DELAY_BESIDE.diagnostic(&[]).into());
+        }
+        let (quotient, undefined) = opened.quotient(MultiPoly::clone, budget)?;
+        let above = above_at_highest(&quotient, near.len());
+        let (denominator, numerator) = (quotient.denominator, quotient.numerator);
+        let open = OverDeadTime { denominator, numerator, undefined, delays, parameters: near.len() };
+        let usual: Vec<Rational> = near.iter().chain([least]).cloned().collect();
+        let families = budget.enter(|| -> Result<_, Error> {
+            let with_any = open.closed(&RationalFunction::variable(near.len()), &usual)?;
+            Ok((with_any, open.closed(&least.clone().into(), near)?))
+        })??;
+        let (Some(with_any), Some(with_all)) = families else { return Ok(None) };
+        Ok(Some(ContinuousDelay { open, near: near.to_vec(), with_any, with_all, above, least: least.clone() }))
+    }
+
+    /// The loop in its parameters and the dead time.
+    pub fn family(&self) -> DelayFamily<'_> {
+        let delays = Some([Rational::ZERO, self.least.clone()]);
+        DelayFamily { loops: DelayedLoops::Delayed(&self.with_any), delays }
+    }
+}
+
+impl Delays for ContinuousDelay {
+    fn tried(&self) -> Vec<Rational> {
+        shares_of(&self.least)
+    }
+
+    fn ranges(&self) -> Vec<[Rational; 2]> {
+        vec![[Rational::ZERO, self.least.clone()]]
+    }
+
+    fn is_delay(&self, _: &Rational) -> bool {
+        true
+    }
+
+    fn bears_none(&self, sides: &[[Rational; 2]]) -> bool {
+        self.above.as_ref().is_some_and(|above| over_box(above, sides).lower().sign().is_gt())
+    }
+
+    fn at(&self, point: &[Rational], delay: &Rational, budget: &Budget) -> Result<Option<bool>, Exhausted> {
+        let point: Vec<Rational> = point.iter().chain([delay]).cloned().collect();
+        budget.enter(|| told(&self.with_any, &point))
+    }
+
+    fn over(
+        &self,
+        sides: &[[Rational; 2]],
+        delays: &[Rational; 2],
+        cells: usize,
+        budget: &Budget,
+    ) -> Result<OverPoints, Exhausted> {
+        let [low, high] = delays;
+        if low < high {
+            let all: Vec<[Rational; 2]> = sides.iter().cloned().chain([delays.clone()]).collect();
+            return with(&self.with_any, &all, cells, budget);
+        }
+        if *low == self.least {
+            return with(&self.with_all, sides, cells, budget);
+        }
+        match budget.enter(|| self.open.closed(&low.clone().into(), &self.near))? {
+            Ok(Some(family)) => with(&family, sides, cells, budget),
+            _ => Ok(OverPoints::Open { middle: None }),
+        }
+    }
+}
+
+/// What is positive where the modulus of the open loop is above one in the limit of high frequencies.
+fn above_at_highest(quotient: &Quotient<MultiPoly>, parameters: usize) -> Option<MultiPoly> {
+    let degree = quotient.denominator.degree().max(quotient.numerator.degree())?;
+    let highest = [&quotient.numerator, &quotient.denominator].map(|p| {
+        let p = p.coeff(degree);
+        // One dead time that all terms have turns the loop alone.
+        let delays = |exponents: &[u32]| exponents.iter().skip(parameters).copied().collect::<Vec<u32>>();
+        let mut all = p.terms().iter().map(|(monomial, _)| delays(monomial.exponents()));
+        let first = all.next();
+        let is_one = all.all(|other| Some(&other) == first.as_ref());
+        let own = p.terms().iter().map(|(monomial, c)| {
+            (monomial.exponents().iter().take(parameters).copied().collect::<Vec<u32>>(), c.clone())
+        });
+        is_one.then(|| MultiPoly::from_terms(own))
+    });
+    let [Some(above), Some(below)] = highest else { return None };
+    Some(above.times(&above).minus(&below.times(&below)))
+}
+
+/// A range of the values of a polynomial over a box.
+fn over_box(p: &MultiPoly, sides: &[[Rational; 2]]) -> Enclosure {
+    let sides: Vec<Enclosure> = sides.iter().map(|[low, high]| Enclosure::new(low.clone(), high.clone())).collect();
+    p.terms().iter().fold(Enclosure::from_rational(Rational::ZERO), |sum, (monomial, c)| {
+        let powers = monomial.exponents().iter().zip(&sides);
+        let factors = powers.flat_map(|(&e, side)| std::iter::repeat_n(side, e as usize));
+        let c = Enclosure::from_rational(c.clone().into());
+        sum.add(&factors.fold(c, |product, side| product.mul(side, BITS)), BITS)
+    })
+}
+
+/// Whether all points of a box are stable, or none is.
+fn with(
+    family: &DelayedFunction,
+    sides: &[[Rational; 2]],
+    cells: usize,
+    budget: &Budget,
+) -> Result<OverPoints, Exhausted> {
+    let right = |point: &[Rational]| match family.count(point) {
+        Some(AtPoint::Delayed { on: 0, right }) => right,
+        _ => None,
+    };
+    let is_same = || {
+        let middle: Vec<Rational> = sides.iter().map(|[low, high]| low.midpoint(high)).collect();
+        right(&middle).is_some_and(|own| corners(sides).take(MOST_CORNERS).all(|corner| right(&corner) == Some(own)))
+    };
+    // Further roots cross where a loop is not stable: a proof that they do not takes long to fail.
+    if !budget.enter(is_same)? {
+        return Ok(OverPoints::Open { middle: None });
+    }
+    same_count(family, sides, (cells, budget), |point| budget.enter(|| told(family, point)))
+}
+
+/// Whether a point is stable; `None` where one walk along the imaginary axis does not tell.
+fn told(family: &DelayedFunction, point: &[Rational]) -> Option<bool> {
+    match family.count(point) {
+        Some(AtPoint::Delayed { on: 0, right: Some(right) }) => Some(right == 0),
+        _ => None,
+    }
+}
