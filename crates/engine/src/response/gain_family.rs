@@ -170,9 +170,15 @@ impl GainFamily {
             true => Vec::new(),
             false => combined(ground, &[below, above], Combination::Slope)?.zeros(&range, budget)?,
         };
-        let ends = [Place::Lowest, Place::Highest].map(|end| (end, false));
-        for (place, is_touch) in extremes.into_iter().map(|x| (Place::Inside(x), true)).chain(ends) {
-            out.extend(self.of_modulus_one(&place, budget)?.map(|k| (k, is_touch)));
+        for x in extremes {
+            out.extend(self.of_modulus_one(&Place::Inside(x), budget)?.map(|k| (k, true)));
+        }
+        // At an end the open loop is 1: where it is -1 there, stability ends.
+        for end in [1, -1].map(MultiPoly::from) {
+            let [below, above] = [&parts.denominator, &parts.numerator].map(|p| p.re.eval(&end));
+            if ground.sign(&below, budget)?.is_ne() && ground.sign(&above, budget)?.is_ne() {
+                out.push((ground.quotient(&below, &above, budget)?.number(budget)?, false));
+            }
         }
         Ok(out)
     }
