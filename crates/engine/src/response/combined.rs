@@ -11,6 +11,9 @@ use jurist_algebra::real::{Origin, Real};
 use jurist_algebra::symbols::{EnclosedPoly, common_factor, enclosed_roots};
 use std::sync::{Arc, Mutex, PoisonError};
 
+/// Coefficients, and the bits that they were enclosed with.
+type LastCoefficients = (u64, Vec<Ball>);
+
 /// How polynomials `a`, `b`, `c` are combined.
 #[derive(Clone, Debug)]
 pub(super) enum Combination {
@@ -33,7 +36,7 @@ pub(super) struct Combined {
     /// Powers of `x - 2` and of `x + 2` that are known to divide it: with an integrator it is zero at rest.
     at_ends: [usize; 2],
     /// Coefficients with the bits that they were enclosed with last: neighbouring zeros are refined with the same.
-    known: Arc<Mutex<Option<(u64, Vec<Ball>)>>>,
+    known: Arc<Mutex<Option<LastCoefficients>>>,
 }
 
 impl Combined {
