@@ -49,6 +49,7 @@ mod loops {
     mod events_oracle;
     mod examples;
     mod held_margins;
+    mod held_modes;
     mod held_pictures;
     mod held_requirements;
     mod impulses;

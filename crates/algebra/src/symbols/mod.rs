@@ -145,6 +145,13 @@ impl Symbols {
         if let Some(values) = known().get(&bits) {
             return Arc::clone(values);
         }
+        // Numbers that are known by enclosures alone take long, and are asked for with ever other bits.
+        let step = (bits + GUARD).next_multiple_of(STEP) - GUARD;
+        if step != bits && self.has_enclosed_numbers() {
+            let values: Arc<Vec<Ball>> = Arc::new(self.values(step).iter().map(|v| v.with_bits(bits)).collect());
+            known().insert(bits, Arc::clone(&values));
+            return values;
+        }
         let mut values = Vec::with_capacity(self.len());
         // All solutions of an equation at once.
         let mut rows: Vec<(&[RationalFunction], &RationalFunction, Vec<Ball>)> = Vec::new();
@@ -225,15 +232,24 @@ impl Symbols {
         Horner::of(p).at_balls(&self.first_values(needed, bits), bits)
     }
 
+    fn has_no_arguments(&self) -> bool {
+        self.table.iter().all(|(_, definition)| definition.arguments().is_empty())
+    }
+
     fn first_values(&self, count: usize, bits: u64) -> Arc<Vec<Ball>> {
         let known = self.values.lock().unwrap_or_else(PoisonError::into_inner).get(&bits).cloned();
         match known {
             Some(values) => values,
-            None if count == self.len() => self.values(bits),
+            // Those without arguments are all there at once, and kept.
+            None if count == self.len() || self.has_no_arguments() => self.values(bits),
             None => Arc::new(self.table[..count].iter().map(|(_, d)| self.value(d, bits)).collect()),
         }
     }
 }
+
+/// Numbers that are known by enclosures alone are computed with a multiple of so many bits, less those that their computation takes beside.
+const STEP: u64 = 256;
+const GUARD: u64 = 64;
 
 /// The value of a definition with rational arguments.
 fn at_rationals(definition: &Definition, bits: u64) -> Option<Ball> {

@@ -9,7 +9,7 @@ use crate::precisions::DIRECTION;
 use crate::real::{Enclosing, Origin};
 use std::cmp::Ordering;
 use std::fmt;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// A polynomial in one unknown whose coefficients are real numbers that are known by enclosures.
 ///
@@ -31,13 +31,27 @@ pub trait EnclosedPoly: fmt::Debug + Send + Sync {
 /// A polynomial by its coefficients from the constant term up, polynomials in symbols.
 #[derive(Debug)]
 pub(super) struct Coefficients {
-    pub symbols: Arc<Symbols>,
-    pub list: Vec<MultiPoly>,
+    symbols: Arc<Symbols>,
+    list: Vec<MultiPoly>,
+    /// With the bits that they were enclosed with last: neighbouring roots are refined with the same.
+    known: Mutex<Option<(u64, Vec<Ball>)>>,
+}
+
+impl Coefficients {
+    pub fn new(symbols: Arc<Symbols>, list: Vec<MultiPoly>) -> Coefficients {
+        Coefficients { symbols, list, known: Mutex::default() }
+    }
 }
 
 impl EnclosedPoly for Coefficients {
     fn enclose(&self, bits: u64) -> Vec<Ball> {
-        self.list.iter().map(|c| self.symbols.enclose(c, bits)).collect()
+        let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, found)) = known().as_ref().filter(|(with, _)| *with == bits) {
+            return found.clone();
+        }
+        let found: Vec<Ball> = self.list.iter().map(|c| self.symbols.enclose(c, bits)).collect();
+        *known() = Some((bits, found.clone()));
+        found
     }
 
     fn vanishes_at(&self, x: &Rational, budget: &Budget) -> Result<bool, Exhausted> {

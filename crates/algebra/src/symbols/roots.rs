@@ -220,7 +220,7 @@ fn real_roots(
         zeros += 1;
     }
     list.drain(..zeros);
-    let others = Arc::new(Coefficients { symbols: Arc::clone(symbols), list });
+    let others = Arc::new(Coefficients::new(Arc::clone(symbols), list));
     let mut found = enclosed_roots(&(others as Arc<dyn EnclosedPoly>), lower, upper, budget)?;
     let inside = lower.is_none_or(Rational::is_negative) && upper.is_none_or(|u| u.sign().is_gt());
     if zeros > 0 && inside {

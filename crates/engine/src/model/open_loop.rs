@@ -223,10 +223,11 @@ impl Model {
     pub(crate) fn opened_in_numbers(
         &self,
         cut: &Cut,
+        kept: &[String],
         values: &[(String, Rational)],
         budget: &Budget,
     ) -> Result<Opened, Error> {
-        let mut answer = self.answer(&[], values, budget)?;
+        let mut answer = self.answer(kept, values, budget)?;
         answer.symbols = RefCell::new(answer.symbols.into_inner().keeping_flows());
         self.opened_in(answer, cut, budget)
     }

@@ -28,7 +28,7 @@ pub(crate) use quotient::EnclosedQuotient;
 use std::sync::Arc;
 
 /// Work that exact polynomials over the constants of a held loop may be before enclosures of coefficients are asked: less than a second.
-const WORK_BEFORE: u64 = 30_000_000;
+const WORK_BEFORE: u64 = 6_000_000;
 
 /// The same of a loop with several rates, whose polynomials have many times the degree in the constants: at ten rates the drive takes 0.04 s by
 /// enclosures and ten times as long by exact polynomials.

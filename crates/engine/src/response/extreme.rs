@@ -106,8 +106,8 @@ pub(crate) fn extreme_over<G: Ground>(
     let common = budget.enter(|| a.gcd(b))?;
     let divided = |p: &Poly<G::Number>| p.div_exact(&common).expect("a gcd divides");
     let (a, b) = (divided(a), divided(b));
-    let slope = a.derivative().times(&b).minus(&a.times(&b.derivative()));
-    if slope.is_zero() {
+    // Without a common factor the quotient is constant where both are.
+    if a.is_constant() && b.is_constant() {
         return Ok(match ground.sign(&a.coeff(0), budget)?.is_eq() {
             true => Extreme::Constant(Value::from(Rational::ZERO)),
             false => Extreme::Constant(ground.quotient(&a.coeff(0), &b.coeff(0), budget)?),
@@ -116,9 +116,16 @@ pub(crate) fn extreme_over<G: Ground>(
     // A zero of the denominator inside is a double one, hence critical: what the slope a' b - a b' and b have in common is what b' and b
     // have, since a and b have nothing.
     let poles = budget.enter(|| b.derivative().gcd(&b))?;
-    let slope = slope.div_exact(&poles).expect("a gcd divides");
-    let infinite = if poles.is_constant() { Vec::new() } else { ground.zeros(&poles, &frequencies.inner(), budget)? };
-    let critical = ground.zeros(&slope, &frequencies.inner(), budget)?;
+    let range = frequencies.inner();
+    let infinite = if poles.is_constant() { Vec::new() } else { ground.zeros(&poles, &range, budget)? };
+    let unexpanded = if poles.is_constant() { ground.extremes([&a, &b], &range, budget)? } else { None };
+    let critical = match unexpanded {
+        Some(zeros) => zeros,
+        None => {
+            let slope = a.derivative().times(&b).minus(&a.times(&b.derivative()));
+            ground.zeros(&slope.div_exact(&poles).expect("a gcd divides"), &range, budget)?
+        }
+    };
     let mut best: Option<(Place, Value, bool)> = None;
     for (i, place) in frequencies.places(critical).into_iter().enumerate() {
         let Some(value) = ground.value(&a, &b, &place, frequencies, budget)? else {

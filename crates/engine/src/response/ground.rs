@@ -1,5 +1,6 @@
 //! What the coefficients of an open loop are: integers, or polynomials in the constants of a plant behind a hold.
 
+use super::combined::{Combination, Combined};
 use super::enclosed::enclosed;
 use super::{Frequencies, Place, Value};
 use crate::precisions::SIGN_AT_NUMBER;
@@ -24,6 +25,16 @@ pub(crate) trait Ground: Clone + fmt::Debug + Send + Sync {
 
     /// The distinct zeros in an open range, ascending; none of a polynomial that vanishes everywhere.
     fn zeros(&self, p: &Poly<Self::Number>, range: &Range, budget: &Budget) -> Result<Vec<Real>, Exhausted>;
+
+    /// The zeros of the derivative of `a/b` in an open range, ascending, without an expansion of the products in it; `None` where they are to be expanded.
+    fn extremes(
+        &self,
+        _quotient: [&Poly<Self::Number>; 2],
+        _range: &Range,
+        _budget: &Budget,
+    ) -> Result<Option<Vec<Real>>, Exhausted> {
+        Ok(None)
+    }
 
     /// The sign of a number.
     fn sign(&self, c: &Self::Number, budget: &Budget) -> Result<Sign, Exhausted>;
@@ -198,13 +209,13 @@ impl Constants {
         horner(&coefficients, x)
     }
 
-    fn at_real(&self, p: &Poly<MultiPoly>, x: &Real, bits: u64) -> Ball {
+    pub(super) fn at_real(&self, p: &Poly<MultiPoly>, x: &Real, bits: u64) -> Ball {
         let (lo, hi) = x.refined(&Rational::dyadic(&Integer::ONE, bits)).enclosure();
         self.at_ball(p, &Ball::between(&lo, &hi, bits))
     }
 
     /// The polynomial with the unknown as variable 0.
-    fn over_unknown(p: &Poly<MultiPoly>) -> MultiPoly {
+    pub(super) fn over_unknown(p: &Poly<MultiPoly>) -> MultiPoly {
         let shifted = p.coeffs().iter().map(|c| c.map_variables(|i| i + 1)).collect();
         MultiPoly::from_poly_in(&Poly::new(shifted), 0)
     }
@@ -236,6 +247,20 @@ impl Ground for Constants {
             Some(p) => p.real_roots_in(range.lower.as_ref(), range.upper.as_ref(), budget),
             None => Ok(Vec::new()),
         }
+    }
+
+    /// Where coefficients are known by enclosures alone no identity is lost.
+    fn extremes(
+        &self,
+        [a, b]: [&Poly<MultiPoly>; 2],
+        range: &Range,
+        budget: &Budget,
+    ) -> Result<Option<Vec<Real>>, Exhausted> {
+        if !self.0.has_enclosed_numbers() || range.lower.is_none() || range.upper.is_none() || a.is_zero() {
+            return Ok(None);
+        }
+        let slope = Combined::new(self, &[a, b], Combination::Slope);
+        slope.map(|slope| slope.zeros(range, budget)).transpose()
     }
 
     fn sign(&self, c: &MultiPoly, budget: &Budget) -> Result<Sign, Exhausted> {

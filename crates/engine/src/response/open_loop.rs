@@ -116,7 +116,7 @@ impl OpenLoop {
                 budget,
                 |budget| opened_exactly(problem, &cut, budget),
                 |budget| {
-                    let opened = model.opened_in_numbers(&cut, problem.set(), budget)?;
+                    let opened = model.opened_in_numbers(&cut, &[], problem.set(), budget)?;
                     if opened.system.is_complex {
                         return Ok(None);
                     }
@@ -128,6 +128,15 @@ impl OpenLoop {
             _ => opened_exactly(problem, &cut, budget)?,
         };
         Ok(OpenLoop { cut, shape, sample_time, over, dead_time })
+    }
+
+    /// The loop with the open loop times a number: `D0` and `N` times its denominator and its numerator.
+    pub(super) fn times(&self, factor: &Rational) -> OpenLoop {
+        let over = match &self.over {
+            Over::Integers(parts) => Over::Integers(parts.times(factor)),
+            Over::Constants(parts) => Over::Constants(parts.times(factor)),
+        };
+        OpenLoop { over, ..self.clone() }
     }
 
     /// True if nothing comes back to the cut.
@@ -152,6 +161,12 @@ impl OpenLoop {
     ) -> OpenLoop {
         let over = Over::Integers(Parts::new(Integers, denominator, numerator, Vec::new(), shape));
         OpenLoop { cut, over, shape, sample_time, dead_time: None }
+    }
+
+    /// From coefficients that are known by enclosures.
+    #[cfg(test)]
+    pub(super) fn enclosed(cut: Cut, found: EnclosedQuotient, shape: Shape) -> OpenLoop {
+        OpenLoop { cut, shape, sample_time: None, over: Over::of_enclosed(found, shape), dead_time: None }
     }
 
     /// From polynomials whose coefficients are polynomials in symbols.
@@ -321,7 +336,10 @@ impl Over {
     /// From coefficients that are known by enclosures.
     fn of_enclosed(found: EnclosedQuotient, shape: Shape) -> Over {
         let EnclosedQuotient { symbols, denominator, numerator } = found;
-        Over::Constants(Parts::new(Constants(symbols), denominator, numerator, Vec::new(), shape))
+        let mut parts = Parts::new(Constants(Arc::clone(&symbols)), denominator, numerator, Vec::new(), shape);
+        let (reduced, symbols) = parts.reduced.shortened(&symbols);
+        (parts.reduced, parts.ground) = (reduced, Constants(symbols));
+        Over::Constants(parts)
     }
 
     /// From coefficients in symbols, none of which is a parameter, and the dead time that is a factor of the numerator.

@@ -1,6 +1,7 @@
 //! Requirements on margins in one parameter where the loop contains functions that are not rational, such as a plant behind a hold.
 
-use super::cells::{around, beyond, edge, outward, parts_beside, required_parts};
+use super::candidates::Candidates;
+use super::cells::{beyond, edge, outward, parts_beside};
 use super::family::{Elimination, Quotient, plus_multiple, plus_multiple_of};
 use super::loop_functions::number_asked;
 use super::met::AtPoint;
@@ -12,7 +13,7 @@ use super::{RequiredEnd, RequiredInterval, RequiredSet};
 use crate::error::{Code, Diagnostic, Error};
 use crate::model::Cut;
 use crate::problem::{Problem, moving_symbols};
-use crate::stability::{Bracket, Range, StableInterval, StableSet, UndecidedBracket, told_apart, zeros_of_functions};
+use crate::stability::{Range, StableInterval, StableSet, UndecidedBracket, zeros_of_functions};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RealAlgebraic};
@@ -79,13 +80,6 @@ struct Wanted<'w> {
     /// Of each requirement what is known of short intervals; none where intervals are not asked.
     boxes: Vec<OverBoxes>,
     budget: &'w Budget,
-}
-
-/// A value at which a requirement may begin or cease to be met.
-struct Candidate {
-    value: Real,
-    /// The names of the requirements for which a crossing may appear there at once.
-    touches: Vec<&'static str>,
 }
 
 impl<'a> SymbolicFamily<'a> {
@@ -183,10 +177,14 @@ impl<'a> SymbolicFamily<'a> {
         let part = budget.clone().within_work(WORK);
         let (candidates, all) = match self.candidates(interval, requirements, boxes, &part) {
             Err(Error::Stopped(_)) if budget.check().is_ok() && !boxes.is_empty() => match self.beyond(interval) {
-                None => (Vec::new(), vec![left_open(interval, requirements)]),
+                None => (Candidates::default(), vec![left_open(interval, requirements)]),
                 Some(beyond) => return self.up_to(&beyond, interval, wanted, found),
             },
-            found => found?,
+            found => {
+                let found = found?;
+                let brackets = found.brackets();
+                (found, brackets)
+            }
         };
         let mut brackets = Vec::with_capacity(all.len());
         for bracket in all {
@@ -199,7 +197,8 @@ impl<'a> SymbolicFamily<'a> {
                 brackets.push(bracket);
             }
         }
-        parts_beside(interval, brackets, found, |part| self.cells(part, &candidates, requirements, budget))
+        let unmet = |value: &Rational| self.unmet(value, requirements, budget);
+        parts_beside(interval, brackets, found, |part| candidates.cells(part, requirements, unmet, budget))
     }
 
     /// An interval without an upper end in pieces up to a value; what is beyond stays open.
@@ -231,7 +230,7 @@ impl<'a> SymbolicFamily<'a> {
         requirements: &[Requirement],
         boxes: &[OverBoxes],
         budget: &Budget,
-    ) -> Result<(Vec<Candidate>, Vec<UndecidedBracket>), Error> {
+    ) -> Result<Candidates, Error> {
         // An end that is not rational lies strictly inside.
         let range = Range::between(outward(&interval.lower, true), outward(&interval.upper, false));
         let nominal = self.problem.parameter().nominal.clone().filter(|x| !x.is_zero());
@@ -242,8 +241,7 @@ impl<'a> SymbolicFamily<'a> {
             let (lo, hi) = zero.refined_to_digits(DIGITS).enclosure();
             certain(boxes, &lo, &hi).is_none()
         };
-        let mut all: Vec<Candidate> = Vec::new();
-        let mut undecided = Vec::new();
+        let mut found = Candidates::default();
         for requirement in requirements {
             budget.check()?;
             let by = Unexpanded { variable: self.symbols.len() + 1 };
@@ -260,61 +258,10 @@ impl<'a> SymbolicFamily<'a> {
                 return Err(Diagnostic::error(Code::Require, message).help(help).into());
             }
             let (zeros, brackets) = zeros_of_functions(functions, &symbols, &range, &usual, &changes, budget)?;
-            let mut open: Vec<Bracket> = brackets;
-            let mut list = Vec::new();
-            for (value, of) in zeros {
-                match interval.bare().has_inside(&value, budget) {
-                    Ok(true) => list.push((value, of.iter().any(|&k| k < touches))),
-                    Ok(false) => {}
-                    Err(stopped) if stopped.stop.is_precision() => open.push(around(&value)),
-                    Err(stopped) => return Err(stopped.into()),
-                }
-            }
-            let known = all.iter().map(|c| c.value.clone()).collect();
-            let new = list.iter().map(|(value, _)| value.clone()).collect();
-            let values = told_apart(known, new, &mut open, budget)?;
-            all = values
-                .into_iter()
-                .map(|value| {
-                    let mut touches: Vec<&'static str> =
-                        all.iter().filter(|c| c.value.is_same(&value)).flat_map(|c| c.touches.clone()).collect();
-                    if list.iter().any(|(x, is_touch)| *is_touch && x.is_same(&value)) {
-                        touches.push(requirement.name());
-                    }
-                    Candidate { value, touches }
-                })
-                .collect();
-            let why = format!("where {} begins or ceases to be met", requirement.name());
-            undecided.extend(open.into_iter().map(|(lo, hi)| UndecidedBracket::new(lo, hi, why.clone())));
+            let values = zeros.into_iter().map(|(value, of)| (value, of.iter().any(|&k| k < touches))).collect();
+            found.add(requirement, interval, (values, brackets), budget)?;
         }
-        undecided.sort_by(|a, b| (&a.lower, &a.upper).cmp(&(&b.lower, &b.upper)));
-        Ok((all, undecided))
-    }
-
-    /// The parts of an interval in which everything is met; nothing is undecided there.
-    fn cells(
-        &self,
-        interval: &StableInterval,
-        candidates: &[Candidate],
-        requirements: &[Requirement],
-        budget: &Budget,
-    ) -> Result<Vec<RequiredInterval>, Error> {
-        let bare = interval.bare();
-        let mut inside: Vec<&Candidate> = Vec::new();
-        for c in candidates {
-            if bare.has_inside(&c.value, budget)? {
-                inside.push(c);
-            }
-        }
-        let values: Vec<Real> = inside.iter().map(|c| c.value.clone()).collect();
-        let unmet = |value: &Rational| self.unmet(value, requirements, budget);
-        let is_closed = |i: usize, names: &[&'static str]| {
-            let asks_at_ends =
-                |name| requirements.iter().any(|r| r.name() == name && matches!(r.rule(), Rule::Factors(_)));
-            let bound = |name: &'static str| asks_at_ends(name) || inside[i].touches.contains(&name);
-            Ok(!names.iter().any(|name| bound(name)))
-        };
-        required_parts(interval, &values, unmet, is_closed, budget)
+        Ok(found)
     }
 
     /// The names of what is not met at a stable value.

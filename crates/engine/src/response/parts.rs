@@ -58,6 +58,22 @@ impl<G: Ground> Parts<G> {
         Parts { ground, denominator: denominator.into(), numerator: numerator.into(), poles, shape, reduced }
     }
 
+    /// With `N` times a number, both polynomials without denominators.
+    pub fn times(&self, factor: &Rational) -> Parts<G> {
+        let [up, down] = [factor.numerator(), factor.denominator()].map(|n| G::Number::from_integer(&n));
+        let scaled = |p: &ComplexPoly<G::Number>, by| ComplexPoly { re: p.re.scaled(by), im: p.im.scaled(by) };
+        let r = &self.reduced;
+        let both = up.times(&down);
+        let squares = [r.numerator_squared.scaled(&up.times(&up)), r.denominator_squared.scaled(&down.times(&down))];
+        let products = [&r.twice_real, &r.imaginary].map(|p| p.scaled(&both));
+        Parts {
+            denominator: scaled(&self.denominator, &down),
+            numerator: scaled(&self.numerator, &up),
+            reduced: Reduced::of_products(squares, products, r.frequencies),
+            ..self.clone()
+        }
+    }
+
     /// The variable of frequencies.
     pub fn frequencies(&self) -> Frequencies {
         self.reduced.frequencies

@@ -3,6 +3,7 @@
 use super::cells::Cells;
 use super::family::{Boundaries, Family};
 use super::for_all::AllOf;
+use super::gain_family::GainFamily;
 use super::margins::Margins;
 use super::met::{AtPoint, bears};
 use super::on_roots::OnRoots;
@@ -11,6 +12,7 @@ use super::over_symbols::SymbolicFamily;
 use super::requirement::{Requirement, Rule};
 use crate::answer::{Answer, Verdict};
 use crate::error::{Code, Diagnostic, Error};
+use crate::model::Cut;
 use crate::problem::Problem;
 use crate::stability::{End, Shape, StableInterval, StableSet, UndecidedBracket};
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -242,6 +244,9 @@ impl Problem {
         budget: &Budget,
     ) -> Result<RequiredSet, Error> {
         let whole = self.without_region();
+        if let Some(found) = whole.required_of_gain(requirements, &requirements[0].cut(self, at)?, stable, budget)? {
+            return Ok(found);
+        }
         if !self.algebra_over_symbols(budget)?.symbols().delays().is_empty() {
             budget.step("boundaries of the requirements");
             return whole.required_in_boxes(requirements, stable, at, budget);
@@ -266,6 +271,28 @@ impl Problem {
             intervals.extend(cells.within(interval)?);
         }
         Ok(RequiredSet { intervals, ..RequiredSet::default() })
+    }
+
+    /// The same of a loop behind holds whose open loop is a multiple of the parameter; `None` of another one, and where that way does not tell.
+    fn required_of_gain(
+        &self,
+        requirements: &[Requirement],
+        cut: &Cut,
+        stable: &StableSet,
+        budget: &Budget,
+    ) -> Result<Option<RequiredSet>, Error> {
+        if !self.model().has_holds() || requirements.iter().any(|r| matches!(r.rule(), Rule::DeadTime(_))) {
+            return Ok(None);
+        }
+        budget.step("boundaries of the requirements");
+        let found = GainFamily::of(self, cut, budget).and_then(|family| {
+            let set = |family: GainFamily| family.required_set(requirements, stable, budget);
+            family.map(set).transpose()
+        });
+        match found {
+            Err(Error::Stopped(stopped)) if stopped.stop.is_precision() => Ok(None),
+            found => found,
+        }
     }
 
     /// A requirement on the roots of the closed loop, all of them as they are.

@@ -121,7 +121,7 @@ fn open_loops_are_those_of_exact_polynomials() {
         let problem = problem.model().ask().problem().unwrap();
         let budget = Budget::unlimited();
         let exact = OpenLoop::of(&problem, None, &budget).unwrap();
-        let opened = problem.model().opened_in_numbers(exact.cut(), problem.set(), &budget).unwrap();
+        let opened = problem.model().opened_in_numbers(exact.cut(), &[], problem.set(), &budget).unwrap();
         let found = EnclosedQuotient::of(&opened).expect("a loop of this form");
         let enclosed = [&found.denominator, &found.numerator].map(|p| {
             let value = |c| found.symbols.enclose(c, 300).lower();

@@ -54,6 +54,14 @@ impl Circle {
         times(d, self.combined[0]).plus(&times(n, self.combined[1]))
     }
 
+    /// `a`, `b` and `c`.
+    pub fn coefficients(&self) -> [Integer; 3] {
+        let (p, q) = (self.least.numerator(), self.least.denominator());
+        let [u, v] = self.combined.map(Integer::from);
+        let less = |product: Integer| &(&q * &q) - &(&(&p * &p) * &product);
+        [less(&v * &v), less(&u * &v), less(&u * &u)]
+    }
+
     /// `q^2 |D0 + N|^2 - p^2 |u D0 + v N|^2` of the two squares: not negative where the condition holds.
     pub fn excess<R: Domain>(&self, sum_squared: &Poly<R>, combined_squared: &Poly<R>) -> Poly<R> {
         let (p, q) = (self.least.numerator(), self.least.denominator());
