@@ -93,7 +93,7 @@ fn angles(system: &(DMatrix<f64>, DVector<f64>, DVector<f64>)) -> Vec<f64> {
         (0..1500).map(|k| 1e-4 * (std::f64::consts::PI * 1e4).powf(f64::from(k) / 1500.0)).collect();
     for pole in system.0.complex_eigenvalues().iter().filter(|pole| pole.im > 0.0) {
         let width = 1.0 - pole.norm();
-        all.extend((-200..=200).map(|k| pole.arg() + width * f64::from(k) / 40.0).filter(|x| (1e-4..3.14).contains(x)));
+        all.extend((-200..=200).map(|k| pole.arg() + width * f64::from(k) / 40.0).filter(|x| (1e-4..3.13).contains(x)));
     }
     all
 }

@@ -8,7 +8,7 @@ use super::met::AtPoint;
 use super::open_loop::OpenLoop;
 use super::opened::OpenedLoop;
 use super::over_boxes::{OverBoxes, certain, segments};
-use super::requirement::{Requirement, Rule};
+use super::requirement::Requirement;
 use super::{RequiredEnd, RequiredInterval, RequiredSet};
 use crate::error::{Code, Diagnostic, Error};
 use crate::model::Cut;
