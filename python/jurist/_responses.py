@@ -93,7 +93,9 @@ class ResponseQuestions(Asker):
         Examples
         --------
         >>> import jurist
-        >>> b = jurist.LoopBuilder("continuous", parameters={"a": 1}).block("plant", "r - y", "y", "a/(s*(s + 1))")
+        >>> b = jurist.LoopBuilder("continuous")
+        >>> a = b.parameter("a", 1)
+        >>> b = b.block("plant", "r - y", "y", f"{a}/(s*(s + 1))")
         >>> least = b.build(inputs=["r"], outputs=["y"]).least_margins({"a": ("1/2", 1)}).margins["phase_margin"]
         >>> round(float(least.proved)), round(float(least.found[0]), 3), least.at
         (52, 51.827, {'a': Fraction(1, 1)})

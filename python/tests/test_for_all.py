@@ -74,5 +74,6 @@ def test_the_least_margins_for_all_values() -> None:
         exact = servo().margins(values={"K": 2, **one.at})
         if one.name == "modulus_margin":
             assert one.proved <= one.found[0] <= Fraction(exact.modulus.value.decimal(12)) + Fraction(1, 10**11)
-    unstable = servo().least_margins({"T_m": ("1/50", "1/10")}, values={"K": 19})
+    pole = jurist.Loop.characteristic("z - 1 + K*c", time="discrete", parameters={"K": 1, "c": 1})
+    unstable = pole.least_margins({"c": (1, 4)})
     assert unstable.stable is False and unstable.margins == {}
