@@ -30,7 +30,7 @@ const MARGINS: [Level; 6] = [
 ];
 
 /// More parts of the ranges are not looked at, for one number.
-const MOST_PARTS: usize = 1 << 12;
+const MOST_PARTS: usize = 1 << 9;
 
 /// What is required of all values is so much less than what one has, as shares; the next one where the one before is not proved.
 const GAPS: [(i64, i64); 4] = [(1, 200), (1, 50), (1, 8), (1, 2)];
