@@ -58,6 +58,7 @@ fn an_integrator_by_hand() {
 
 /// `K/(s + 1)` is nowhere above one for `K` up to 1: then any delay is borne.
 #[test]
+#[ignore = "long: CI runs it"]
 fn a_lag_whose_delay_has_no_bound() {
     let found = set(&continuous("1/(s + 1)"), "1000");
     let (end, _) = upper(&found);
@@ -122,6 +123,7 @@ fn bears(plant: &str, gain: &Rational, least: &Rational) -> bool {
 
 /// Ends, and values around them, against the windows of the dead time, which are found without any open loop.
 #[test]
+#[ignore = "long: CI runs it"]
 fn random_loops_against_the_windows_of_the_dead_time() {
     let mut random = Random::new(37);
     let mut seen = [0, 0];
