@@ -8,7 +8,7 @@ use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::Verdict;
 use jurist_engine::model::Model;
-use jurist_engine::response::{RequiredEnd, RequiredSet, Requirement};
+use jurist_engine::response::{DelayMargin, RequiredEnd, RequiredSet, Requirement};
 use jurist_engine::stability::Range;
 
 /// Unity feedback of a plant behind a gain `K`; what begins the text, and what the plant is beside its transfer function.
@@ -221,4 +221,42 @@ fn what_is_not_known_is_refused() {
          [[block]]\ninput = 'u'\noutput = 'y'\ntransfer = '1/(s + 1)'\ndiscretize = 'zoh'\n",
     );
     assert!(refused(&held, "T", "1").contains("names that are not in its sample time"));
+}
+
+/// Whole samples hide a resonance near to the sampling frequency: any number of them is borne. Dead time of half a sample is not.
+#[test]
+fn a_resonance_that_whole_samples_hide_bounds_the_dead_time_behind_a_hold() {
+    let with = |hold: &str| {
+        read(&format!(
+            "time = 'discrete'\nsample_time = 1\nparameters = {{ K = 0.9 }}\nloop = {{ inputs = ['r'], outputs = ['y'] }}\n\
+             [[block]]\ninput = 'K*(r - y)'\noutput = 'u'\ngain = 1\n[[block]]\nname = 'P'\ninput = 'u'\noutput = 'y'\n\
+             transfer = '39.5/(s^2 + 0.1*s + 39.5)'\ndiscretize = {hold}\n"
+        ))
+    };
+    let budget = Budget::unlimited();
+    let model = with("'zoh'");
+    let problem = model.ask().problem().unwrap();
+    let margins = problem.margins(Some("P"), &Rational::ZERO, &budget).unwrap();
+    assert!(matches!(margins.value().stable.as_ref().unwrap().delay, DelayMargin::Unbounded));
+    let bound = margins.value().held_delay.as_ref().unwrap().seconds(64).unwrap();
+    assert!(*bound.lower() > number("0.2667") && *bound.upper() < number("0.2668"), "{bound:?}");
+    assert!(
+        margins.text(6).contains("any number of whole samples; less than 0.266728 s of dead time at the input of 'P'")
+    );
+    for (time, is_borne) in [("0.2667", true), ("0.2668", false), ("0.6", false)] {
+        // The second way: the loop with this dead time.
+        let other = with(&format!("{{ method = 'zoh', delay = {time} }}")).ask().verdict(&budget).unwrap();
+        assert_eq!(other.value().verdict == Verdict::Stable, is_borne, "{time}");
+        let met = problem.requirements_met(&[delay(time)], Some("P"), &budget).unwrap()[0].met;
+        assert_eq!(met, is_borne, "{time}");
+    }
+    // Beyond what is looked at nothing is said.
+    let lag = read(
+        "time = 'discrete'\nsample_time = '1/1000'\nparameters = { K = 0.5 }\nloop = { inputs = ['r'], outputs = ['y'] }\n\
+         [[block]]\ninput = 'K*(r - y)'\noutput = 'u'\ngain = 1\n[[block]]\nname = 'P'\ninput = 'u'\noutput = 'y'\n\
+         transfer = '1/(s + 1)'\ndiscretize = 'zoh'\n",
+    );
+    let refused =
+        lag.ask().problem().unwrap().requirements_met(&[delay("0.5")], Some("P"), &budget).unwrap_err().to_string();
+    assert!(refused.contains("more than 64 samples at the input of a plant behind a hold"), "{refused}");
 }

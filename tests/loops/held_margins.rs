@@ -80,15 +80,11 @@ fn dead_time_behind_a_hold_is_not_less_than_the_whole_samples_that_are_borne() {
     let model = load(include_str!("../../src/cli/templates/held-plant.toml"));
     let answer = margins_of(&model, None);
     assert!(matches!(stable(&answer).delay, DelayMargin::Samples(37)));
-    if let Some(held) = &answer.value().held_delay {
-        let seconds = real::enclosed(6, |bits| held.seconds(bits)).unwrap();
-        assert!(number(&seconds) > number("0.074"), "{seconds}");
-    }
+    assert!(answer.value().held_delay.as_ref().is_some_and(|held| held.samples.is_none()));
     let text = answer.text(12);
-    assert!(
-        text.contains("37 samples (0.074 s); with one more the loop is not stable") && !text.contains("less than"),
-        "{text}"
-    );
+    let words =
+        "37 samples (0.074 s); with one more the loop is not stable; any dead time up to 12 samples at the input of";
+    assert!(text.contains(words) && !text.contains("less than"), "{text}");
 }
 
 #[test]

@@ -198,7 +198,6 @@ fn what_holds_for_all_values_of_names_is_told() {
 }
 
 #[test]
-#[ignore = "long: CI runs it"]
 fn axes_have_parts_of_both_kinds() {
     // Of s^2 + a s + K the phase margin falls with K, and grows with a.
     let model = loop_of("continuous", "K/(s*(s + a))", "parameters = { K = {}, a = {} }");

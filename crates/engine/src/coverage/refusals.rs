@@ -179,8 +179,13 @@ pub(crate) static NO_SAMPLE_TIME: Refusal = Refusal::new(
 );
 pub(crate) static MANY_SAMPLES: Refusal = Refusal::new(
     Code::Require,
-    "a delay margin of more than {most} samples of this loop is decided at points only",
-    AT_A_POINT,
+    "a delay margin of more than {most} samples of this loop is not decided over values of parameters",
+    "where the delay is not dead time behind a hold, 'verdict' decides it with a value for every parameter",
+);
+pub(crate) static MANY_HELD_SAMPLES: Refusal = Refusal::new(
+    Code::Require,
+    "a delay margin of more than {most} samples at the input of a plant behind a hold is not decided",
+    "'jurist margins' says how many whole samples the loop bears; the delays between them are not looked at",
 );
 pub(crate) static NOT_IN_A_PLANE: Refusal =
     Refusal::new(Code::Require, "the requirement {name} is not decided for two parameters", "{help}");

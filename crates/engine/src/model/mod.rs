@@ -52,7 +52,7 @@ pub(crate) use in_numbers::InNumbers;
 pub use loop_line::LoopLine;
 pub(crate) use nominal::Nominal;
 pub use open_loop::Cut;
-pub(crate) use open_loop::{MoreDeadTime, Opened};
+pub(crate) use open_loop::{MoreDeadTime, OnlyHold, Opened};
 pub(crate) use presupposed::{Presupposed, Presupposition};
 pub use read::{DRIVE, Reference, schema, source_from_bytes};
 pub use shipping::{NumberFormat, Shipping};

@@ -326,7 +326,6 @@ mod tests {
     }
 
     #[test]
-    #[ignore = "long: CI runs it"]
     fn what_several_blocks_presuppose_holds_together() {
         // x^2 > 1 and x > 0; the nominal value is in neither part of the first.
         let text = "time = 'discrete'\n[parameters]\nx = { nominal = 0.5 }\n[loop]\ninputs = ['r']\n\

@@ -1,8 +1,10 @@
-//! For which values of one parameter a discrete loop bears a delay: whole samples, each of which makes a loop of its own, or dead time behind a hold.
+//! For which values of one parameter a discrete loop bears a delay. The delay is a number of whole samples, and each number makes another loop; or it is
+//! dead time behind a hold.
 
 use super::RequiredSet;
 use super::borne_set::ascending;
 use super::cells::{inside_of, outward, parts_beside, required_parts};
+use super::delay_boxes::DelayAsked;
 use super::requirement::{Requirement, Rule};
 use super::sampled_delay::{Counted, SampledLoop};
 use crate::error::Error;
@@ -31,7 +33,7 @@ impl Problem {
         let first = stable.intervals().first().map(|interval| interval.bare().sample(budget)).transpose()?;
         let near = parameter.nominal.clone().or(first).unwrap_or(Rational::ONE);
         let cut = requirement.cut(self, at)?;
-        let sampled = SampledLoop::of(self, least, &cut, from_ref(&near), budget)?;
+        let sampled = SampledLoop::of(DelayAsked { problem: self, least, cut: &cut, near: from_ref(&near) }, budget)?;
         let Counted::Whole(samples) = sampled.counted else {
             return self.without_region().required_in_boxes(from_ref(requirement), stable, at, budget);
         };

@@ -49,7 +49,7 @@ impl Problem {
     /// The parts of the stable set in which a delay margin is what is required.
     ///
     /// # Errors
-    /// `E-dead-time` where several factors of the open loop have dead time; `E-require` for loops of which no values are known.
+    /// `E-dead-time` where several factors of the open loop have dead time; `E-require` beside constants that are not rational and functions.
     pub(super) fn bearing_set(
         self: &Arc<Self>,
         requirement: &Requirement,

@@ -68,7 +68,7 @@ impl Candidates {
         all
     }
 
-    /// The parts of an interval in which everything is met; nothing is undecided there. `unmet` has the names of what is not met at a stable value.
+    /// The parts of an interval in which all requirements are met. `unmet` names the requirements that a stable value does not meet.
     pub fn cells(
         &self,
         interval: &StableInterval,

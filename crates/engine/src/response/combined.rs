@@ -40,7 +40,8 @@ pub(super) struct Combined {
 }
 
 impl Combined {
-    /// Of polynomials none of which is zero. `None` where one has zeros in `(-2, 2)` that are algebraic: they may be repeated, and are to be isolated apart.
+    /// Combines polynomials that are not zero. `None` where a polynomial has algebraic zeros in `(-2, 2)`: these may be repeated, and another
+    /// method isolates them.
     pub fn new(ground: &Constants, parts: &[&Poly<MultiPoly>], how: Combination) -> Option<Combined> {
         if parts.iter().any(|p| has_exact_zeros(p)) {
             return None;
@@ -56,7 +57,7 @@ impl Combined {
     /// Its zeros in a range between two numbers, ascending.
     ///
     /// # Errors
-    /// [`Exhausted`] when the budget runs out, and where zeros are not told apart.
+    /// [`Exhausted`] when the budget runs out, and where the greatest precision does not separate two zeros.
     pub fn zeros(&self, range: &Range, budget: &Budget) -> Result<Vec<Real>, Exhausted> {
         let p: Arc<dyn EnclosedPoly> = Arc::new(self.clone());
         enclosed_roots(&p, range.lower.as_ref(), range.upper.as_ref(), budget)

@@ -1,14 +1,13 @@
 //! A dead time at the cut of continuous loops, over boxes.
 
-use super::delay_boxes::{DelayFamily, DelayedLoops, Delays, shares_of};
+use super::delay_boxes::{DelayAsked, DelayFamily, DelayedLoops, Delays, shares_of};
 use super::family::Quotient;
 use super::opened::OpenedLoop;
 use super::requirement_boxes::OverPoints;
 use super::same_count::same_count;
 use crate::coverage::refusals::DELAY_BESIDE;
 use crate::error::Error;
-use crate::model::Cut;
-use crate::problem::{OverDeadTime, Problem};
+use crate::problem::OverDeadTime;
 use crate::stability::AtPoint;
 use crate::stability::boxes::{DelayedFunction, Family, corners};
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -39,14 +38,9 @@ impl ContinuousDelay {
     ///
     /// # Errors
     /// As [`OpenedLoop::of`] and [`OpenedLoop::quotient`]; `E-require` beside functions other than dead times.
-    pub fn of(
-        problem: &Problem,
-        least: &Rational,
-        cut: Cut,
-        near: &[Rational],
-        budget: &Budget,
-    ) -> Result<Option<ContinuousDelay>, Error> {
-        let opened = OpenedLoop::of(problem, cut, budget)?;
+    pub fn of(asked: DelayAsked<'_>, budget: &Budget) -> Result<Option<ContinuousDelay>, Error> {
+        let DelayAsked { problem, least, cut, near } = asked;
+        let opened = OpenedLoop::of(problem, cut.clone(), budget)?;
         let delays = opened.symbols.delays();
         if opened.symbols.iter().count() > delays.len() {
             return Err(DELAY_BESIDE.diagnostic(&[]).into());

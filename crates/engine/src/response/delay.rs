@@ -15,7 +15,7 @@ use jurist_algebra::real::Real;
 /// The delay margin: how much delay at the cut a stable loop bears.
 #[derive(Clone, Debug)]
 pub enum DelayMargin {
-    /// Any.
+    /// Any; in discrete time any number of whole samples.
     Unbounded,
     /// Continuous time: none, as the modulus of the open loop does not fall below one at high frequencies.
     Zero,
@@ -34,6 +34,15 @@ const FOLLOWED_SAMPLES: u64 = 10_000;
 const COMPARED_BITS: u64 = 256;
 
 impl DelayMargin {
+    /// Whether it counts whole samples: dead time between them makes another loop of a plant behind a hold.
+    pub(crate) fn is_in_samples(&self, open_loop: &OpenLoop) -> bool {
+        match self {
+            DelayMargin::Samples(_) | DelayMargin::SamplesAtLeast(_) => true,
+            DelayMargin::Unbounded => open_loop.sample_time().is_some(),
+            DelayMargin::Zero | DelayMargin::DeadTime(_) => false,
+        }
+    }
+
     /// Of a stable loop.
     pub(super) fn of(open_loop: &OpenLoop, crossings: &Crossings, budget: &Budget) -> Result<DelayMargin, Exhausted> {
         with_parts!(open_loop, parts => DelayMargin::over(parts, crossings, budget))

@@ -27,6 +27,16 @@ const MORE_PARTS: usize = 2;
 /// Cells of frequency and parameters after which a box is rather halved: with one delay, and with a range of them.
 const CELLS: [usize; 2] = [64, 12];
 
+/// A delay margin that is asked of the loops near to a point of the free names.
+#[derive(Clone, Copy)]
+pub(crate) struct DelayAsked<'a> {
+    pub problem: &'a Arc<Problem>,
+    /// In units of time.
+    pub least: &'a Rational,
+    pub cut: &'a Cut,
+    pub near: &'a [Rational],
+}
+
 /// Loops with a delay at the cut.
 pub(super) trait Delays {
     /// Delays with which a loop may be unstable, from the greatest to the least; there is one at least.
@@ -88,18 +98,12 @@ impl DelayBoxes {
     ///
     /// # Errors
     /// As [`OpenedLoop::of`](super::opened::OpenedLoop::of); `E-require` for loops of which boxes are not known.
-    pub fn of(
-        problem: &Arc<Problem>,
-        least: &Rational,
-        cut: Cut,
-        near: &[Rational],
-        budget: &Budget,
-    ) -> Result<Option<DelayBoxes>, Error> {
-        if problem.shape() == Shape::UnitDisc {
-            let sampled = SampledDelay::of(problem, least, cut, near, budget)?;
+    pub fn of(asked: DelayAsked<'_>, budget: &Budget) -> Result<Option<DelayBoxes>, Error> {
+        if asked.problem.shape() == Shape::UnitDisc {
+            let sampled = SampledDelay::of(asked, budget)?;
             return Ok(Some(sampled.map_or(DelayBoxes::Never, |one| DelayBoxes::Sampled(Box::new(one)))));
         }
-        let continuous = ContinuousDelay::of(problem, least, cut, near, budget)?;
+        let continuous = ContinuousDelay::of(asked, budget)?;
         Ok(continuous.map(|one| DelayBoxes::Continuous(Box::new(one))))
     }
 

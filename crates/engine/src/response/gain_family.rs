@@ -85,30 +85,12 @@ impl GainFamily {
                 }
             }
             budget.step("testing a sample of each cell");
-            let unmet = |value: &Rational| Ok(self.unmet(value, requirements, budget)?);
+            let unmet = |value: &Rational| Ok(AtPoint::unmet(&self.open_loop.times(value), requirements, budget)?);
             let cells = |part: &_| candidates.cells(part, requirements, unmet, budget);
             parts_beside(interval, candidates.brackets(), &mut found, cells)?;
         }
         found.sort();
         Ok(found)
-    }
-
-    /// The names of what is not met at a stable value.
-    fn unmet(
-        &self,
-        value: &Rational,
-        requirements: &[Requirement],
-        budget: &Budget,
-    ) -> Result<Vec<&'static str>, Exhausted> {
-        let open_loop = self.open_loop.times(value);
-        let mut here = AtPoint::new(&open_loop);
-        let mut out = Vec::new();
-        for requirement in requirements {
-            if !here.meets(requirement, budget)? {
-                out.push(requirement.name());
-            }
-        }
-        Ok(out)
     }
 
     fn values(&self, requirement: &Requirement, budget: &Budget) -> Result<Values, Exhausted> {

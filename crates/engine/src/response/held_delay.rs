@@ -2,11 +2,12 @@
 
 use super::open_loop::OpenLoop;
 use crate::answer::{Frequency, Sides};
+use crate::coverage::refusals::MANY_HELD_SAMPLES;
 use crate::error::Error;
-use crate::model::MoreDeadTime;
+use crate::model::{MoreDeadTime, OnlyHold};
 use crate::problem::{Problem, Region, fixed_symbols, moving_symbols};
 use crate::stability::{AtPoint, ComplexPair, Range, StableSet, SymbolicPolynomial, symbolic_stable_set};
-use jurist_algebra::limits::Budget;
+use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::real::Real;
 use std::sync::Arc;
@@ -23,7 +24,8 @@ pub struct HeldDelay {
     pub block: String,
     /// The sample time.
     pub period: Rational,
-    /// The dead time in samples at which the loop ceases to be stable; `None` where it is more than all that was looked at.
+    /// The dead time in samples at which the loop ceases to be stable; `None` where it is stable with all that were looked at, up to
+    /// [`HeldDelay::MOST`] samples.
     pub samples: Option<Real>,
     /// The pair of roots on the unit circle there.
     pub pair: Option<ComplexPair>,
@@ -32,35 +34,48 @@ pub struct HeldDelay {
 }
 
 impl HeldDelay {
-    /// Loops that bear more samples are not looked at: each sample is a root more.
+    /// Dead times up to so many samples are looked at: each sample is a root more.
     pub const MOST: u64 = 12;
 
-    /// About so many samples of dead time are looked at.
-    pub const LOOKED_AT: i64 = 63;
+    /// The same where it is asked whether so much is borne.
+    pub const ASKED: u64 = 64;
 
-    /// Of a stable loop that bears this many whole samples; `None` where the cut is not that of a loop through the only block
-    /// behind a hold, where they are more than [`HeldDelay::MOST`], and where an end is not told from a tie.
-    pub(super) fn of(
+    /// Of a stable loop; `None` where the cut is not that of a loop through the only block behind a hold, and where an end is not told from a tie.
+    pub(super) fn of(problem: &Problem, open_loop: &OpenLoop, budget: &Budget) -> Result<Option<HeldDelay>, Error> {
+        let Some(hold) = held(problem, open_loop, budget)? else { return Ok(None) };
+        HeldDelay::up_to(&HeldDelay::MOST.into(), problem, &hold, budget)
+    }
+
+    /// Whether a stable loop bears all dead times less than one; `None` where the cut is not that of a loop through the only block behind a hold.
+    ///
+    /// # Errors
+    /// `E-require` where the dead time is more than [`HeldDelay::ASKED`] samples; [`Error::Stopped`] where an end is not told from a tie.
+    pub(super) fn is_borne(
         problem: &Problem,
         open_loop: &OpenLoop,
-        borne: u64,
+        least: &Rational,
         budget: &Budget,
-    ) -> Result<Option<HeldDelay>, Error> {
-        if borne > HeldDelay::MOST {
-            return Ok(None);
+    ) -> Result<Option<bool>, Error> {
+        let Some(hold) = held(problem, open_loop, budget)? else { return Ok(None) };
+        let needed = least.checked_div(&hold.period).expect("a sample time is positive");
+        if needed > HeldDelay::ASKED.into() {
+            return Err(MANY_HELD_SAMPLES.diagnostic(&[("most", &HeldDelay::ASKED.to_string())]).into());
         }
-        let (model, values) = (problem.model(), problem.set());
-        let Some(hold) = model.only_hold(&[], values, budget)? else { return Ok(None) };
-        let Ok(at_hold) = OpenLoop::of(problem, Some(&hold.block), budget) else { return Ok(None) };
-        if !open_loop.is_same(&at_hold) {
-            return Ok(None);
+        match HeldDelay::up_to(&needed, problem, &hold, budget)?.map(|found| found.samples) {
+            None => Err(Exhausted::by_method("an end is not told from a tie", "dead time behind the hold").into()),
+            Some(None) => Ok(Some(true)),
+            Some(Some(samples)) => Ok(Some(budget.enter(|| samples.compare_rational(&needed).is_ge())?)),
         }
+    }
+
+    /// Of the dead times up to a number of samples; `None` where an end is not told from a tie.
+    fn up_to(most: &Rational, problem: &Problem, hold: &OnlyHold, budget: &Budget) -> Result<Option<HeldDelay>, Error> {
         let ended = |samples, pair, is_on_edge| {
             Ok(Some(HeldDelay { block: hold.block.clone(), period: hold.period.clone(), samples, pair, is_on_edge }))
         };
         let found = |samples, pair| ended(samples, pair, false);
         let mut from = Rational::ZERO;
-        for _ in 0..=HeldDelay::LOOKED_AT {
+        while from < *most {
             let Some(to) = hold.next_break(&from) else { return Ok(None) };
             let more = MoreDeadTime::Near(vec![from.midpoint(&to)]);
             let set = stable_fractions(problem, &more, Range::between(Some(from.clone()), Some(to.clone())), budget)?;
@@ -99,6 +114,17 @@ impl HeldDelay {
     /// The frequency of the pair, enclosed with about `bits` bits.
     pub fn frequency(&self, bits: u64) -> Option<Frequency> {
         Some(Frequency::of_pair(self.pair.as_ref()?, Some(&self.period), bits))
+    }
+}
+
+/// The only block behind a hold, if the loop is cut at its input.
+fn held(problem: &Problem, open_loop: &OpenLoop, budget: &Budget) -> Result<Option<OnlyHold>, Error> {
+    let Some(hold) = problem.model().only_hold(&[], problem.set(), budget)? else { return Ok(None) };
+    match OpenLoop::of(problem, Some(&hold.block), budget) {
+        Ok(at_hold) => Ok(Some(hold).filter(|_| open_loop.is_same(&at_hold))),
+        Err(Error::Stopped(stopped)) => Err(Error::Stopped(stopped)),
+        // A block with several inputs is no place to cut.
+        Err(_) => Ok(None),
     }
 }
 

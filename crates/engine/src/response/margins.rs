@@ -231,9 +231,9 @@ impl Problem {
                 }
             };
             let held_delay = match &stable {
-                Some(StableMargins { delay: DelayMargin::Samples(borne), .. }) if with_held_delay => {
+                Some(stable) if with_held_delay && stable.delay.is_in_samples(&open_loop) => {
                     budget.step("dead time behind the hold");
-                    HeldDelay::of(self, &open_loop, *borne, budget)?
+                    HeldDelay::of(self, &open_loop, budget)?
                 }
                 _ => None,
             };

@@ -34,6 +34,22 @@ impl<'a> AtPoint<'a> {
         AtPoint { open_loop, gain: None, phase: None, circles: Vec::new() }
     }
 
+    /// The names of the requirements on margins that an open loop does not meet.
+    pub fn unmet(
+        open_loop: &OpenLoop,
+        requirements: &[Requirement],
+        budget: &Budget,
+    ) -> Result<Vec<&'static str>, Exhausted> {
+        let mut here = AtPoint::new(open_loop);
+        let mut out = Vec::new();
+        for requirement in requirements {
+            if !here.meets(requirement, budget)? {
+                out.push(requirement.name());
+            }
+        }
+        Ok(out)
+    }
+
     /// Whether it meets a requirement on margins; none on roots is met by an open loop.
     pub fn meets(&mut self, requirement: &Requirement, budget: &Budget) -> Result<bool, Exhausted> {
         let open_loop = self.open_loop;
@@ -141,46 +157,50 @@ fn circle_extreme(open_loop: &OpenLoop, circle: &Circle, budget: &Budget) -> Res
     })
 }
 
-/// What is known of the delay of a stable loop.
-pub(super) struct KnownDelay<'a> {
-    pub open_loop: &'a OpenLoop,
-    pub crossings: &'a Crossings,
-    pub margin: &'a DelayMargin,
-    pub held: Option<&'a HeldDelay>,
-}
-
-impl KnownDelay<'_> {
-    /// Whether all dead times less than one are borne.
-    fn is_at_least(&self, least: &Rational, budget: &Budget) -> Result<bool, Error> {
-        match (self.margin, self.held) {
-            (DelayMargin::Unbounded, _) => Ok(true),
-            (DelayMargin::Zero, _) => Ok(false),
+impl Problem {
+    /// Whether a stable loop bears all dead times less than one, by its delay margin and, at the input of a plant behind a hold, its dead time there.
+    fn bears(
+        &self,
+        (open_loop, crossings): (&OpenLoop, &Crossings),
+        (margin, held): (&DelayMargin, Option<&HeldDelay>),
+        least: &Rational,
+        budget: &Budget,
+    ) -> Result<bool, Error> {
+        match (margin, held.and_then(|held| Some((held.samples.as_ref()?, &held.period)))) {
+            (DelayMargin::Zero, _) => return Ok(false),
             (DelayMargin::DeadTime(i), _) => {
-                let enclose = |bits| self.crossings.gain[*i].delay(self.open_loop.frequencies(), bits);
-                Ok(is_at_least(enclose, least, budget)?)
+                let enclose = |bits| crossings.gain[*i].delay(open_loop.frequencies(), bits);
+                return Ok(is_at_least(enclose, least, budget)?);
             }
-            (_, Some(HeldDelay { samples, period, .. })) => {
+            (_, Some((samples, period))) => {
                 let needed = least.checked_div(period).expect("a sample time is positive");
-                Ok(match samples {
-                    Some(samples) => budget.enter(|| samples.compare_rational(&needed).is_ge())?,
-                    None => needed <= Rational::from(HeldDelay::LOOKED_AT),
-                })
+                return Ok(budget.enter(|| samples.compare_rational(&needed).is_ge())?);
             }
-            (DelayMargin::Samples(m) | DelayMargin::SamplesAtLeast(m), None) => {
-                let Some(step) = self.open_loop.sample_time() else {
-                    return Err(NO_SAMPLE_TIME.diagnostic(&[]).into());
-                };
-                Ok(&Rational::from(*m) * step >= *least)
+            _ => {}
+        }
+        let borne = match margin {
+            DelayMargin::Samples(m) | DelayMargin::SamplesAtLeast(m) => {
+                let Some(step) = open_loop.sample_time() else { return Err(NO_SAMPLE_TIME.diagnostic(&[]).into()) };
+                // With one whole sample more it is not stable, whatever is between.
+                if matches!(margin, DelayMargin::Samples(_)) && &Rational::from(*m + 1) * step < *least {
+                    return Ok(false);
+                }
+                &Rational::from(*m) * step >= *least
             }
+            _ => true,
+        };
+        match margin.is_in_samples(open_loop) {
+            true => Ok(HeldDelay::is_borne(self, open_loop, least, budget)?.unwrap_or(borne)),
+            false => Ok(borne),
         }
     }
-}
 
-/// Whether a stable loop bears all dead times less than one.
-pub(super) fn bears(margins: &Margins, least: &Rational, budget: &Budget) -> Result<bool, Error> {
-    let Some(stable) = &margins.stable else { return Ok(false) };
-    let Margins { open_loop, crossings, held_delay, .. } = margins;
-    KnownDelay { open_loop, crossings, margin: &stable.delay, held: held_delay.as_ref() }.is_at_least(least, budget)
+    /// Whether a loop with margins, if it is stable, bears all dead times less than one.
+    pub(super) fn bears_with(&self, margins: &Margins, least: &Rational, budget: &Budget) -> Result<bool, Error> {
+        let Some(stable) = &margins.stable else { return Ok(false) };
+        let Margins { open_loop, crossings, held_delay, .. } = margins;
+        self.bears((open_loop, crossings), (&stable.delay, held_delay.as_ref()), least, budget)
+    }
 }
 
 fn is_at_least(
@@ -236,11 +256,7 @@ impl Problem {
             crossing.dead_time = open_loop.dead_time().cloned();
         }
         let margin = DelayMargin::of(open_loop, &crossings, budget)?;
-        let held = match &margin {
-            DelayMargin::Samples(borne) => HeldDelay::of(self, open_loop, *borne, budget)?,
-            _ => None,
-        };
-        KnownDelay { open_loop, crossings: &crossings, margin: &margin, held: held.as_ref() }.is_at_least(least, budget)
+        self.bears((open_loop, &crossings), (&margin, None), least, budget)
     }
 
     /// Refuses a damping of a loop with dead time: `|exp(-tau s)|` grows with the distance of a root from the axis, that of a chain of roots only as the

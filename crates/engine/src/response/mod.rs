@@ -77,7 +77,7 @@ pub use asked::Requirements;
 pub(crate) use complex_loop::root_on_boundary;
 pub use crossings::{Crossings, Direction, GainCrossing, PhaseCrossing};
 pub use delay::DelayMargin;
-pub(crate) use delay_boxes::{DelayBoxes, DelayedLoops};
+pub(crate) use delay_boxes::{DelayAsked, DelayBoxes, DelayedLoops};
 pub use disk::DiskMargin;
 pub(crate) use disk::degrees;
 pub use everywhere::{Everywhere, everywhere};

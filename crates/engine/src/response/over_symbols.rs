@@ -273,14 +273,7 @@ impl<'a> SymbolicFamily<'a> {
     ) -> Result<Vec<&'static str>, Error> {
         let problem = self.problem.with_value(value);
         let open_loop = OpenLoop::of_cut(&problem, self.cut.clone(), budget)?;
-        let mut here = AtPoint::new(&open_loop);
-        let mut out = Vec::new();
-        for requirement in requirements {
-            if !here.meets(requirement, budget)? {
-                out.push(requirement.name());
-            }
-        }
-        Ok(out)
+        Ok(AtPoint::unmet(&open_loop, requirements, budget)?)
     }
 }
 

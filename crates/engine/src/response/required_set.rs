@@ -5,7 +5,7 @@ use super::family::{Boundaries, Family};
 use super::for_all::AllOf;
 use super::gain_family::GainFamily;
 use super::margins::Margins;
-use super::met::{AtPoint, bears};
+use super::met::AtPoint;
 use super::on_roots::OnRoots;
 use super::open_loop::OpenLoop;
 use super::over_symbols::SymbolicFamily;
@@ -359,7 +359,7 @@ impl Problem {
                 let met = match (requirement.rule(), &margins, known) {
                     _ if !stable => false,
                     (_, _, Some(met)) => met,
-                    (Rule::DeadTime(least), Some(margins), _) => bears(margins, least, budget)?,
+                    (Rule::DeadTime(least), Some(margins), _) => self.bears_with(margins, least, budget)?,
                     // A loop that is open at this point bears any dead time.
                     (Rule::DeadTime(_), None, _) => true,
                     (Rule::Sector(_) | Rule::Modulus { .. }, ..) => {

@@ -1,6 +1,6 @@
 //! Whether a loop is stable, or meets a requirement, at all points of a box of its free parameters at once.
 
-use super::delay_boxes::DelayBoxes;
+use super::delay_boxes::{DelayAsked, DelayBoxes};
 use super::over_box::{Certain, OverBox};
 use super::requirement::{Requirement, Rule};
 use super::same_count::same_count;
@@ -118,7 +118,8 @@ impl RequirementBoxes {
         let (over, delay) = match requirement.rule() {
             Rule::DeadTime(least) => {
                 let cut = requirement.cut(problem, at)?;
-                (None, DelayBoxes::of(&problem.without_region(), least, cut, near, budget)?)
+                let asked = DelayAsked { problem: &problem.without_region(), least, cut: &cut, near };
+                (None, DelayBoxes::of(asked, budget)?)
             }
             _ => (OverBox::of(problem, requirement, at, near, budget)?, None),
         };

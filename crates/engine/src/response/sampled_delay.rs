@@ -1,7 +1,7 @@
 //! A delay at the cut of discrete loops, over boxes: dead time at the input of the only plant behind a hold, else whole samples.
 
 use super::delay::delayed;
-use super::delay_boxes::{DelayFamily, DelayedLoops, Delays, shares_of};
+use super::delay_boxes::{DelayAsked, DelayFamily, DelayedLoops, Delays, shares_of};
 use super::family::Quotient;
 use super::ground::Ground;
 use super::held_delay::{HeldDelay, is_stable_with};
@@ -96,13 +96,8 @@ impl<'p> SampledLoop<'p> {
     ///
     /// # Errors
     /// As [`OpenedLoop::of`] and [`OpenedLoop::quotient`]; `E-require` where the sample time, or the dead time behind the hold, is no number.
-    pub fn of(
-        problem: &'p Problem,
-        least: &Rational,
-        cut: &Cut,
-        near: &[Rational],
-        budget: &Budget,
-    ) -> Result<SampledLoop<'p>, Error> {
+    pub fn of(asked: DelayAsked<'p>, budget: &Budget) -> Result<SampledLoop<'p>, Error> {
+        let DelayAsked { problem, least, cut, near } = asked;
         let opened = OpenedLoop::of(problem, cut.clone(), budget)?;
         let (quotient, undefined) = opened.quotient(MultiPoly::clone, budget)?;
         let in_samples = |period: &Rational| least.checked_div(period).expect("a sample time is positive");
@@ -178,14 +173,9 @@ impl SampledDelay {
     ///
     /// # Errors
     /// As [`SampledLoop::of`].
-    pub fn of(
-        problem: &Arc<Problem>,
-        least: &Rational,
-        cut: Cut,
-        near: &[Rational],
-        budget: &Budget,
-    ) -> Result<Option<SampledDelay>, Error> {
-        let sampled = SampledLoop::of(problem, least, &cut, near, budget)?;
+    pub fn of(asked: DelayAsked<'_>, budget: &Budget) -> Result<Option<SampledDelay>, Error> {
+        let DelayAsked { problem, cut, near, .. } = asked;
+        let sampled = SampledLoop::of(asked, budget)?;
         let names: Vec<String> = problem.free().iter().map(|free| free.name.clone()).collect();
         let families = match &sampled.counted {
             Counted::Whole(samples) => {
@@ -203,7 +193,7 @@ impl SampledDelay {
             },
         };
         let is_held = matches!(sampled.counted, Counted::Held(_));
-        Ok(Some(SampledDelay { problem: Arc::clone(problem), cut, families, is_held }))
+        Ok(Some(SampledDelay { problem: Arc::clone(problem), cut: cut.clone(), families, is_held }))
     }
 
     /// The families with the delays that are one parameter more.

@@ -167,33 +167,33 @@ impl Writer<'_> {
 
     fn delay(&self, delay: &DelayMargin) -> String {
         let samples = |m: u64| if m == 1 { "1 sample".to_owned() } else { format!("{m} samples") };
-        match delay {
+        let whole = match delay {
+            DelayMargin::Unbounded if delay.is_in_samples(&self.margins.open_loop) => {
+                "none, the loop is stable with any number of whole samples".to_owned()
+            }
             DelayMargin::Unbounded => "none, the loop is stable with any delay".to_owned(),
             DelayMargin::Zero => "0, the open loop's magnitude does not fall below 1 at high frequencies".to_owned(),
             DelayMargin::SamplesAtLeast(m) => format!("at least {}", samples(*m)),
+            DelayMargin::Samples(0) => "0 samples; with one more sample of delay the loop is not stable".to_owned(),
             DelayMargin::Samples(m) => {
-                let time = match self.margins.open_loop.sample_time() {
-                    Some(t) if *m > 0 => format!(" ({} s)", short(&(t * &Rational::from(*m as i64)))),
-                    _ => String::new(),
-                };
-                let more = match m {
-                    0 => "0 samples; with one more sample of delay the loop is not stable".to_owned(),
-                    _ => format!("{}{time}; with one more the loop is not stable", samples(*m)),
-                };
-                self.margins.held_delay.as_ref().map_or(more.clone(), |held| format!("{more}; {}", self.held(held)))
+                let time = self.margins.open_loop.sample_time();
+                let time =
+                    time.map(|t| format!(" ({} s)", short(&(t * &Rational::from(*m as i64))))).unwrap_or_default();
+                format!("{}{time}; with one more the loop is not stable", samples(*m))
             }
             DelayMargin::DeadTime(i) => {
                 let crossing = &self.margins.crossings.gain[*i];
                 let seconds = decimal(self.digits, |bits| crossing.delay(self.margins.open_loop.frequencies(), bits));
                 format!("less than {seconds} s of dead time, {}", self.at(Some(&crossing.place)))
             }
-        }
+        };
+        self.margins.held_delay.as_ref().map_or(whole.clone(), |held| format!("{whole}; {}", self.held(held)))
     }
 
     fn held(&self, held: &HeldDelay) -> String {
         let block = visible(&held.block);
         let Some(seconds) = real::enclosed(self.digits, |bits| held.seconds(bits)) else {
-            return format!("much dead time at the input of '{block}'");
+            return format!("any dead time up to {} samples at the input of '{block}'", HeldDelay::MOST);
         };
         let place = match held.is_on_edge {
             true => ", where a sample falls on an edge of its pulse and the model is undefined".to_owned(),

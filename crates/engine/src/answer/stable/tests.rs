@@ -74,7 +74,6 @@ fn nearly_equal_axes_are_decided_each_alone_and_the_nominal_value_is_not_in_a_br
 }
 
 #[test]
-#[ignore = "long: CI runs it"]
 fn a_parameter_whose_nominal_value_is_zero_is_looked_at_outward_from_there() {
     let model = axes("0.8", "0.9", "13");
     let set = set_of(model.ask().free("w"));

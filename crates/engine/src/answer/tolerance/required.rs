@@ -7,7 +7,8 @@ use crate::coverage::refusals::{MARGINS_IN_ONE, NOT_OVER_A_BOX};
 use crate::error::Error;
 use crate::problem::Problem;
 use crate::response::{
-    DelayBoxes, DelayedLoops, Family, RequiredFamily, Requirement, RequirementBoxes, Rule, half_tangent, radius_below,
+    DelayAsked, DelayBoxes, DelayedLoops, Family, RequiredFamily, Requirement, RequirementBoxes, Rule, half_tangent,
+    radius_below,
 };
 use crate::stability::boxes::{
     BoxDecision, BoxPolynomial, Family as StableFamily, LargestFactor, OpenReason, Side, ToleranceProblem, Witness,
@@ -53,7 +54,8 @@ impl Problem {
             BoxAsked { sides, request, most, breaks: &breaks, budget, found: RequiredBox::new(requirement) };
         if let Rule::DeadTime(least) = requirement.rule() {
             let (cut, near) = (requirement.cut(self, request.at.as_deref())?, asked.nominal());
-            let delay = DelayBoxes::of(&self.without_region(), least, cut, &near, budget)?;
+            let delay =
+                DelayBoxes::of(DelayAsked { problem: &self.without_region(), least, cut: &cut, near: &near }, budget)?;
             let delay = delay.ok_or_else(|| not_over_a_box(requirement, "ask 'verdict' at points"))?;
             if let Some(witness) = breaks(&near)? {
                 asked.found.decision = BoxDecision::NotStable { witness: Some(witness) };

@@ -106,7 +106,8 @@ pub struct PhaseMarginFound {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct DelayMarginFound {
-    /// Whether any delay is borne; the other keys are `null` then.
+    /// Whether any delay is borne; in discrete time any number of whole samples, beside which `seconds` may bound the dead time at the input of a plant
+    /// behind a hold. The other keys are `null` then.
     pub unbounded: bool,
     /// The dead time that is not borne any more, in units of time, correctly rounded: in continuous time, and at the input of
     /// a plant behind a hold.
@@ -243,23 +244,14 @@ impl Writer<'_> {
         };
         let zero = Exact::from(&Rational::ZERO);
         match delay {
-            DelayMargin::Unbounded => DelayMarginFound { unbounded: true, ..none },
             DelayMargin::Zero => {
                 DelayMarginFound { seconds: Some("0".into()), enclosure: Some([zero.clone(), zero]), ..none }
             }
-            DelayMargin::Samples(m) => {
-                let held = self.margins.held_delay.as_ref();
-                let narrow = held.and_then(|h| h.seconds(real::bits_for(self.digits)));
-                DelayMarginFound {
-                    samples: Some(*m),
-                    seconds: self.decimal(|bits| held?.seconds(bits)),
-                    behind_hold: held.filter(|h| h.samples.is_some()).map(|h| h.block.clone()),
-                    enclosure: narrow.map(|e| super::number::enclosure(e.lower(), e.upper())),
-                    frequency: FrequencyOfPair::new(self.digits, |bits| held?.frequency(bits)),
-                    ..none
-                }
+            DelayMargin::Unbounded => self.held_delay(DelayMarginFound { unbounded: true, ..none }),
+            DelayMargin::Samples(m) => self.held_delay(DelayMarginFound { samples: Some(*m), ..none }),
+            DelayMargin::SamplesAtLeast(m) => {
+                self.held_delay(DelayMarginFound { samples: Some(*m), at_least: true, ..none })
             }
-            DelayMargin::SamplesAtLeast(m) => DelayMarginFound { samples: Some(*m), at_least: true, ..none },
             DelayMargin::DeadTime(i) => {
                 let crossing = &self.margins.crossings.gain[*i];
                 let narrow = crossing.delay(self.margins.open_loop.frequencies(), real::bits_for(self.digits));
@@ -270,6 +262,19 @@ impl Writer<'_> {
                     ..none
                 }
             }
+        }
+    }
+
+    /// With the dead time at the input of a plant behind a hold.
+    fn held_delay(&self, whole: DelayMarginFound) -> DelayMarginFound {
+        let Some(held) = self.margins.held_delay.as_ref().filter(|held| held.samples.is_some()) else { return whole };
+        let narrow = held.seconds(real::bits_for(self.digits));
+        DelayMarginFound {
+            seconds: self.decimal(|bits| held.seconds(bits)),
+            behind_hold: Some(held.block.clone()),
+            enclosure: narrow.map(|e| super::number::enclosure(e.lower(), e.upper())),
+            frequency: FrequencyOfPair::new(self.digits, |bits| held.frequency(bits)),
+            ..whole
         }
     }
 
