@@ -32,30 +32,8 @@ pub(super) fn is_product(f: &[Uni], g: &[Uni], factors: &[Uni], clock: &Clock) -
     if frame.bits > MAX_BITS {
         return Err("a resultant is too long".into());
     }
-    let mut next = 1 << 60;
-    let mut following = || -> Result<Modulus, String> {
-        let modulus = Modulus::below(next).ok_or("a resultant is too long")?;
-        next = modulus.value;
-        Ok(modulus)
-    };
-    let mut zeros = 0;
-    let powers = loop {
-        let modulus = following()?;
-        let image = Image::of(&pair, factors, &modulus);
-        let Some(image) = image else { continue };
-        let Some(residues) = image.coefficients(&frame, clock)? else { continue };
-        if residues.is_empty() {
-            zeros += 1;
-            if zeros == ZEROS {
-                return Ok(false);
-            }
-            continue;
-        }
-        match image.powers(residues, clock)? {
-            Some(powers) => break powers,
-            None => return Ok(false),
-        }
-    };
+    let mut moduli = Moduli { next: 1 << 60 };
+    let Some(powers) = powers_of(&pair, factors, &frame, &mut moduli, clock)? else { return Ok(false) };
     let product = Product::of(factors, powers);
     // Of both a multiple of the same power of `x`, and of no higher degree, there are as many coefficients as values.
     if product.order(factors) < frame.lowest || product.degree(factors) >= frame.lowest + frame.count {
@@ -64,9 +42,8 @@ pub(super) fn is_product(f: &[Uni], g: &[Uni], factors: &[Uni], clock: &Clock) -
     let largest = Z::one() << frame.bits;
     let mut quotient = Residues::default();
     loop {
-        let modulus = following()?;
-        let image = Image::of(&pair, factors, &modulus);
-        let Some(image) = image else { continue };
+        let modulus = moduli.following()?;
+        let Some(image) = Image::of(&pair, factors, &modulus) else { continue };
         let residue = match image.ratio(&product, &frame, clock)? {
             Ratio::Unknown => continue,
             Ratio::None => return Ok(false),
@@ -85,6 +62,40 @@ pub(super) fn is_product(f: &[Uni], g: &[Uni], factors: &[Uni], clock: &Clock) -
             }
         }
     }
+}
+
+/// Moduli, descending.
+struct Moduli {
+    next: u64,
+}
+
+impl Moduli {
+    fn following(&mut self) -> Result<Modulus, String> {
+        let modulus = Modulus::below(self.next).ok_or("a resultant is too long")?;
+        self.next = modulus.value;
+        Ok(modulus)
+    }
+}
+
+/// How often each factor divides the resultant, looked up modulo one number; `None` where they do not make it up, or where it counts as zero.
+fn powers_of(
+    pair: &Pair,
+    factors: &[Uni],
+    frame: &Frame,
+    moduli: &mut Moduli,
+    clock: &Clock,
+) -> Result<Option<Vec<usize>>, String> {
+    let mut zeros = 0;
+    while zeros < ZEROS {
+        let modulus = moduli.following()?;
+        let Some(image) = Image::of(pair, factors, &modulus) else { continue };
+        match image.coefficients(frame, clock)? {
+            Some(residues) if residues.is_empty() => zeros += 1,
+            Some(residues) => return image.powers(residues, clock),
+            None => {}
+        }
+    }
+    Ok(None)
 }
 
 /// Without an integer that divides all coefficients.
