@@ -205,7 +205,16 @@ fn counted(p: &Uni, q: &Uni, crossings: &Json, bits: usize, last: Option<Q>, clo
     if count_of_positive_roots(&f, clock)? != enclosures.len() {
         return Err("there are not as many crossings as positive roots".into());
     }
-    let found = crossings_of([p, q], &f, enclosures, bits, clock)?;
+    let mut found: Vec<Crossing> = Vec::with_capacity(enclosures.len());
+    let mut before: Option<Q> = None;
+    for enclosure in enclosures {
+        let (a, b) = pair(enclosure, "a crossing")?;
+        if before.is_some_and(|before| a < before) {
+            return Err("the crossings are not in order".into());
+        }
+        found.push(Crossing::new([p, q], &f, &a, &b, bits, clock)?);
+        before = Some(b);
+    }
     let places = places_by_axis(&total, clock)?;
     let at_zero = found.iter().filter(|c| c.is_one).count();
     if places.on != 2 * at_zero || places.inside + places.on + places.outside != n {
@@ -228,27 +237,6 @@ fn counted(p: &Uni, q: &Uni, crossings: &Json, bits: usize, last: Option<Q>, clo
     let ends = |i: usize| switches.iter().filter(|s| s.crossing == i).map(|s| s.at.hi.clone()).collect();
     let crossings = found.into_iter().enumerate().map(|(i, c)| (c, ends(i))).collect();
     Ok(Counted { right, switches, grows: true, crossings })
-}
-
-/// The crossings of a quasi-polynomial, ascending; `f` has their frequencies as roots.
-fn crossings_of(
-    parts: [&Uni; 2],
-    f: &Uni,
-    enclosures: &[Json],
-    bits: usize,
-    clock: &Clock,
-) -> Result<Vec<Crossing>, String> {
-    let mut found: Vec<Crossing> = Vec::with_capacity(enclosures.len());
-    let mut before: Option<Q> = None;
-    for enclosure in enclosures {
-        let (a, b) = pair(enclosure, "a crossing")?;
-        if before.is_some_and(|before| a < before) {
-            return Err("the crossings are not in order".into());
-        }
-        found.push(Crossing::new(parts, f, &a, &b, bits, clock)?);
-        before = Some(b);
-    }
-    Ok(found)
 }
 
 /// The dead times at which roots are on the axis, ascending.

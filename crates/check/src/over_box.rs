@@ -73,7 +73,15 @@ pub(super) fn with_sources(
     clock: &Clock,
 ) -> Result<(OverBox, Sources), String> {
     let asked = model::asked_over_box(text, boxed, functions, clock)?;
-    is_linear_at_cut(text, boxed, functions, by, clock)?;
+    if let Some(factor) = boxed.factor.filter(|factor| factor.is_complex_at_parameter()) {
+        // Linear in a gain there, or, doubled, of twice the degree.
+        let factor = Factor { family: Family::Gain, ..factor.clone() };
+        let (plain, _) = with_sources(text, Boxed { factor: Some(&factor), ..boxed }, functions, by, clock)?;
+        let most = if plain.is_doubled { 2 } else { 1 };
+        if plain.coefficients.iter().any(|c| c.degree(FIRST + boxed.names.len()) > most) {
+            return Err("the loop is not linear in the parameter that is cut".into());
+        }
+    }
     clock.reading(|| {
         let reader = Reader { values: &asked.values, unit: asked.unit, clock };
         let positive = boxed.factor.map(|f| f.family.positive(FIRST + boxed.names.len(), clock)).transpose()?;
@@ -98,24 +106,6 @@ pub(super) fn with_sources(
         };
         Ok((found, sources))
     })
-}
-
-/// Refuses a complex factor at a parameter in which the loop is not linear: its polynomial has a power of a gain there, or, doubled, one above the square.
-fn is_linear_at_cut(
-    text: &str,
-    boxed: Boxed<'_>,
-    functions: Functions<'_>,
-    by: By<'_>,
-    clock: &Clock,
-) -> Result<(), String> {
-    let Some(factor) = boxed.factor.filter(|factor| factor.is_complex_at_parameter()) else { return Ok(()) };
-    let factor = Factor { family: Family::Gain, ..factor.clone() };
-    let (plain, _) = with_sources(text, Boxed { factor: Some(&factor), ..boxed }, functions, by, clock)?;
-    let most = if plain.is_doubled { 2 } else { 1 };
-    match plain.coefficients.iter().any(|c| c.degree(FIRST + boxed.names.len()) > most) {
-        true => Err("the loop is not linear in the parameter that is cut".into()),
-        false => Ok(()),
-    }
 }
 
 /// With the values of all parameters but those of the box, and, if a variable is the imaginary unit, with `j^2 = -1`.

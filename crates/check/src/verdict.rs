@@ -93,7 +93,11 @@ pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -
     let question = Question { model, kept: None, set: &s.set, extent: &s.extent, discrete: s.discrete };
     let Found { name, degree, places, infinite } = match (shown, &table) {
         (Shown::Polynomial(characteristic), None) => rational(&question, characteristic, clock)?,
-        (Shown::Enclosures(bits), _) => enclosed(&question, bits, clock)?,
+        (Shown::Enclosures(bits), _) => {
+            Step::Model.of(is_same_time(true, s.discrete))?;
+            let (degree, places) = by_enclosures::places(model, &s.set, &s.extent, bits, clock)?;
+            Found::of(degree, places)
+        }
         (Shown::Polynomial(characteristic), Some(table)) => {
             Step::Model.of(is_same_time(true, s.discrete))?;
             let d = question.over_symbols(characteristic, table, clock)?;
@@ -118,13 +122,6 @@ pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -
 /// Where a degree's roots are.
 pub(super) fn told_counts([n, inside, on, outside, infinite]: [usize; 5]) -> String {
     format!("degree {n}: {inside} roots are inside, {on} on the boundary, {outside} outside, {infinite} infinite")
-}
-
-/// The verdict of a sampled loop whose coefficients are enclosed.
-fn enclosed(question: &Question<'_>, bits: usize, clock: &Clock) -> Result<Found, Rejection> {
-    Step::Model.of(is_same_time(true, question.discrete))?;
-    let (degree, places) = by_enclosures::places(question.model, question.set, question.extent, bits, clock)?;
-    Ok(Found::of(degree, places))
 }
 
 /// The verdict of a loop without symbols.

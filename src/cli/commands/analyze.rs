@@ -1,7 +1,7 @@
 //! `jurist analyze`: the verdict at nominal and the stable set of each parameter.
 
 use super::{Context, Runs};
-use crate::cli::arguments::{DecisionOptions, RunOptions};
+use crate::cli::arguments::DecisionOptions;
 use crate::cli::destinations::Files;
 use crate::cli::input::decision;
 use crate::cli::requirements::warn_of_ignored;
@@ -38,10 +38,6 @@ impl Runs for Options {
         }
         context.answer(output, || answer.text(digits), || answer.json(digits))?;
         Ok(Status::Holds)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.decision.output.run
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {

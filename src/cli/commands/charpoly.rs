@@ -1,7 +1,7 @@
 //! `jurist charpoly`: the characteristic polynomial.
 
 use super::{Context, Runs, decided};
-use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions, RunOptions};
+use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::assignments::in_line;
 use crate::cli::destinations::Files;
 use crate::cli::input::{known_names, load, question};
@@ -59,10 +59,6 @@ impl Runs for Options {
         context.reporter.finish();
         finish_answer(&text, file)?;
         Ok(Status::Holds)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.output.run
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {

@@ -80,10 +80,6 @@ impl Runs for Options {
         Ok(status)
     }
 
-    fn run_options(&self) -> &RunOptions {
-        &self.run
-    }
-
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
         files.question(&self.model, &self.output);
         Ok(())

@@ -82,10 +82,6 @@ impl Runs for Options {
         Ok(Status::Holds)
     }
 
-    fn run_options(&self) -> &RunOptions {
-        &self.run
-    }
-
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
         files.inputs.push(("the system", self.file.as_os_str()));
         files.answer(self.output.as_ref());

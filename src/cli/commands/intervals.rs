@@ -2,7 +2,7 @@
 
 use super::{Context, Runs, decided};
 use crate::certified::{CertifiedIntervals, certify_intervals, certify_required_intervals};
-use crate::cli::arguments::{DecisionOptions, RunOptions};
+use crate::cli::arguments::DecisionOptions;
 use crate::cli::commands::map::{freed, ranges};
 use crate::cli::destinations::Files;
 use crate::cli::input::{decision, known_names, only_parameter};
@@ -88,10 +88,6 @@ impl Runs for Options {
             };
         }
         stable_set(&problem, (&model, &name), self, context)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.decision.output.run
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {

@@ -1,7 +1,7 @@
 //! `jurist jury`: the classical table and its conditions.
 
 use super::{Context, Runs, decided};
-use crate::cli::arguments::{DecisionOptions, RunOptions};
+use crate::cli::arguments::DecisionOptions;
 use crate::cli::destinations::Files;
 use crate::cli::input::{decision, known_names};
 use crate::cli::status::{Error, Outcome, Status};
@@ -56,10 +56,6 @@ impl Runs for Options {
         context.warn(None, problem.warnings());
         context.answer(output, || answer.text(digits), || answer.json(digits))?;
         Ok(Status::Holds)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.decision.output.run
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {

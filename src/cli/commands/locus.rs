@@ -70,10 +70,6 @@ impl Runs for Options {
         Ok(Status::Holds)
     }
 
-    fn run_options(&self) -> &RunOptions {
-        &self.run
-    }
-
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
         files.picture(&self.model.model, &self.picture)
     }

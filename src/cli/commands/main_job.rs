@@ -1,7 +1,7 @@
 //! `jurist`: the main job on the built-in drive.
 
 use super::{Context, Runs, decided};
-use crate::cli::arguments::{OutputOptions, RunOptions};
+use crate::cli::arguments::OutputOptions;
 use crate::cli::destinations::Files;
 use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
@@ -27,10 +27,6 @@ impl Runs for Options {
         let digits = self.output.digits() as usize;
         context.answer(&self.output, || main_job_text(&job, digits), || main_job_json(&job, digits))?;
         Ok(Status::Holds)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.output.run
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {

@@ -4,7 +4,7 @@ use super::map_body;
 use super::map_boxes::{self, MethodOptions};
 use super::{Context, Runs, decided};
 use crate::certified::certify_boxes;
-use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, RegionOptions, RunOptions};
+use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::assignments::{AxisRequest, axis, in_line};
 use crate::cli::destinations::Files;
 use crate::cli::input::{known_name, load, question};
@@ -152,10 +152,6 @@ impl Runs for Options {
             }
         };
         of_exact_map(&answer, (picture, &requests), self, &model, context)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.output.run
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {

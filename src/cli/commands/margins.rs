@@ -2,7 +2,7 @@
 
 use super::map::ranges;
 use super::{Context, Runs, decided};
-use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, RegionOptions, RunOptions};
+use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::assignments::plain_number;
 use crate::cli::destinations::Files;
 use crate::cli::input::{known_names, load, question};
@@ -67,10 +67,6 @@ impl Runs for Options {
         context.warn(None, problem.warnings());
         context.answer(output, || answer.text(digits), || answer.json(digits))?;
         Ok(if answer.value().stable.is_some() { Status::Holds } else { Status::DoesNotHold })
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.output.run
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {

@@ -39,10 +39,6 @@ impl Runs for Options {
         Ok(Status::Holds)
     }
 
-    fn run_options(&self) -> &RunOptions {
-        &self.run
-    }
-
     fn writes_a_folder(&self) -> bool {
         true
     }

@@ -77,10 +77,6 @@ impl Runs for Options {
         })
     }
 
-    fn run_options(&self) -> &RunOptions {
-        &self.run
-    }
-
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
         files.inputs.extend(self.model.model.iter().map(|model| ("the model", model.as_os_str())));
         files.answer(Some(&self.output));

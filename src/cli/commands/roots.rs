@@ -1,7 +1,7 @@
 //! `jurist roots`: where the roots of the closed loop are.
 
 use super::{Context, Runs, decided};
-use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, RegionOptions, RunOptions};
+use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::destinations::Files;
 use crate::cli::input::{load, question};
 use crate::cli::status::{Error, Outcome, Status};
@@ -41,10 +41,6 @@ impl Runs for Options {
         context.warn(None, problem.warnings());
         context.answer(output, || answer.text(digits), || answer.json(digits))?;
         Ok(Status::Holds)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.output.run
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {

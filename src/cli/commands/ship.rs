@@ -1,7 +1,7 @@
 //! `jurist ship`: the controller as it is stored and run.
 
 use super::{Context, Runs, decided};
-use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions, RunOptions};
+use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::assignments::{assignments, in_line};
 use crate::cli::destinations::Files;
 use crate::cli::import::{DsOptions, Words, read_c};
@@ -164,10 +164,6 @@ impl Runs for Options {
             Holds::No => Status::DoesNotHold,
             Holds::Open => Status::Undecided,
         })
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.output.run
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {

@@ -105,10 +105,6 @@ impl Runs for Options {
         Ok(Status::Holds)
     }
 
-    fn run_options(&self) -> &RunOptions {
-        &self.run
-    }
-
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
         files.inputs.extend(self.inputs.iter().map(|path| ("the table of inputs", path.as_os_str())));
         files.picture(&self.model.model, &self.picture)

@@ -75,10 +75,6 @@ impl Runs for Options {
         })
     }
 
-    fn run_options(&self) -> &RunOptions {
-        &self.run
-    }
-
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
         files.inputs.extend(self.paths.iter().map(|path| ("a file of the test", path.as_os_str())));
         files.inputs.extend(self.cases.iter().map(|path| ("the operating points", path.as_os_str())));

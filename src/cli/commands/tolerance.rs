@@ -2,7 +2,7 @@
 
 use super::{Context, Runs, decided};
 use crate::certified::certify_tolerance;
-use crate::cli::arguments::{DecisionOptions, RunOptions};
+use crate::cli::arguments::DecisionOptions;
 use crate::cli::assignments::in_line;
 use crate::cli::command_line::Place;
 use crate::cli::destinations::Files;
@@ -118,10 +118,6 @@ impl Runs for Options {
             Ok(certified.text)
         })?;
         Ok(status)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.decision.output.run
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {

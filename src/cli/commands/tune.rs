@@ -3,7 +3,7 @@
 use super::map::{freed, ranges};
 use super::{Context, Runs, decided};
 use crate::certified::certify_tune;
-use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions, RunOptions};
+use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::assignments::{bound, in_line, plain_number};
 use crate::cli::command_line::Place;
 use crate::cli::destinations::Files;
@@ -117,10 +117,6 @@ impl Runs for Options {
         let text = &answer.problem.model().source().text;
         certify(context, &output.run, text, &self.certificate, || certify_tune(&answer, &context.budget))?;
         Ok(if answer.is_feasible() == Some(false) { Status::DoesNotHold } else { Status::Holds })
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.output.run
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {

@@ -2,7 +2,7 @@
 
 use super::{Context, Runs, decided};
 use crate::certified::certify_requirements;
-use crate::cli::arguments::{DecisionOptions, RunOptions};
+use crate::cli::arguments::DecisionOptions;
 use crate::cli::destinations::Files;
 use crate::cli::input::decision;
 use crate::cli::output::write_answer;
@@ -91,10 +91,6 @@ impl Runs for Options {
             list => certify_requirements(&problem, list, asked.at.as_deref(), good, &context.budget),
         })?;
         Ok(if good { Status::Holds } else { Status::DoesNotHold })
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.decision.output.run
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {

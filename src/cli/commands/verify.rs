@@ -78,10 +78,6 @@ impl Runs for Options {
         }
     }
 
-    fn run_options(&self) -> &RunOptions {
-        &self.run
-    }
-
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
         files.inputs = vec![("the model", &self.model), ("the certificate", &self.certificate)];
         files.answer(None);

@@ -174,12 +174,16 @@ impl Diagram<'_, '_> {
     /// The rows of a block behind a hold: its states, then the past inputs it remembers.
     pub(super) fn held(
         &mut self,
-        [a, b, c, d]: Matrices,
+        matrices: Matrices,
         of: Held,
         inputs: &[Row],
         outputs: Range<usize>,
     ) -> Result<(), String> {
         let clock = self.scope.clock;
+        for &j in &of.on_edge {
+            is_smooth(&matrices, j, clock)?;
+        }
+        let [a, b, c, d] = matrices;
         let (n, m) = (a.len(), inputs.len());
         let (states, past) = (self.unknowns, self.unknowns + n);
         self.unknowns += n + of.past * m;
@@ -191,11 +195,8 @@ impl Diagram<'_, '_> {
         let inputs =
             inputs.iter().map(|input| input.iter().map(turned).collect()).collect::<Result<Vec<Row>, String>>()?;
         let later = turn.times(&Fraction::variable(0), clock)?;
-        let aged = AgedInputs { inputs, later: later.clone(), past };
+        let aged = Aged { inputs, later: later.clone(), past };
         let over = |m: &Multi| Fraction::over(m.clone(), of.over.clone());
-        for &j in &of.on_edge {
-            is_smooth(&b, &c, &d, j, clock)?;
-        }
         for i in 0..n {
             // z x - state x - sum matrix B u = 0
             let mut row = Row::from([(states + i, later.clone())]);
@@ -236,13 +237,7 @@ impl Diagram<'_, '_> {
     }
 
     /// Adds a multiple of an input of some age.
-    fn feed_aged(
-        &mut self,
-        row: &mut Row,
-        factor: &Fraction,
-        (age, j): (i64, usize),
-        of: &AgedInputs,
-    ) -> Result<(), String> {
+    fn feed_aged(&mut self, row: &mut Row, factor: &Fraction, (age, j): (i64, usize), of: &Aged) -> Result<(), String> {
         match age {
             -1 => self.feed(row, &factor.times(&of.later, self.scope.clock)?, &of.inputs[j]),
             0 => self.feed(row, factor, &of.inputs[j]),
@@ -252,20 +247,14 @@ impl Diagram<'_, '_> {
 }
 
 /// Inputs at a sample, and what stands for a sample later; from an unknown on there are the inputs of the samples before.
-struct AgedInputs {
+struct Aged {
     inputs: Vec<Row>,
     later: Fraction,
     past: usize,
 }
 
 /// Refuses an input that steps at a sample, if an output steps with it.
-fn is_smooth(
-    b: &[Vec<Fraction>],
-    c: &[Vec<Fraction>],
-    d: &[Vec<Fraction>],
-    input: usize,
-    clock: &Clock,
-) -> Result<(), String> {
+fn is_smooth([_, b, c, d]: &Matrices, input: usize, clock: &Clock) -> Result<(), String> {
     for (row, direct) in c.iter().zip(d) {
         let mut step = Fraction::number(&Q::zero());
         for (c, b) in row.iter().zip(b) {

@@ -2,9 +2,10 @@
 
 use super::bounds::Frame;
 use super::residues::Modulus;
+use crate::characteristic::primitive;
 use crate::clock::Clock;
 use crate::number::Z;
-use crate::univariate::{Uni, gcd_of};
+use crate::univariate::Uni;
 use num_traits::{One, Signed, Zero};
 
 /// Resultants of a higher degree are refused.
@@ -23,7 +24,7 @@ const ZEROS: usize = 3;
 /// modulo one number at as many integers as `R` has coefficients, where no leading coefficient vanishes. So `R = c W` modulo
 /// the product of all moduli, with `c` known by its residues, and in integers where that product is above the sum of what `R` and `c W` can be.
 pub(super) fn is_product(f: &[Uni], g: &[Uni], factors: &[Uni], clock: &Clock) -> Result<bool, String> {
-    let pair = Pair { f: primitive(f, clock)?, g: primitive(g, clock)? };
+    let pair = Pair { f: primitive(f.to_vec(), clock)?, g: primitive(g.to_vec(), clock)? };
     count_frame(&pair, clock)?;
     let Some(frame) = Frame::of(&pair.f, &pair.g, clock)? else { return Ok(false) };
     if frame.lowest + frame.count > MAX_DEGREE {
@@ -96,15 +97,6 @@ fn powers_of(
         }
     }
     Ok(None)
-}
-
-/// Without an integer that divides all coefficients.
-fn primitive(p: &[Uni], clock: &Clock) -> Result<Vec<Uni>, String> {
-    let content = gcd_of(p.iter().flat_map(|c| &c.0), clock)?;
-    if content.is_zero() || content.is_one() {
-        return Ok(p.to_vec());
-    }
-    Ok(p.iter().map(|c| Uni(c.0.iter().map(|c| c / &content).collect())).collect())
 }
 
 /// The work of the bounds of a resultant: rows times columns, and a square for each entry.

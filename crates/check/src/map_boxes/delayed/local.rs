@@ -173,6 +173,7 @@ impl Part {
 }
 
 /// The sum of parts, as in [`Local`].
+#[derive(Default)]
 struct Sums {
     value: Complex,
     slope: Complex,
@@ -279,15 +280,8 @@ pub(super) struct Local {
 impl Local {
     pub fn new(parts: &[Part], on: &Stretch<'_>) -> Self {
         let parameters = parts.first().map_or(0, |part| part.about.len() - 1);
-        let nothing = || [Z::zero(), Z::zero()];
-        let mut sums = Sums {
-            value: nothing(),
-            slope: nothing(),
-            by_sides: vec![nothing(); parameters],
-            rest: Z::zero(),
-            slope_rest: Z::zero(),
-            blame: vec![Z::zero(); parameters],
-        };
+        let (by_sides, blame) = (vec![Complex::default(); parameters], vec![Z::zero(); parameters]);
+        let mut sums = Sums { by_sides, blame, ..Sums::default() };
         for part in parts {
             let own = part.on(on);
             match &part.delay {

@@ -113,12 +113,10 @@ fn commanded<'n>(
     answers: &[RationalFunction],
 ) -> Result<RationalFunction, Vec<&'n str>> {
     let inputs = &model.simulation().inputs;
-    let mut without = Vec::new();
-    let mut sum = RationalFunction::zero();
-    for (own, answer) in names.iter().zip(answers) {
+    let (mut sum, mut without) = (RationalFunction::zero(), Vec::new());
+    for (own, answer) in names.iter().zip(answers).filter(|(_, answer)| !answer.is_zero()) {
         match inputs.iter().find(|(name, _)| name.name == *own) {
             Some((_, value)) => sum = &sum + &(answer * &value.clone().into()),
-            None if answer.is_zero() => {}
             None => without.push(own.as_str()),
         }
     }
