@@ -113,6 +113,7 @@ mod maps {
 mod tolerances {
     mod dead_time;
     mod degenerate;
+    mod for_all;
     mod held;
     mod hostile;
     mod laws;

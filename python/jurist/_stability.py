@@ -230,6 +230,7 @@ class StabilityQuestions(Asker):
         tol: Mapping[str, Exact | Bounds] | None = None,
         all: Exact | None = None,
         fix: str | Iterable[str] = (),
+        for_all: Mapping[str, Bounds] | None = None,
         limit: str | None = None,
         exact: bool = False,
         volume: bool = False,
@@ -247,6 +248,8 @@ class StabilityQuestions(Asker):
             For every number of the model.
         fix : str or iterable of str
             Names without a tolerance.
+        for_all : mapping from names to pairs of exact numbers, optional
+            Names for all of whose values the answer is asked, ends included; these ranges do not grow with the factor.
         limit : str, optional
             Also asks how far this parameter may go while all others have their tolerances.
         exact : bool
@@ -267,6 +270,10 @@ class StabilityQuestions(Asker):
         >>> t = loop.tolerance(tol={"K": "50%"})
         >>> t.holds, t.box["K"], t.factor.lower < 2 <= t.factor.upper
         (True, (Fraction(1, 2), Fraction(3, 2)), True)
+        >>> loop = jurist.Loop.characteristic("z - a + K", time="discrete", parameters={"K": 1, "a": 1})
+        >>> t = loop.tolerance(tol={"K": "10%"}, for_all={"a": ("1/2", 1)})  # 0 < K < 3/2
+        >>> t.factor.lower < 5 <= t.factor.upper
+        True
         """
         from ._tolerance import Tolerance
 
@@ -278,6 +285,7 @@ class StabilityQuestions(Asker):
             words += ["--tol", f"{name}={_tolerance(value)}"]
         for name in [fix] if isinstance(fix, str) else fix:
             words += ["--fix", name]
+        words += _for_all(for_all)
         words += [] if limit is None else ["--limit", limit]
         words += [f"--{option}" for option, wanted in (("exact", exact), ("volume", volume)) if wanted]
         more = ["--digits", str(asked["digits"])] if "digits" in question else []

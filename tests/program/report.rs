@@ -383,3 +383,21 @@ fn certificates_by_boxes_are_those_of_the_command() {
     let row = said.iter().find(|row| row[0] == "all limits of T").unwrap_or_else(|| panic!("{said:?}"));
     assert!(row[1].contains("by boxes") && row[2] == "accepted", "{row:?}");
 }
+
+/// What is said for all values is what the commands say; without ranges there is no such part.
+#[test]
+fn what_holds_for_all_values_is_that_of_the_commands() {
+    let (model, all) = ("examples/dc-servo.toml", ["--for-all", "T_m=0.02..0.05"]);
+    assert!(!page(model).contains("id=\"for-all\""));
+    let html = jurist(&[&["report", model, "-o", "-", "-q"][..], &all].concat()).stdout;
+    let part = plain(section(&html, "for-all"));
+    let below = |line: &[&str]| {
+        let text = jurist(&[line, &all].concat()).stdout;
+        text.split_once('\n').expect("a title").1.trim_end().to_owned()
+    };
+    let margins = below(&["margins", model, "--digits", "7"]);
+    assert!(part.contains(&margins), "{margins}\n{part}");
+    let gains = below(&["intervals", model, "--param", "K", "--digits", "12"]);
+    assert!(part.contains(&gains), "{gains}\n{part}");
+    refused(&["report", model, "--for-all", "Q=1..2", "-o", "-"], "E-unknown-parameter");
+}

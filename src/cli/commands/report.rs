@@ -1,5 +1,6 @@
 //! `jurist report`: one page about one's own loop.
 
+use super::map::ranges;
 use super::{Context, Runs};
 use crate::certified::certify_intervals;
 use crate::cli::arguments::{DEFAULT_DIGITS, ModelOptions, RegionOptions, RunOptions};
@@ -26,6 +27,9 @@ pub(in crate::cli) struct Options {
     /// [default: what [require] says, else the error of a single loop]
     #[arg(long, value_name = "SIGNAL")]
     pub at: Option<String>,
+    /// Adds what holds for all values of a name, ends included: the values of each parameter, and how much of each margin [repeatable]
+    #[arg(long = "for-all", value_name = "NAME=LO..HI")]
+    pub for_all: Vec<String>,
     /// The page, an .html file; '-' is standard output
     #[arg(short, long, value_name = "FILE", default_value = "report.html")]
     pub output: OsString,
@@ -41,6 +45,7 @@ impl Runs for Options {
         }
         let model = load(self.model.model.as_ref(), &self.model.line, context)?;
         let question = question(context, &model, &self.model, &RegionOptions::default())?;
+        let for_all = ranges(&self.for_all, &[], &model, context)?;
         let limits = self.run.timeout.map_or_else(Limits::default, Limits::within);
         let checker = |certificate: &str| {
             check(&model.source().text, certificate, &limits).map(|_| ()).map_err(|rejection| rejection.to_string())
@@ -66,6 +71,7 @@ impl Runs for Options {
             at: self.at.as_deref(),
             certify: Some(&certifier),
             check: Some(&checker),
+            for_all: &for_all,
             best: model.tuning().is_some().then_some(&best),
         };
         let report = loop_report(&question, &request, &context.budget);

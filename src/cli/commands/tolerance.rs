@@ -1,5 +1,6 @@
 //! `jurist tolerance`: stable for every value within tolerances.
 
+use super::map::ranges;
 use super::{Context, Runs, decided};
 use crate::certified::certify_tolerance;
 use crate::cli::arguments::DecisionOptions;
@@ -40,6 +41,9 @@ pub(in crate::cli) struct Options {
     /// Leaves a name without a tolerance; several with commas [repeatable]
     #[arg(long, value_name = "NAME")]
     pub fix: Vec<String>,
+    /// Asks for all values of another name as well, whatever the factor of the tolerances is: both ends included; takes the place of its tolerance [repeatable]
+    #[arg(long = "for-all", value_name = "NAME=LO..HI")]
+    pub for_all: Vec<String>,
     /// Asks for the box alone and not for the largest factor: the fastest answer where the box is stable
     #[arg(long, conflicts_with_all = ["limit", "exact", "volume"])]
     pub only: bool,
@@ -221,15 +225,18 @@ fn picture(file: Option<&OsString>) -> Option<Kind> {
 
 /// The shares, one a line.
 fn shares_table(answer: &Answer<ToleranceAnswer>) -> String {
-    let shares = answer.value().factor.iter().flat_map(|factor| factor.shares.iter().flatten());
-    let names = answer.problem().free().iter().map(|free| &free.name);
-    let lines = names.zip(shares).map(|(name, share)| format!("{name},{}\n", to_decimal(share, 12)));
+    let shares = answer.value().shares().unwrap_or_default();
+    let lines = shares.iter().map(|(i, share)| {
+        let name = &answer.problem().free()[*i].name;
+        format!("{name},{}\n", to_decimal(share, 12))
+    });
     std::iter::once("name,share\n".to_owned()).chain(lines).collect()
 }
 
 /// The tolerances of the model, of `--all` and of `--tol`, the later ones instead of the earlier.
 fn request(options: &Options, model: &Model, context: &Context) -> Result<ToleranceRequest, Error> {
     let mut request = ToleranceRequest::of_model(model);
+    let mut asked: Vec<&str> = options.limit.iter().map(String::as_str).collect();
     let mut put = |name: &str, tolerance: &Tolerance| {
         request.tolerances.retain(|(known, _)| known != name);
         request.tolerances.push((name.to_owned(), tolerance.clone()));
@@ -250,6 +257,7 @@ fn request(options: &Options, model: &Model, context: &Context) -> Result<Tolera
                 let trimmed = name.trim();
                 known_name(context, model, trimmed, place.part(start, start + name.len()))?;
                 put(trimmed, &tolerance);
+                asked.push(trimmed);
                 start += name.len() + 1;
             }
         }
@@ -263,6 +271,7 @@ fn request(options: &Options, model: &Model, context: &Context) -> Result<Tolera
             start += name.len() + 1;
         }
     }
+    request = request.for_all(ranges(&options.for_all, &asked, model, context)?);
     if let Some(name) = &options.limit {
         known_names(context, model, "--limit", from_ref(name))?;
         request.tolerances.retain(|(known, _)| known != name);

@@ -1,6 +1,7 @@
-// The drawer: every end with all its digits, certificates made and checked, the polynomial, tolerances, the best gains.
+// The drawer: every end with all its digits, certificates made and checked, the polynomial, tolerances, the best gains, what holds for all values.
 
 import { gainsOf, objectivesOf, tuning } from "./best.js";
+import { MARGINS, firstRange, forAll, rangesOf } from "./forall.js";
 import { coefficients } from "./formula.js";
 import { by, download, h, table } from "./dom.js";
 import { label } from "./numbers.js";
@@ -19,7 +20,7 @@ export interface Asked {
   time: string;
 }
 
-const DRAWERS = ["details", "polynomial", "tolerance", "best"];
+const DRAWERS = ["details", "polynomial", "tolerance", "best", "for-all"];
 
 const program = (text: string, ...args: string[]) => ({ ask: "program", model: text, arguments: args });
 
@@ -83,13 +84,23 @@ export class Details {
     if (id === "polynomial" && this.filled[id]?.text === asked.text) return;
     this.empty(id);
     this.filling[id] = asked;
-    const parts = await (id === "details" ? this.limits(asked) : id === "polynomial" ? this.polynomial(asked) : id === "best" ? this.best(asked) : this.tolerance(asked));
+    const parts = await this.content(id, asked);
     if (this.filling[id] === asked) this.filling[id] = undefined;
     const same = id === "polynomial" ? asked.text === this.asked.text : asked === this.asked;
     if (!parts || !same) return;
     this.filled[id] = asked;
     this.body(id).replaceChildren(...parts);
     this.body(id).setAttribute("aria-busy", "false");
+  }
+
+  private content(id: string, asked: Asked): Promise<Node[] | undefined> {
+    switch (id) {
+      case "details": return this.limits(asked);
+      case "polynomial": return this.polynomial(asked);
+      case "best": return this.best(asked);
+      case "for-all": return this.forAll(asked);
+      default: return this.tolerance(asked);
+    }
   }
 
   private async limits(asked: Asked): Promise<Node[] | undefined> {
@@ -189,6 +200,27 @@ export class Details {
     };
     return [
       h("p", {}, h("label", { for: "objective" }, `Best of ${gains.join(", ")}: `), objective, " ", h("button", { type: "button", id: "find-best", click: () => void find() }, "Best within the region")),
+      said,
+    ];
+  }
+
+  /** A button that asks what holds for all values of other names. */
+  private async forAll({ text, values, names, chosen }: Asked): Promise<Node[]> {
+    const what = h("select", { id: "for-all-what" }, ...[MARGINS, ...names].map((o) => h("option", { value: o }, o === MARGINS ? o : `the good values of ${o}`)));
+    const line = h("input", { id: "for-all-ranges", type: "text", value: firstRange(values, chosen), spellcheck: false, autocomplete: "off" }) as HTMLInputElement;
+    const said = h("pre", { role: "status" });
+    const find = async () => {
+      const found = rangesOf(line.value);
+      if ("wrong" in found || found.ranges.length === 0) {
+        said.textContent = `${"wrong" in found ? `'${found.wrong}' is no range` : "there is no range"}: NAME=LO..HI, such as L=0..5e-3`;
+        return;
+      }
+      said.textContent = "computing …";
+      const reply = await this.ask("for all", program(text, ...forAll((what as HTMLSelectElement).value, found.ranges, values)));
+      said.textContent = reply ? (no(reply) ?? [reply.output, ...reply.notes].join("\n")) : "undecided: cancelled";
+    };
+    return [
+      h("p", {}, h("label", { for: "for-all-ranges" }, "For all "), line, " ", h("label", { for: "for-all-what" }, "what is "), what, " ", h("button", { type: "button", id: "find-for-all", click: () => void find() }, "Prove")),
       said,
     ];
   }

@@ -216,6 +216,17 @@ test("what stands for a function of the second part traps, until that part puts 
   assert.equal(exports.call(), 47);
 });
 
+test("ranges are read from a line, and what has one keeps no value", async () => {
+  const { MARGINS, firstRange, forAll, rangesOf } = await moduleOf("forall.ts");
+  assert.deepEqual(rangesOf(" L=0..5e-3, T=1..2 "), { ranges: ["L=0..5e-3", "T=1..2"] });
+  assert.deepEqual(rangesOf("L=0..1 T"), { wrong: "T" });
+  assert.equal(firstRange([["K", "2"], ["L", "-1"], ["T", "0"]], ["K"]), "L=-1.1..-0.9");
+  assert.equal(firstRange([["K", "1/3"]], []), "");
+  const values = [["K", "1"], ["L", "2"], ["T", "3"]];
+  assert.deepEqual(forAll(MARGINS, ["L=1..2"], values), ["margins", "-", "--for-all", "L=1..2", "--set", "K=1", "--set", "T=3"]);
+  assert.deepEqual(forAll("K", ["L=1..2"], values), ["intervals", "-", "--param", "K", "--for-all", "L=1..2", "--set", "T=3"]);
+});
+
 test("the best gains are those of the text, else those in the picture", async () => {
   const { gainsOf, objectivesOf, tuning } = await moduleOf("best.ts");
   const text = ["[parameters]", "free = 1", "[tune]", "free = ['ki', \"k\"]", "objective = \"max ki\"   # as written", "[require]", "objective = 'max other'"].join("\n");

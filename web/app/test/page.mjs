@@ -302,6 +302,23 @@ test("the best gains within what is required come at a press of a button", async
   await page.value('document.getElementById("best").open = false');
 });
 
+test("what holds for all values of a name comes at a press of a button", async () => {
+  await page.open(fromFile);
+  await page.take(readFileSync(join(root, "examples/dc-servo.toml"), "utf8"), { map: false });
+  await page.value('document.getElementById("for-all").open = true');
+  await page.until('document.getElementById("find-for-all") !== null');
+  await page.value('document.getElementById("for-all-ranges").value = "T_m=0.02..0.05"');
+  await page.value('document.getElementById("find-for-all").click()');
+  await page.until('document.querySelector("#for-all-body pre").textContent.includes("disk margin")', "an answer");
+  const text = await page.value('document.querySelector("#for-all-body pre").textContent');
+  assert.match(text, /for all T_m from 0\.02 to 0\.05: stable\n/);
+  assert.match(text, /gain margin: at least 12\.\d+; 12\.7213/);
+  await page.value('document.getElementById("for-all-ranges").value = "T_m"');
+  await page.value('document.getElementById("find-for-all").click()');
+  await page.until('document.querySelector("#for-all-body pre").textContent.includes("is no range")', "a refusal");
+  await page.value('document.getElementById("for-all").open = false');
+});
+
 test("on a phone a model is pasted from the first screen, and its answers come into sight", async () => {
   await page.open(fromFile, 390, 844);
   const seen = (id) => page.value(`(() => { const { top, bottom, width } = document.getElementById("${id}").getBoundingClientRect(); return width > 0 && top >= -1 && bottom <= innerHeight + 1; })()`);

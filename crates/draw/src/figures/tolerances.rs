@@ -71,15 +71,15 @@ pub fn tolerance_figure(answer: &Answer<ToleranceAnswer>, budget: &Budget) -> Re
 /// The shares as bars, the largest first; each name with its sign at the worst point.
 fn bars(answer: &Answer<ToleranceAnswer>) -> Option<Figure> {
     let factor = answer.value().factor.as_ref()?;
-    let (shares, direction) = (factor.shares.as_ref()?, factor.direction.as_ref()?);
-    let mut order: Vec<usize> = (0..shares.len()).collect();
-    order.sort_by(|&i, &j| shares[j].cmp(&shares[i]));
+    let (mut shares, direction) = (answer.value().shares()?, factor.direction.as_ref()?);
+    shares.sort_by(|(_, a), (_, b)| b.cmp(a));
     let names: Vec<String> = answer.problem().free().iter().map(|free| free.name.clone()).collect();
     let mut rows: Vec<(String, Rational)> = Vec::new();
-    for (row, &i) in order.iter().enumerate() {
-        if row + 1 >= MOST_BARS && order.len() > MOST_BARS {
-            let rest = order[row..].iter().fold(Rational::ZERO, |sum, &i| sum + &shares[i]);
-            rows.push((format!("the other {}", order.len() - row), rest));
+    for (row, (i, share)) in shares.iter().enumerate() {
+        let i = *i;
+        if row + 1 >= MOST_BARS && shares.len() > MOST_BARS {
+            let rest = shares[row..].iter().fold(Rational::ZERO, |sum, (_, share)| sum + share);
+            rows.push((format!("the other {}", shares.len() - row), rest));
             break;
         }
         let place = match direction[i].abs() == Rational::ONE {
@@ -87,7 +87,7 @@ fn bars(answer: &Answer<ToleranceAnswer>) -> Option<Figure> {
             true => "+",
             false => "inside",
         };
-        rows.push((format!("{} {place}", names[i]), shares[i].clone()));
+        rows.push((format!("{} {place}", names[i]), share.clone()));
     }
     let left = 20.0 + rows.iter().map(|(name, _)| crate::scene::width(name, 12.0)).fold(60.0, f64::max);
     let room = WIDTH - left - 90.0;

@@ -6,6 +6,7 @@
 
 mod best;
 mod certificates;
+mod for_all;
 mod limit;
 mod limits;
 mod map;
@@ -27,6 +28,7 @@ use jurist_algebra::limits::{Budget, Exhausted, join, parallel_map};
 use jurist_engine::answer::Answer;
 use jurist_engine::error::Error;
 use jurist_engine::problem::Question;
+use jurist_engine::response::AllOf;
 use jurist_engine::show::layout::called;
 use jurist_engine::stability::StableSet;
 use part::{Parts, Work};
@@ -57,6 +59,8 @@ pub struct ReportRequest<'a> {
     pub certify: Option<Certifier<'a>>,
     /// The independent check of certificates.
     pub check: Option<Checker<'a>>,
+    /// Names with ranges: what holds for all of these values has a section of its own.
+    pub for_all: &'a [AllOf],
     /// The best gains; `None` for a model that does not ask for them.
     pub best: Option<BestGains<'a>>,
 }
@@ -116,6 +120,7 @@ pub fn loop_report(question: &Question, request: &ReportRequest<'_>, budget: &Bu
             "How the limits depend on each number",
             Box::new(|| sensitivity::section(question, &limits, &parts)),
         ),
+        ("for-all", "For all values", Box::new(|| for_all::section(question, request, at, &parts))),
         ("best", "Best gains", Box::new(|| best::section(request, &parts))),
         ("tolerance", "Worst corner of the tolerances", Box::new(|| tolerance::section(question, &parts))),
         ("locus", "Root locus", Box::new(|| pictures::locus(&limits, &parts))),
@@ -129,8 +134,12 @@ pub fn loop_report(question: &Question, request: &ReportRequest<'_>, budget: &Bu
         ),
         ("proved", "What is proved, what is drawn, what is left out", Box::new(|| proved::section(model))),
     ];
-    let asks_for_best = |(id, ..): &(&str, &str, Made<'_>)| *id != "best" || request.best.is_some();
-    let sections: Vec<_> = sections.into_iter().filter(asks_for_best).collect();
+    let is_asked = |(id, ..): &(&str, &str, Made<'_>)| match *id {
+        "best" => request.best.is_some(),
+        "for-all" => !request.for_all.is_empty(),
+        _ => true,
+    };
+    let sections: Vec<_> = sections.into_iter().filter(is_asked).collect();
     let sections: Vec<Section> = parallel_map(sections, |(id, heading, make)| Section { id, heading, html: make() });
     let title = format!("Stability report: {}", called(model.title()));
     let mut lead = format!("At the nominal point <b>{}</b>.", math(&limits::verdict_sentence(&verdict)));

@@ -11,8 +11,8 @@ pub(crate) use held::{SYMBOL_BITS, Truth};
 use super::Answer;
 use crate::error::{Code, Diagnostic, Error};
 use crate::model::{Model, Tolerance};
-use crate::problem::{Problem, Question};
-use crate::response::Requirement;
+use crate::problem::{Free, Problem, Question};
+use crate::response::{AllOf, Requirement};
 use crate::stability::boxes::{BoxDecision, BoxVolume, ExactProof, LargestFactor, Side};
 use crate::stability::{AtPoint, End};
 use decide::Asked;
@@ -34,6 +34,8 @@ use std::sync::Arc;
 pub struct ToleranceRequest {
     /// The tolerance of each name.
     pub tolerances: Vec<(String, Tolerance)>,
+    /// Names with ranges that do not grow with the factor: what is asked of the tolerances is to hold for all of these values.
+    pub for_all: Vec<AllOf>,
     /// The relative width of the bracket of the largest factor.
     pub gap: Rational,
     /// The parameter whose safe range is asked for, for all values of the others.
@@ -55,6 +57,7 @@ impl ToleranceRequest {
     pub fn new<S: Into<String>>(tolerances: impl IntoIterator<Item = (S, Tolerance)>) -> Self {
         ToleranceRequest {
             tolerances: tolerances.into_iter().map(|(name, t)| (name.into(), t)).collect(),
+            for_all: Vec::new(),
             gap: Rational::new(Integer::ONE, Integer::from(1_000_000)),
             limit: None,
             exact: false,
@@ -103,10 +106,40 @@ impl ToleranceRequest {
         self
     }
 
+    /// The same, asked for all values of these names as well, whatever the factor of the tolerances is. A tolerance of such a name is left out.
+    pub fn for_all(mut self, ranges: Vec<AllOf>) -> Self {
+        self.tolerances.retain(|(name, _)| ranges.iter().all(|all| all.name != *name));
+        self.for_all = ranges;
+        self
+    }
+
     /// The same, asking also how far one parameter may go while the others have their tolerances.
     pub fn limit(mut self, name: impl Into<String>) -> Self {
         self.limit = Some(name.into());
         self
+    }
+}
+
+impl ToleranceRequest {
+    /// The side of the box for a free name that was set to this value, if it was.
+    fn side(&self, free: &Free, set: Option<Rational>) -> Result<Side, Error> {
+        let name = &free.name;
+        let nominal = set.or_else(|| free.nominal.clone());
+        if let Some(AllOf { range: [low, high], .. }) = self.for_all.iter().find(|all| all.name == *name) {
+            // Where the nominal value is outside of the range, another one of it stands for all.
+            let nominal = nominal.filter(|x| low <= x && x <= high).unwrap_or_else(|| low.midpoint(high));
+            let widths = [&nominal - low, high - &nominal];
+            return Ok(Side::fixed(nominal, widths));
+        }
+        let nominal = nominal.ok_or_else(|| {
+            Diagnostic::error(Code::NoValue, format!("the parameter '{name}' has no value"))
+                .help(format!("set it: --set {name}=..., or give it a nominal value in the model file"))
+        })?;
+        let tolerance = self.tolerances.iter().find(|(known, _)| known == name).map(|(_, tolerance)| tolerance);
+        let widths = tolerance.map(|tolerance| tolerance.widths(&nominal)).transpose();
+        let widths =
+            widths.map_err(|why| Diagnostic::error(Code::Tolerance, format!("the tolerance of '{name}': {why}")))?;
+        Ok(Side::scaled(nominal, widths.unwrap_or([Rational::ZERO, Rational::ZERO])))
     }
 }
 
@@ -150,6 +183,31 @@ pub struct ToleranceAnswer {
     pub required: Vec<RequiredBox>,
     /// The requirement that bounds the factor, if one does so before stability is lost.
     pub binding: Option<usize>,
+}
+
+impl ToleranceAnswer {
+    /// How much of the margin each tolerance uses, by the number of its free parameter; the shares add up to 1. A range that does not grow has none.
+    pub fn shares(&self) -> Option<Vec<(usize, Rational)>> {
+        let shares = self.factor.as_ref()?.shares.as_ref()?;
+        let growing: Vec<usize> = (0..shares.len()).filter(|&i| self.sides[i].grows()).collect();
+        if growing.len() == shares.len() {
+            return Some(growing.into_iter().zip(shares.clone()).collect());
+        }
+        let sum = growing.iter().fold(Rational::ZERO, |sum, &i| sum + &shares[i]);
+        let share = |i: usize| shares[i].checked_div(&sum).unwrap_or(Rational::ZERO);
+        Some(growing.into_iter().map(|i| (i, share(i))).collect())
+    }
+
+    /// The names whose ranges do not grow with the factor.
+    pub fn ranges(&self, problem: &Problem) -> Vec<AllOf> {
+        let ranges = problem.free().iter().zip(&self.sides).filter(|(_, side)| !side.grows());
+        ranges
+            .filter_map(|(free, side)| {
+                let [low, high] = side.at(&Rational::ZERO);
+                AllOf::new(&free.name, low, high)
+            })
+            .collect()
+    }
 }
 
 /// What is known of a requirement over a box.
@@ -238,12 +296,17 @@ impl Question {
         told: &dyn Fn(&Answer<ToleranceAnswer>),
         budget: &Budget,
     ) -> Result<Answer<ToleranceAnswer>, Error> {
-        if request.tolerances.is_empty() {
-            return Err(Diagnostic::error(Code::Tolerance, "no parameter has a tolerance")
-                .help("give tolerances in the model, or with --tol NAME=10% or --all 10%")
-                .into());
+        if request.tolerances.is_empty() && request.limit.is_none() {
+            let help = match request.for_all.first() {
+                None => "give tolerances in the model, or with --tol NAME=10% or --all 10%".to_owned(),
+                Some(AllOf { name, range: [low, high], .. }) => {
+                    format!("'--tol {name}={low}..{high} --only' asks for all values of '{name}'")
+                }
+            };
+            return Err(Diagnostic::error(Code::Tolerance, "no parameter has a tolerance").help(help).into());
         }
         let mut names: Vec<&String> = request.tolerances.iter().map(|(name, _)| name).collect();
+        names.extend(request.for_all.iter().map(|all| &all.name));
         if let Some(limit) = &request.limit
             && !names.contains(&limit)
         {
@@ -254,26 +317,12 @@ impl Question {
             self = self.free((*name).clone()).all_values_of((*name).as_str());
         }
         let problem = self.problem()?;
-        let nominal_of = |name: &String| -> Result<Rational, Error> {
-            let found = problem.free().iter().find(|free| free.name == *name).and_then(|free| free.nominal.clone());
-            set.get(name).cloned().flatten().or(found).ok_or_else(|| {
-                Diagnostic::error(Code::NoValue, format!("the parameter '{name}' has no value"))
-                    .help(format!("set it: --set {name}=..., or give it a nominal value in the model file"))
-                    .into()
-            })
-        };
-        let mut sides = Vec::new();
-        for free in problem.free() {
-            let nominal = nominal_of(&free.name)?;
-            let tolerance = request.tolerances.iter().find(|(name, _)| *name == free.name).map(|(_, t)| t);
-            let widths = match tolerance {
-                None => [Rational::ZERO, Rational::ZERO],
-                Some(tolerance) => tolerance.widths(&nominal).map_err(|why| {
-                    Error::from(Diagnostic::error(Code::Tolerance, format!("the tolerance of '{}': {why}", free.name)))
-                })?,
-            };
-            sides.push(Side::scaled(nominal, widths));
-        }
+        request.for_all.iter().try_for_each(|all| all.inside_domain(&problem))?;
+        let sides = problem.free().iter().map(|free| {
+            let value = set.get(&free.name).cloned().flatten();
+            request.side(free, value)
+        });
+        let sides = sides.collect::<Result<Vec<_>, Error>>()?;
         Problem::tolerance(&problem, sides, Asked { request, told }, budget)
     }
 }

@@ -73,7 +73,14 @@ impl Answer<ToleranceAnswer> {
         let of = Loop { problem, p, held, budget };
         match (&value.limit, proved(value)) {
             (Some(limit), _) => of.limit(&value.sides, &truth, limit),
-            (None, Some(proof)) => of.box_of_sides(&value.sides, proof, None, witness.map(|w| (w, &value.sides[..]))),
+            (None, Some((factor, proof))) => {
+                let (sides, factor) = match value.sides.iter().all(Side::grows) {
+                    true => (value.sides.clone(), factor),
+                    // In a certificate all sides grow: it is of the box itself.
+                    false => (value.sides.iter().map(|side| side.grown(&factor)).collect(), Rational::ONE),
+                };
+                of.box_of_sides(&sides, (factor, proof), None, witness.map(|w| (w, &sides[..])))
+            }
             (None, None) => unreachable!("something was proved"),
         }
     }

@@ -11,7 +11,10 @@ use super::delayed_peak::DelayedQuotient;
 use super::enclosed::enclosed;
 use super::ground::Integers;
 use super::margins::{GainMargin, PhaseMargin, StableMargins};
+use super::met::{has_gain_margin, has_phase_margin};
+use super::open_loop::OpenLoop;
 use super::parts::Parts;
+use super::requirement::{Requirement, Rule};
 use super::value::reciprocal;
 use super::{DelayMargin, DiskMargin, Extreme, Place, Value};
 use crate::answer::stable_factors;
@@ -87,10 +90,8 @@ impl<'a> DeadTime<'a> {
     }
 
     /// All crossings of modulus one, and those of the negative real axis down to a hundredth.
-    pub fn crossings(&self, mut rational: Crossings, budget: &Budget) -> Result<Crossings, Error> {
-        for crossing in &mut rational.gain {
-            crossing.dead_time = Some(self.tau.clone());
-        }
+    pub fn crossings(&self, rational: Crossings, budget: &Budget) -> Result<Crossings, Error> {
+        let mut rational = self.turned_by_all(rational);
         rational.phase.retain(|c| matches!(c.place, Place::Lowest));
         rational.phase_everywhere = false;
         let end = self.beyond(budget)?;
@@ -113,11 +114,8 @@ impl<'a> DeadTime<'a> {
 
     /// The margins of a stable loop.
     pub fn margins(&self, crossings: &Crossings, skew: &Rational, budget: &Budget) -> Result<StableMargins, Error> {
-        let zero = UniPoly::zero();
-        let (d, n) = (self.parts.denominator.re.clone(), self.parts.numerator.re.clone());
         budget.step("gain margin");
-        let gain = GainLoop::new(vec![d, zero.clone()], vec![zero, n], self.tau.clone());
-        let gain = GainMargin::of_set(stable_factors(&gain, budget)?);
+        let gain = self.gain(budget)?;
         budget.step("phase margin");
         let phase = self.phase(crossings, budget)?;
         budget.step("delay margin");
@@ -145,6 +143,43 @@ impl<'a> DeadTime<'a> {
             complementary_at,
             disk,
         })
+    }
+
+    /// Whether a stable loop meets a requirement on a margin; no other margins are computed.
+    pub fn meets(&self, requirement: &Requirement, open_loop: &OpenLoop, budget: &Budget) -> Result<bool, Error> {
+        Ok(match requirement.rule() {
+            Rule::Factors(factor) => has_gain_margin(&self.gain(budget)?, factor, budget)?,
+            Rule::Turned { twice_cosine } => {
+                let crossings = self.turned_by_all(Crossings::of(open_loop, budget)?);
+                has_phase_margin(&self.phase(&crossings, budget)?, twice_cosine, budget)?
+            }
+            Rule::Circle(circle) => {
+                let [u, v] = circle.combined().map(Integer::from);
+                let [d, n] = [&self.parts.denominator.re, &self.parts.numerator.re];
+                let peak = self.peak(vec![d.scaled(&u), n.scaled(&v)], budget)?;
+                match ((circle.least() * circle.least()).recip(), peak.value()) {
+                    (Some(most), Some(peak)) => peak.compare(&Value::from(most), budget)?.is_le(),
+                    (least, _) => least.is_none(),
+                }
+            }
+            Rule::Sector(_) | Rule::Modulus { .. } | Rule::DeadTime(_) => unreachable!("about roots, or of all loops"),
+        })
+    }
+
+    /// The crossings of modulus one with the dead time.
+    fn turned_by_all(&self, mut rational: Crossings) -> Crossings {
+        for crossing in &mut rational.gain {
+            crossing.dead_time = Some(self.tau.clone());
+        }
+        rational
+    }
+
+    /// The stable factors.
+    fn gain(&self, budget: &Budget) -> Result<GainMargin, Error> {
+        let zero = UniPoly::zero();
+        let (d, n) = (self.parts.denominator.re.clone(), self.parts.numerator.re.clone());
+        let gain = GainLoop::new(vec![d, zero.clone()], vec![zero, n], self.tau.clone());
+        Ok(GainMargin::of_set(stable_factors(&gain, budget)?))
     }
 
     /// The least angle of all crossings.

@@ -52,6 +52,21 @@ impl AllOf {
     pub fn new(name: impl Into<String>, least: Rational, greatest: Rational) -> Option<AllOf> {
         (least < greatest).then(|| AllOf { name: name.into(), range: [least, greatest] })
     }
+
+    /// That the range lies in the domain of its name, which is free.
+    pub(crate) fn inside_domain(&self, problem: &Problem) -> Result<(), Error> {
+        let own = problem.free().iter().find(|free| free.name == self.name).expect("it is free");
+        let Range { lower, upper } = &own.domain;
+        let is_outside = lower.as_ref().is_some_and(|end| self.range[0] < *end)
+            || upper.as_ref().is_some_and(|end| self.range[1] > *end);
+        if is_outside {
+            let message = format!("the range of '{}' reaches beyond its domain", self.name);
+            return Err(Diagnostic::error(Code::EmptyDomain, message)
+                .help("a range for all values lies in the domain that the model declares")
+                .into());
+        }
+        Ok(())
+    }
 }
 
 /// What is to hold for all values of some names.
@@ -175,18 +190,7 @@ impl MapForAll {
         }
         let free = |question: Question, all: &AllOf| question.free(&all.name);
         let problem = self.all.iter().fold(question, free).problem()?;
-        for all in &self.all {
-            let own = problem.free().iter().find(|free| free.name == all.name).expect("it is free");
-            let Range { lower, upper } = &own.domain;
-            let is_outside = lower.as_ref().is_some_and(|end| all.range[0] < *end)
-                || upper.as_ref().is_some_and(|end| all.range[1] > *end);
-            if is_outside {
-                let message = format!("the range of '{}' reaches beyond its domain", all.name);
-                return Err(Diagnostic::error(Code::EmptyDomain, message)
-                    .help("a range for all values lies in the domain that the model declares")
-                    .into());
-            }
-        }
+        self.all.iter().try_for_each(|all| all.inside_domain(&problem))?;
         Ok(problem)
     }
 

@@ -1,9 +1,10 @@
 //! Whether a loop meets requirements at a point.
 
 use super::crossings::Crossings;
+use super::dead_time::DeadTime;
 use super::extreme::{Extreme, extreme_over};
 use super::margins::{GainMargin, Margins, PhaseMargin, StableMargins};
-use super::open_loop::OpenLoop;
+use super::open_loop::{OpenLoop, Over};
 use super::parts::with_parts;
 use super::requirement::{Circle, Found, Requirement, Rule};
 use super::value::{Value, square_root};
@@ -89,7 +90,7 @@ impl<'a> AtPoint<'a> {
 }
 
 /// Whether the loop is stable for all factors from the inverse of one to itself.
-fn has_gain_margin(gain: &GainMargin, factor: &RealAlgebraic, budget: &Budget) -> Result<bool, Exhausted> {
+pub(super) fn has_gain_margin(gain: &GainMargin, factor: &RealAlgebraic, budget: &Budget) -> Result<bool, Exhausted> {
     let factor = Real::from(factor.clone());
     let inverse = super::value::reciprocal(&factor, budget)?;
     let above = match &gain.upper {
@@ -104,7 +105,11 @@ fn has_gain_margin(gain: &GainMargin, factor: &RealAlgebraic, budget: &Budget) -
 }
 
 /// Whether the angle is at least that of twice a cosine.
-fn has_phase_margin(phase: &PhaseMargin, twice_cosine: &RealAlgebraic, budget: &Budget) -> Result<bool, Exhausted> {
+pub(super) fn has_phase_margin(
+    phase: &PhaseMargin,
+    twice_cosine: &RealAlgebraic,
+    budget: &Budget,
+) -> Result<bool, Exhausted> {
     let PhaseMargin::Angle { tangent: Some(tangent), .. } = phase else { return Ok(true) };
     Ok(tangent.compare(&half_tangent(twice_cosine, budget)?, budget)?.is_ge())
 }
@@ -218,7 +223,7 @@ fn is_at_least(
 }
 
 impl Problem {
-    /// Whether the loop is stable and meets a requirement, with every parameter at its set or nominal value; of a delay margin no other margins are computed.
+    /// Whether the loop is stable and meets a requirement, with every parameter at its set or nominal value; no other margins are computed.
     ///
     /// # Errors
     /// As [`Problem::requirements_met`].
@@ -228,29 +233,37 @@ impl Problem {
         at: Option<&str>,
         budget: &Budget,
     ) -> Result<bool, Error> {
-        let Rule::DeadTime(least) = requirement.rule() else {
+        let is_at_cut = requirement.needs_cut() && requirement.signals().is_none();
+        if !is_at_cut || self.algebra_over_symbols(budget)?.is_complex() {
             let met = self.requirements_met(std::slice::from_ref(requirement), at, budget)?;
             return Ok(met.iter().all(|found| found.met));
-        };
+        }
         budget.enter(|| {
             if self.verdict(budget)?.value().verdict != Verdict::Stable {
                 return Ok(false);
             }
             let open_loop = OpenLoop::of_any(self, at, budget)?;
-            match self.bears_dead_time(&open_loop, least, budget) {
+            match self.has_margin(&open_loop, requirement, budget) {
                 Err(Error::Stopped(stopped)) if open_loop.is_enclosed() && stopped.stop.is_precision() => {
-                    self.bears_dead_time(&OpenLoop::exact(self, at, budget)?, least, budget)
+                    self.has_margin(&OpenLoop::exact(self, at, budget)?, requirement, budget)
                 }
                 told => told,
             }
         })?
     }
 
+    /// Whether a stable loop has a margin at its cut.
+    fn has_margin(&self, open_loop: &OpenLoop, requirement: &Requirement, budget: &Budget) -> Result<bool, Error> {
+        match (requirement.rule(), open_loop.over(), open_loop.dead_time()) {
+            _ if open_loop.is_zero() => Ok(true),
+            (Rule::DeadTime(least), ..) => self.bears_dead_time(open_loop, least, budget),
+            (_, Over::Integers(parts), Some(tau)) => DeadTime::new(parts, tau).meets(requirement, open_loop, budget),
+            _ => Ok(AtPoint::new(open_loop).meets(requirement, budget)?),
+        }
+    }
+
     /// Whether a stable loop bears all dead times less than one.
     fn bears_dead_time(&self, open_loop: &OpenLoop, least: &Rational, budget: &Budget) -> Result<bool, Error> {
-        if open_loop.is_zero() {
-            return Ok(true);
-        }
         let mut crossings = Crossings::of(open_loop, budget)?;
         for crossing in &mut crossings.gain {
             crossing.dead_time = open_loop.dead_time().cloned();

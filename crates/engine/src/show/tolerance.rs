@@ -1,6 +1,7 @@
 //! Tolerances for people.
 
 use super::bounded::{at_least, at_most};
+use super::for_all_text;
 use super::intervals::{heading, undecided_text};
 use super::layout::short;
 use super::real;
@@ -75,8 +76,7 @@ impl Shown<'_> {
 
     /// `8 tolerances of 20 %`.
     fn asked(&self) -> String {
-        let with_width: Vec<&Side> =
-            self.answer.sides.iter().filter(|s| s.widths().iter().any(|w| !w.is_zero())).collect();
+        let with_width: Vec<&Side> = self.tolerances().collect();
         let count = with_width.len();
         let share = |side: &Side| {
             let [low, high] = side.widths();
@@ -92,9 +92,14 @@ impl Shown<'_> {
         }
     }
 
+    /// The tolerances that are more than a point.
+    fn tolerances(&self) -> impl Iterator<Item = &Side> {
+        self.answer.sides.iter().filter(|side| side.grows() && side.has_width())
+    }
+
     /// Whether any tolerance is more than a point.
     fn has_width(&self) -> bool {
-        self.answer.sides.iter().any(|side| side.widths().iter().any(|w| !w.is_zero()))
+        self.tolerances().next().is_some()
     }
 
     /// Whether a point is the nominal one.
@@ -103,16 +108,21 @@ impl Shown<'_> {
     }
 
     fn decision(&self) -> String {
-        let asked = match self.has_width() {
+        let mut asked = match self.has_width() {
             true => self.asked(),
             false => "all tolerances are 0".to_owned(),
         };
+        let ranges = self.answer.ranges(self.problem);
+        if let Some(ranges) = for_all_text(&ranges, self.digits.min(12)) {
+            asked = format!("{ranges}: {asked}");
+        }
         match &self.answer.decision {
             BoxDecision::Stable(proof) => {
                 let cells = proof.cells();
                 let noun = if cells == 1 { "cell" } else { "cells" };
                 let with = if self.answer.required.is_empty() { "" } else { ", and meets all requirements," };
-                let what = if self.has_width() { "for all values" } else { "at the nominal point" };
+                let is_point = !self.answer.sides.iter().any(Side::has_width);
+                let what = if is_point { "at the nominal point" } else { "for all values" };
                 format!("{asked}: stable{with} {what} (proof: {cells} {noun})\n")
             }
             BoxDecision::NotStable { witness } => {
@@ -192,7 +202,7 @@ impl Shown<'_> {
             let beyond = if binding.is_some() { ", not met just beyond" } else { beyond.as_str() };
             let _ = writeln!(out, "worst point      {signs}{what}{beyond}");
         }
-        if let Some(shares) = &factor.shares {
+        if let Some(shares) = self.answer.shares() {
             let _ = writeln!(out, "the margin is used by    {}", self.shares(shares));
         }
         out
@@ -235,19 +245,20 @@ impl Shown<'_> {
         order.into_iter().map(sign).collect::<Vec<_>>().join(", ")
     }
 
-    fn shares(&self, shares: &[Rational]) -> String {
+    fn shares(&self, mut shares: Vec<(usize, Rational)>) -> String {
         let names: Vec<&str> = self.names().collect();
-        let mut order: Vec<usize> = (0..shares.len()).collect();
-        order.sort_by(|&i, &j| shares[j].cmp(&shares[i]));
+        shares.sort_by(|(_, a), (_, b)| b.cmp(a));
         let least = Rational::new(LEAST_SHARE.0.into(), LEAST_SHARE.1.into());
         let percent = |share: &Rational, digits| to_decimal(&(share * &Rational::from(100)), digits);
-        let (large, small): (Vec<usize>, Vec<usize>) = order.into_iter().partition(|&i| shares[i] >= least);
+        let (large, small): (Vec<_>, Vec<_>) = shares.into_iter().partition(|(_, share)| *share >= least);
         let mut parts: Vec<String> =
-            large.iter().map(|&i| format!("{} {} %", names[i], percent(&shares[i], 3))).collect();
+            large.iter().map(|(i, share)| format!("{} {} %", names[*i], percent(share, 3))).collect();
         if !small.is_empty() {
-            let rest = small.iter().fold(Rational::ZERO, |sum, &i| sum + &shares[i]);
-            let which =
-                if small.len() == 1 { names[small[0]].to_owned() } else { format!("the other {}", small.len()) };
+            let rest = small.iter().fold(Rational::ZERO, |sum, (_, share)| sum + share);
+            let which = match small.as_slice() {
+                [(only, _)] => names[*only].to_owned(),
+                several => format!("the other {}", several.len()),
+            };
             parts.push(format!("{which} {} %", percent(&rest, 1)));
         }
         parts.join("   ")

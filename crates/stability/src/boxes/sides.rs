@@ -28,6 +28,18 @@ impl Side {
         Side { nominal, widths, grows: false }
     }
 
+    /// The range of values that are asked for whatever the factor is: a tolerance that grows is left out, one that stays grows in its place.
+    pub fn without_tolerance(&self) -> Side {
+        let widths = if self.grows { [Rational::ZERO, Rational::ZERO] } else { self.widths.clone() };
+        Side::scaled(self.nominal.clone(), widths)
+    }
+
+    /// The tolerance that is the closed interval at a factor.
+    pub fn grown(&self, factor: &Rational) -> Side {
+        let [low, high] = self.at(factor);
+        Side::scaled(self.nominal.clone(), [&self.nominal - &low, &high - &self.nominal])
+    }
+
     /// The nominal value.
     pub fn nominal(&self) -> &Rational {
         &self.nominal
@@ -36,6 +48,11 @@ impl Side {
     /// The widths below and above.
     pub fn widths(&self) -> &[Rational; 2] {
         &self.widths
+    }
+
+    /// Whether it is more than a point.
+    pub fn has_width(&self) -> bool {
+        self.widths.iter().any(|width| !width.is_zero())
     }
 
     /// Whether the widths grow with the factor.

@@ -82,6 +82,30 @@ impl Problem {
         asked: Asked<'_>,
         budget: &Budget,
     ) -> Result<Answer<ToleranceAnswer>, Error> {
+        if sides.iter().any(|side| !side.grows()) {
+            let request = ToleranceRequest::new::<String>([])
+                .require(asked.request.requirements.clone(), asked.request.at.clone());
+            let request = if request.requirements.is_empty() { request.box_alone() } else { request };
+            let ranges = sides.iter().map(Side::without_tolerance).collect();
+            let alone = self.tolerance_of_box(p, truth, ranges, Asked { request: &request, told: &|_| () }, budget)?;
+            let ToleranceAnswer { decision, required, nominal, .. } = alone.into_value();
+            if !decision.is_stable() {
+                let value = ToleranceAnswer { required, ..self.bare(sides, nominal, decision) };
+                return Ok(Answer::new(Arc::clone(self), value));
+            }
+        }
+        self.tolerance_of_box(p, truth, sides, asked, budget)
+    }
+
+    /// The answer about a family of loops where all sides that do not grow are good without the others.
+    fn tolerance_of_box<F: Family>(
+        self: &Arc<Self>,
+        p: &F,
+        truth: &Truth,
+        sides: Vec<Side>,
+        asked: Asked<'_>,
+        budget: &Budget,
+    ) -> Result<Answer<ToleranceAnswer>, Error> {
         let request = asked.request;
         let all = truth.beside(&sides);
         let degree = self.algebra_over_symbols(budget)?.formal_degree();
@@ -251,7 +275,7 @@ impl Problem {
     /// The factor at which the first parameter reaches the end of its domain.
     pub(super) fn domain_factor(&self, sides: &[Side]) -> Option<Rational> {
         let mut factors = Vec::new();
-        for (free, side) in self.free().iter().zip(sides) {
+        for (free, side) in self.free().iter().zip(sides).filter(|(_, side)| side.grows()) {
             let rooms = [
                 free.domain.lower.as_ref().map(|low| side.nominal() - low),
                 free.domain.upper.as_ref().map(|high| high - side.nominal()),

@@ -4,7 +4,7 @@ use super::number::{Exact, Named};
 use super::plan::Plan;
 use super::question::{RegionBound, title};
 use super::requirements::RequirementAsked;
-use super::{Answered, End, FrequencyOfPair, RootsByPlace, Undecided, schema_name};
+use super::{AllValues, Answered, End, FrequencyOfPair, RootsByPlace, Undecided, schema_name};
 use crate::answer::{Answer, LimitSide, RequiredBox, ToleranceAnswer, ToleranceLimit, WorstEnd};
 use crate::model::Time;
 use crate::problem::Problem;
@@ -47,6 +47,9 @@ pub struct ToleranceFound {
     /// The closed box: least and greatest value of each name.
     #[serde(rename = "box")]
     pub bounds: Named<[Exact; 2]>,
+    /// The names whose ranges do not grow with the factor, where there are any.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub for_all: Vec<AllValues>,
     /// `stable` at every point, `not stable` at some, or `null` where neither was proved.
     pub verdict: Option<ToleranceVerdict>,
     /// By how much all tolerances can be scaled; `null` where the nominal point is not stable.
@@ -229,6 +232,7 @@ fn found(problem: &Problem, answer: &ToleranceAnswer, digits: usize) -> Toleranc
     let witness = own_witness.or_else(|| factor.and_then(|f| f.witness.as_ref()));
     ToleranceFound {
         bounds: named(problem, &answer.sides, |side| side.at(&Rational::ONE).each_ref().map(Exact::from)),
+        for_all: answer.ranges(problem).iter().map(AllValues::from).collect(),
         verdict,
         factor: factor.map(|f| Factor {
             lower: (&f.lower).into(),
@@ -239,8 +243,10 @@ fn found(problem: &Problem, answer: &ToleranceAnswer, digits: usize) -> Toleranc
         }),
         worst: factor.and_then(|f| worst(problem, answer, f, digits)),
         witness: witness.map(|w| witness_point(problem, w)),
-        shares: factor.and_then(|f| f.shares.as_ref()).map(|shares| {
-            named(problem, shares, |s| real::json_number(&to_decimal(s, 17)).unwrap_or_else(|| 0.into()))
+        shares: answer.shares().map(|shares| {
+            let name = |i: usize| problem.free()[i].name.clone();
+            let number = |s: &Rational| real::json_number(&to_decimal(s, 17)).unwrap_or_else(|| 0.into());
+            shares.iter().map(|(i, share)| (name(*i), number(share))).collect()
         }),
         limit: answer.limit.as_ref().map(|limit| limit_range(problem, limit)),
         requirements: answer.required.iter().enumerate().map(|(k, r)| required(answer, k, r)).collect(),
