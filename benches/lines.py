@@ -72,15 +72,23 @@ def arguments(text, start):
     return count
 
 
+def of_traits(text):
+    """Where implementations of traits stand: the arguments of their functions are the trait's."""
+    for match in re.finditer(r"\bimpl\b[^{};]*\bfor\b[^{};]*{", text):
+        yield range(match.start(), closing(text, match.end() - 1))
+
+
 def functions(text):
     """Name, line, code lines and number of arguments of each function with a body."""
+    given = list(of_traits(text))
     for match in re.finditer(r"\bfn\s+(\w+)", text):
         start = text.find("(", match.end())
         rest = re.compile(r"[;{]").search(text, closing(text, start)) if start >= 0 else None
         if rest is None or rest[0] == ";":
             continue
         body = text[match.start() : closing(text, rest.start()) + 1]
-        yield match[1], text.count("\n", 0, match.start()) + 1, lines(body), arguments(text, start)
+        number = 0 if any(match.start() in place for place in given) else arguments(text, start)
+        yield match[1], text.count("\n", 0, match.start()) + 1, lines(body), number
 
 
 def sources(place):

@@ -102,7 +102,7 @@ fn run(line: &CommandLine, #[cfg_attr(not(feature = "cli"), allow(unused_variabl
     let context = Context::new(line, &arguments);
     #[cfg(all(feature = "cli", not(target_family = "wasm")))]
     if host == Host::Process {
-        watch::begin(&context, arguments.asked().run_options(), arguments.asked().without_answer());
+        watch::begin(&context, arguments.run_options(), arguments.asked().without_answer());
     }
     let outcome = answered(&arguments, &context);
     context.reporter.finish();

@@ -14,8 +14,8 @@ use super::roots::Places;
 use super::statement::{Extent, count, fixed_extent, identifier, list, number, object, text, values};
 use super::symbols::Table;
 use super::univariate::Uni;
-use super::words::{exact, inward};
-use super::{Proved, Rejection, Step, further_keys, is_discrete, table, verdict};
+use super::words::{self, exact, inward, with_values};
+use super::{Proved, Rejection, Step, further_keys, is_discrete, is_same_time, table, verdict};
 use crate::format::Json;
 use num_traits::{Signed, Zero};
 use std::collections::BTreeMap;
@@ -119,19 +119,16 @@ impl Statement {
             let [low, high] = inward(&low, &high);
             let _ = write!(out, "{}{name} from {low} to {high}", if i == 0 { "" } else { ", " });
         }
-        for (i, (name, value)) in self.set.iter().enumerate() {
-            let _ = write!(out, "{}{name} = {}", if i == 0 { ", with " } else { ", " }, exact(value));
-        }
-        let within = verdict::within(&self.extent, self.discrete);
-        let _ = write!(out, ", the loop is stable{within}; these are the tolerances times {}.", exact(&self.factor));
+        let (with, within) = (with_values(&self.set), verdict::within(&self.extent, self.discrete));
+        let _ =
+            write!(out, "{with}, the loop is stable{within}; these are the tolerances times {}.", exact(&self.factor));
         for Beyond { factor, point, counts: [degree, inside, on, outside, infinite] } in &self.beyond {
-            let point: Vec<String> = self.names.iter().zip(point).map(|(n, x)| format!("{n} = {}", exact(x))).collect();
-            let factor = exact(factor);
+            let (point, factor) = (words::values(self.names.iter().zip(point)), exact(factor));
             let _ = match self.limit {
-                None => write!(out, " At {}, within the tolerances times {factor}, it is not: ", point.join(", ")),
+                None => write!(out, " At {point}, within the tolerances times {factor}, it is not: "),
                 Some(at) => {
                     let name = &self.names[at];
-                    write!(out, " At {}, the range of {name} alone times {factor}, it is not: ", point.join(", "))
+                    write!(out, " At {point}, the range of {name} alone times {factor}, it is not: ")
                 }
             };
             let _ = match inside + on + outside + infinite < *degree {
@@ -154,11 +151,9 @@ pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -
     let s = Step::Statement.of(Statement::read(statement))?;
     let none = Table::empty();
     let own = Step::Model.of(over_box(model, &s.names, &s.set, table.as_deref().unwrap_or(&none), clock))?;
-    if own.discrete != s.discrete {
-        return Err(Rejection { step: Step::Model, reason: "the model's time is not that of the statement".into() });
-    }
+    Step::Model.of(is_same_time(own.discrete, s.discrete))?;
     if table.is_some() && !s.discrete {
-        return Err(Rejection { step: Step::Model, reason: "only sampled loops have symbols".into() });
+        return Step::Model.fails("only sampled loops have symbols");
     }
     let ground = Ground::new(s.names.len(), table);
     let in_this_region = Step::Model.of(in_region(&own.coefficients, s.discrete, &s.extent, clock))?;
@@ -171,16 +166,7 @@ pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -
     let p = if s.discrete { Step::Characteristic.of(in_half_plane(&given, clock))? } else { given.clone() };
     let sides = s.at(&s.factor);
     Step::Factors.of((|| {
-        let mut known = Vec::new();
-        for factor in list(factors, "'factors'")? {
-            let [polynomial, tree] = object(factor, "a factor", ["polynomial", "tree"], &[])?;
-            let f = primitive(vec![read(polynomial)?], clock)?.swap_remove(0);
-            if !ground.is_in_parameters(&f) {
-                return Err("a factor is constant".to_owned());
-            }
-            walk(text(tree, "'tree'")?, Tensor::of_one(&f, &sides, &ground, clock)?, Claim::Sign, clock)?;
-            known.push(f);
-        }
+        let known = factors_without_zero(factors, &sides, &ground, clock)?;
         let ends = [&common, &p[0], &p[p.len() - 1]].map(|p| vec![p.clone()]);
         for parts in own.divisors.iter().chain(&ends) {
             let mut is_known = false;
@@ -210,6 +196,21 @@ pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -
         s.beyond.iter().try_for_each(|beyond| s.is_beyond(beyond, &own, &in_this_region, &ground, clock))
     })())?;
     Ok(Proved { statement: s.in_words(), kind: "tolerance" })
+}
+
+/// The factors of a certificate, none of which has a zero in the box.
+fn factors_without_zero(json: &Json, sides: &[[Q; 2]], ground: &Ground, clock: &Clock) -> Result<Vec<Multi>, String> {
+    let mut known = Vec::new();
+    for factor in list(json, "'factors'")? {
+        let [p, tree] = object(factor, "a factor", ["polynomial", "tree"], &[])?;
+        let f = primitive(vec![polynomial(p, ground.variables())?], clock)?.swap_remove(0);
+        if !ground.is_in_parameters(&f) {
+            return Err("a factor is constant".to_owned());
+        }
+        walk(text(tree, "'tree'")?, Tensor::of_one(&f, sides, ground, clock)?, Claim::Sign, clock)?;
+        known.push(f);
+    }
+    Ok(known)
 }
 
 impl Statement {
@@ -244,9 +245,7 @@ impl Statement {
         }
         let Places { inside, on, outside } = places;
         if beyond.counts != [n, inside, on, outside, infinite] {
-            return Err(format!(
-                "degree {n}: {inside} roots are inside, {on} on the boundary, {outside} outside, {infinite} infinite"
-            ));
+            return Err(verdict::told_counts([n, inside, on, outside, infinite]));
         }
         if !is_undefined && on + outside + infinite == 0 {
             return Err("the point beyond is stable".into());

@@ -10,7 +10,7 @@ use super::over_box::{By, in_region, with_sources};
 use super::roots::Places;
 use super::statement::Extent;
 use super::taylor::{Precision, Taylor};
-use super::{Rejection, Step};
+use super::{Rejection, Step, is_same_time};
 
 /// The degree, and where so many roots are: none on the boundary, none at infinity.
 pub(super) fn places(
@@ -23,10 +23,7 @@ pub(super) fn places(
     let boxed = Boxed { names: &[], set, factor: None };
     let by = By::Enclosures { window: &[], bits };
     let (own, sources) = Step::Model.of(with_sources(model, boxed, Functions::Moving, by, clock))?;
-    if !own.discrete || sources.have_dead_time() {
-        let reason = "the model's time is not that of the statement".into();
-        return Err(Rejection { step: Step::Model, reason });
-    }
+    Step::Model.of(is_same_time(own.discrete && !sources.have_dead_time(), true))?;
     Step::Stable.of((|| {
         let p = Precision::new(0, 1, bits);
         let known = sources.values(Vec::new(), &p, clock)?;

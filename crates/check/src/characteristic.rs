@@ -70,44 +70,40 @@ pub(super) fn specialised(
         }
         poles.push(common);
     }
-    let nowhere = |degree: usize, poles: Vec<Uni>| Characteristic {
-        discrete,
-        is_doubled: false,
-        degree,
-        coefficients: Vec::new(),
-        poles,
+    let (coefficients, denominator, degree) = over_denominator(form, numbers, &mut poles, clock)?;
+    let coefficients = if denominator.is_zero() {
+        poles.push(Uni::default());
+        Vec::new()
+    } else {
+        in_lowest_terms(coefficients, &denominator, degree, clock)?
     };
-    // The coefficients, the denominator they stand over, and whether that is a new place of being undefined.
-    let (mut coefficients, denominator, degree) = match form {
+    Ok(Characteristic { discrete, is_doubled: false, degree, coefficients, poles })
+}
+
+/// Coefficients, the denominator they stand over, and the degree with all parameters symbolic.
+type OverDenominator = (Vec<Uni>, Uni, usize);
+
+/// The denominator is zero where the polynomial is undefined everywhere; other new places of being undefined are noted.
+fn over_denominator(
+    form: &Form,
+    numbers: &[Q],
+    poles: &mut Vec<Uni>,
+    clock: &Clock,
+) -> Result<OverDenominator, String> {
+    let of_matrix = |m: &[Vec<Fraction>]| match matrix_entries(m, numbers, clock)? {
+        Some(entries) => monic(entries, m.len(), clock),
+        None => Ok((Vec::new(), Uni::default(), m.len())),
+    };
+    match form {
         Form::Written(f) => {
-            let degree = f.numerator.degree(0);
-            let below = f.whole_denominator(clock)?.specialised(1, numbers, clock)?;
             let mut all = f.numerator.specialised(1, numbers, clock)?;
-            all.extend(below);
+            all.extend(f.whole_denominator(clock)?.specialised(1, numbers, clock)?);
             let mut all = cleared(&all);
             let denominator = all.pop().unwrap_or_default();
-            (all, denominator, degree)
+            Ok((all, denominator, f.numerator.degree(0)))
         }
-        Form::Matrix(m) => {
-            let Some(entries) = matrix_entries(m, numbers, clock)? else {
-                return Ok(undefined(nowhere, m.len(), poles));
-            };
-            monic(entries, m.len(), clock)?
-        }
-        Form::Feedback([a, b, c, k]) => {
-            let bk = product(b, k, clock)?;
-            let bkc = product(&bk, c, clock)?;
-            let mut m = a.clone();
-            for (row, other) in m.iter_mut().zip(bkc) {
-                for (entry, f) in row.iter_mut().zip(other) {
-                    *entry = entry.plus(&f.negated(), clock)?;
-                }
-            }
-            let Some(entries) = matrix_entries(&m, numbers, clock)? else {
-                return Ok(undefined(nowhere, m.len(), poles));
-            };
-            monic(entries, m.len(), clock)?
-        }
+        Form::Matrix(m) => of_matrix(m),
+        Form::Feedback(parts) => of_matrix(&closed(parts, clock)?),
         Form::System(whole, alone) => {
             let specialised = |(rows, degree): &Ordered| {
                 let mut entries = Vec::with_capacity(rows.len());
@@ -123,13 +119,18 @@ pub(super) fn specialised(
             }
             let found = specialised(whole)?;
             poles.push(found.1.clone());
-            found
+            Ok(found)
         }
-    };
-    if denominator.is_zero() {
-        return Ok(undefined(nowhere, degree, poles));
     }
-    // Over the least common denominator of the coefficients in lowest terms.
+}
+
+/// Over the least common denominator of the coefficients in lowest terms.
+fn in_lowest_terms(
+    mut coefficients: Vec<Uni>,
+    denominator: &Uni,
+    degree: usize,
+    clock: &Clock,
+) -> Result<Vec<Uni>, String> {
     let mut common = denominator.clone();
     for c in &coefficients {
         common = common.gcd(c, clock)?;
@@ -143,7 +144,7 @@ pub(super) fn specialised(
         }
     }
     coefficients.resize(degree + 1, Uni::default());
-    Ok(Characteristic { discrete, is_doubled: false, degree, coefficients: primitive(coefficients, clock)?, poles })
+    primitive(coefficients, clock)
 }
 
 /// Divided by the greatest common divisor of all integers in it.
@@ -155,17 +156,8 @@ pub(super) fn primitive(coefficients: Vec<Uni>, clock: &Clock) -> Result<Vec<Uni
     Ok(coefficients.into_iter().map(|c| Uni(c.0.iter().map(|x| x / &g).collect())).collect())
 }
 
-fn undefined(
-    nowhere: impl Fn(usize, Vec<Uni>) -> Characteristic,
-    degree: usize,
-    mut poles: Vec<Uni>,
-) -> Characteristic {
-    poles.push(Uni::default());
-    nowhere(degree, poles)
-}
-
 /// The determinant's coefficients with the leading one as denominator.
-fn monic(entries: Vec<Vec<Entry>>, degree: usize, clock: &Clock) -> Result<(Vec<Uni>, Uni, usize), String> {
+fn monic(entries: Vec<Vec<Entry>>, degree: usize, clock: &Clock) -> Result<OverDenominator, String> {
     let coefficients = determinant(&entries, clock)?;
     if coefficients.len() > degree + 1 {
         return Err("a determinant has a higher degree than the model".into());
@@ -233,7 +225,17 @@ fn clear_row(parts: &[Vec<Vec<Q>>]) -> Vec<Entry> {
     parts.iter().map(|entry| Entry(entry.iter().map(uni).collect())).collect()
 }
 
-pub(super) fn product(a: &[Vec<Fraction>], b: &[Vec<Fraction>], clock: &Clock) -> Result<Vec<Vec<Fraction>>, String> {
+/// `A - B K C`.
+pub(super) fn closed([a, b, c, k]: &[Vec<Vec<Fraction>>; 4], clock: &Clock) -> Result<Vec<Vec<Fraction>>, String> {
+    let bkc = product(&product(b, k, clock)?, c, clock)?;
+    let mut m = a.clone();
+    for (entry, f) in m.iter_mut().flatten().zip(bkc.into_iter().flatten()) {
+        *entry = entry.plus(&f.negated(), clock)?;
+    }
+    Ok(m)
+}
+
+fn product(a: &[Vec<Fraction>], b: &[Vec<Fraction>], clock: &Clock) -> Result<Vec<Vec<Fraction>>, String> {
     let mut out = Vec::new();
     for row in a {
         let mut sums = Vec::new();

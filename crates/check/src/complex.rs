@@ -73,15 +73,13 @@ impl Fraction {
 
     /// The real and the imaginary part of what has no loop's variable in a divisor.
     pub fn parts(&self, unit: usize, clock: &Clock) -> Result<[Fraction; 2], String> {
-        let one = Multi::one();
         if self.is_real(unit) {
-            return Ok([self.clone(), Fraction { numerator: Multi::default(), denominator: one.clone(), scalar: one }]);
+            return Ok([self.clone(), Multi::default().into()]);
         }
         let below = self.whole_denominator(clock)?;
         let top = self.numerator.times(&conjugated(&below, unit, clock)?, clock)?;
         let below = square(&below, unit, clock)?;
-        let whole = |numerator| Fraction { numerator, denominator: one.clone(), scalar: below.clone() };
-        Ok(parts(&top, unit).map(whole))
+        Ok(parts(&top, unit).map(|numerator| Fraction::over(numerator, below.clone())))
     }
 }
 

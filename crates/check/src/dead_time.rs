@@ -5,17 +5,16 @@ use super::clock::Clock;
 use super::crossing::{Crossing, square_of_modulus};
 use super::expression::Base;
 use super::interval::Interval;
+use super::intervals::Statement;
 use super::multivariate::Multi;
 use super::number::{Q, Z, rational};
 use super::over_symbols::{determinant, primitive, substituted};
 use super::roots::{count_of_positive_roots, places_by_axis};
-use super::statement::{
-    Extent, bound, count, extent, identifier, list, number, object, pair, polynomial, polynomials, text, values,
-};
+use super::statement::{Extent, count, list, number, object, pair, polynomial, polynomials};
 use super::symbols::Table;
 use super::univariate::Uni;
 use super::words::shared_digits;
-use super::{Proved, Rejection, Step, is_discrete, model, verdict};
+use super::{Proved, Rejection, Step, is_same_time, model};
 use crate::format::Json;
 use num_traits::{One, Signed, Zero};
 
@@ -42,44 +41,36 @@ enum Limit {
 pub(super) fn check(text_of_model: &str, json: &Json, statement: &Json, clock: &Clock) -> Result<Proved, Rejection> {
     let keys = ["schema", "statement", "bits", "delay", "parts", "crossings"];
     let [_, _, bits, base, parts, crossings] = Step::Format.of(object(json, "the certificate", keys, &["model"]))?;
-    let keys = ["kind", "time", "parameter", "set", "region", "domain", "stable"];
-    let [_, time, parameter, set, region, domain, stable] =
-        Step::Statement.of(object(statement, "the statement", keys, &[]))?;
     let bits = Step::Format.of(count(bits, "'bits'").and_then(|bits| match bits {
         64..=32768 => Ok(bits),
         _ => Err("'bits' is not from 64 to 32768".into()),
     }))?;
     let base = Step::Format.of(number(base, "'delay'"))?;
-    let (parameter, set, lower, upper) = Step::Statement.of((|| {
-        let extent = extent(region, is_discrete(time)?)?;
-        if is_discrete(time)? || extent != Extent::Number(Q::zero()) || !base.is_positive() {
-            return Err("the boundary is not the imaginary axis, or the dead time is not positive".to_owned());
-        }
-        let [lower, upper] = object(domain, "'domain'", ["lower", "upper"], &[])?;
-        let lower = bound(lower, "'lower'")?.filter(|l| !l.is_negative()).ok_or("a dead time is not negative")?;
-        let upper = bound(upper, "'upper'")?;
-        if upper.as_ref().is_some_and(|u| *u <= lower) {
-            return Err("the domain is empty".into());
-        }
-        Ok((identifier(text(parameter, "'parameter'")?)?, values(set)?, lower, upper))
-    })())?;
-    let own = Step::Model.of(clock.reading(|| quasi_polynomial(text_of_model, parameter, &set, &base, clock)))?;
+    let s = Step::Statement.of(Statement::read(statement))?;
+    let lower = Step::Statement.of(lower_end(&s, &base))?;
+    let upper = s.domain.1.as_ref();
+    let own = Step::Model.of(clock.reading(|| quasi_polynomial(text_of_model, s.parameter, &s.set, &base, clock)))?;
     let given = Step::Characteristic.of(polynomials(parts, "'parts'", polynomial))?;
     let negative: Vec<Uni> = own.iter().map(|p| p.scaled(&-Z::one())).collect();
     let [p, q] = match given.as_slice() {
         [p, q] if given == own || given == negative => [p, q],
         _ => {
-            let reason = "the parts are not those of the model, or there is more than one delay".into();
-            return Err(Rejection { step: Step::Characteristic, reason });
+            let reason = "the parts are not those of the model, or there is more than one delay";
+            return Step::Characteristic.fails(reason);
         }
     };
-    let found = Step::Boundary.of(counted(p, q, crossings, bits, upper.as_ref().map(|u| u * &base), clock))?;
-    let limits = Step::Line.of(walk(&found, &lower, upper.as_ref(), &base, bits, clock))?;
-    Step::Stable.of(same(stable, &limits, &found, &(&base * Q::from(Z::one() << bits))))?;
-    let domain = (Some(lower), upper);
-    let extent = Extent::Number(Q::zero());
-    let statement = verdict::sentence_of_intervals(parameter, &set, &extent, false, &domain, &in_words(&limits));
-    Ok(Proved { statement, kind: "intervals" })
+    let found = Step::Boundary.of(counted(p, q, crossings, bits, upper.map(|u| u * &base), clock))?;
+    let limits = Step::Line.of(walk(&found, lower, upper, &base, bits, clock))?;
+    Step::Stable.of(same(s.stable, &limits, &found, &(&base * Q::from(Z::one() << bits))))?;
+    Ok(Proved { statement: s.in_words(&in_words(&limits)), kind: "intervals" })
+}
+
+/// The least dead time, of a region whose boundary is the imaginary axis.
+fn lower_end<'s>(s: &'s Statement<'_>, base: &Q) -> Result<&'s Q, String> {
+    if s.discrete || s.extent != Extent::Number(Q::zero()) || !base.is_positive() {
+        return Err("the boundary is not the imaginary axis, or the dead time is not positive".to_owned());
+    }
+    s.domain.0.as_ref().filter(|l| !l.is_negative()).ok_or_else(|| "a dead time is not negative".into())
 }
 
 /// `P_0, P_1, ...`: coefficients of powers of `z = exp(-tau s)`, polynomials in `s`.
@@ -117,9 +108,7 @@ pub(super) fn characteristic_function(
     clock: &Clock,
 ) -> Result<CharacteristicFunction, String> {
     let asked = model::asked(text, parameter, set, &Table::empty(), Some(base), clock)?;
-    if asked.discrete {
-        return Err("the model's time is not that of the statement".into());
-    }
+    is_same_time(asked.discrete, false)?;
     if asked.is_doubled {
         return Err("a loop with dead time has complex coefficients".into());
     }
@@ -244,12 +233,20 @@ fn counted(p: &Uni, q: &Uni, crossings: &Json, bits: usize, last: Option<Q>, clo
     let bound = Q::new(&turn.hi * Z::from(found.len()), growth.lo);
     let last = last.map_or_else(|| bound.clone(), |last| last.min(bound.clone()));
     let last = (last * Q::from(Z::one() << bits)).ceil().to_integer();
+    let switches = switches_before(&last, &found, bits, clock)?;
+    let ends = |i: usize| switches.iter().filter(|s| s.crossing == i).map(|s| s.at.hi.clone()).collect();
+    let crossings = found.into_iter().enumerate().map(|(i, c)| (c, ends(i))).collect();
+    Ok(Counted { right, switches, grows: true, crossings })
+}
+
+/// The dead times at which roots are on the axis, ascending.
+fn switches_before(last: &Z, found: &[Crossing], bits: usize, clock: &Clock) -> Result<Vec<Switch>, String> {
     let mut switches = Vec::new();
     for (crossing, c) in found.iter().enumerate() {
         for turns in usize::from(c.is_one).. {
             clock.spend(4, bits as u64, bits as u64)?;
             let at = c.dead_time(turns)?;
-            if at.lo >= last {
+            if at.lo >= *last {
                 break;
             }
             switches.push(Switch { at, change: if c.is_gain { 2 } else { -2 }, crossing, turns });
@@ -262,9 +259,7 @@ fn counted(p: &Uni, q: &Uni, crossings: &Json, bits: usize, last: Option<Q>, clo
     if switches.windows(2).any(|w| w[0].at.hi >= w[1].at.lo) {
         return Err("the order of two switches is not certain".into());
     }
-    let ends = |i: usize| switches.iter().filter(|s| s.crossing == i).map(|s| s.at.hi.clone()).collect();
-    let crossings = found.into_iter().enumerate().map(|(i, c)| (c, ends(i))).collect();
-    Ok(Counted { right, switches, grows: true, crossings })
+    Ok(switches)
 }
 
 /// The stable intervals.

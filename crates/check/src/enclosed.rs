@@ -50,8 +50,21 @@ impl Determinant<'_> {
         2 * self.bits + MORE_BITS
     }
 
+    /// The polynomial's coefficients by powers of the loop's variable. Each number in them is a further variable, and stands behind.
+    pub fn as_further_variables(&self) -> Result<(Vec<Multi>, Vec<Interval>), String> {
+        let (found, first) = (self.coefficients()?, FIRST + self.window.len() + self.sources.len());
+        let mut coefficients = vec![Multi::default(); self.degree + 1];
+        for (i, powers) in found.keys().enumerate() {
+            let mut e = vec![0; first + i + 1];
+            e[FIRST..].iter_mut().zip(&powers[1..]).for_each(|(place, k)| *place = *k as u32);
+            e[first + i] = 1;
+            coefficients[powers[0]].add(e, Z::one());
+        }
+        Ok((coefficients, found.into_values().collect()))
+    }
+
     /// The coefficients by powers, in units of `2^-bits`; the longest has about as many bits.
-    pub fn coefficients(&self) -> Result<BTreeMap<Powers, Interval>, String> {
+    fn coefficients(&self) -> Result<BTreeMap<Powers, Interval>, String> {
         let rows = self.enclosed_rows()?;
         let mut counts = vec![self.degree + 1];
         counts.extend((1..=self.window.len()).map(|v| 1 + bound(&rows, v)));

@@ -386,14 +386,8 @@ impl<'t> Parser<'_, '_, 't> {
         }
         let is_known = self.scope.knows(name);
         if name == "exp" && !is_known && self.scope.dead_time.is_some() && self.eat('(') {
-            let argument = self.nested(Self::sum)?;
-            if !self.eat(')') {
-                return Err("')' is missing".into());
-            }
-            if !argument.signals.is_empty() {
-                return Err("a function of a signal".into());
-            }
-            return Ok(plain(self.scope.delayed(&argument.constant.negated(), 1)?));
+            let argument = self.argument()?;
+            return Ok(plain(self.scope.delayed(&argument.negated(), 1)?));
         }
         if matches!(self.names, Names::Variable(variable) | Names::Polynomial(variable) if variable == name) {
             return Ok(plain(Fraction::variable(0)));
@@ -401,24 +395,12 @@ impl<'t> Parser<'_, '_, 't> {
         if let (Some(function), false, true) = (Function::named(name), is_known, self.scope.moving.is_some())
             && self.eat('(')
         {
-            let argument = self.nested(Self::sum)?;
-            if !self.eat(')') {
-                return Err("')' is missing".into());
-            }
-            if !argument.signals.is_empty() {
-                return Err("a function of a signal".into());
-            }
-            return Ok(plain(self.scope.of_function(function, argument.constant)?));
+            let argument = self.argument()?;
+            return Ok(plain(self.scope.of_function(function, argument)?));
         }
         if matches!(name, "conj" | "re" | "im") && !is_known && self.eat('(') {
-            let argument = self.nested(Self::sum)?;
-            if !self.eat(')') {
-                return Err("')' is missing".into());
-            }
-            if !argument.signals.is_empty() {
-                return Err("a function of a signal".into());
-            }
-            return Ok(plain(self.scope.of_complex(name, &argument.constant)?));
+            let argument = self.argument()?;
+            return Ok(plain(self.scope.of_complex(name, &argument)?));
         }
         if let Names::Signals(signals) = self.names
             && let Some(&i) = signals.get(name)
@@ -438,6 +420,15 @@ impl<'t> Parser<'_, '_, 't> {
         let constant = self.scope.constants.get(name).cloned();
         let constant = constant.ok_or_else(|| format!("unknown name '{}'", shorten(name)))?;
         Ok(plain(self.scope.with_factor(name, constant)?))
+    }
+
+    /// What a function is taken of, behind its opening bracket.
+    fn argument(&mut self) -> Result<Fraction, String> {
+        let argument = self.nested(Self::sum)?;
+        if !self.eat(')') {
+            return Err("')' is missing".into());
+        }
+        if argument.signals.is_empty() { Ok(argument.constant) } else { Err("a function of a signal".into()) }
     }
 
     fn number(&mut self) -> Result<Linear, String> {

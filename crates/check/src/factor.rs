@@ -47,7 +47,7 @@ impl PutIn {
     /// Its own names are the variables from `first` on.
     pub fn new(of: &Factor, first: usize, unit: usize, clock: &Clock) -> Result<Self, String> {
         let [numerator, scalar] = of.family.quotient(first, unit, clock)?;
-        let value = Fraction { numerator, denominator: Multi::one(), scalar };
+        let value = Fraction::over(numerator, scalar);
         let names = first..first + of.family.names();
         Ok(PutIn { cut: of.cut.clone(), value, names, is_complex: of.family.is_complex() })
     }

@@ -8,7 +8,7 @@ use super::number::{Q, Z};
 use super::over_symbols::primitive;
 use super::statement::{Extent, count, extent, identifier, list, number, object, pair, text, values};
 use super::univariate::Uni;
-use super::words::{exact, inward};
+use super::words::{self, inward, with_values};
 use super::{Proved, Rejection, Step, is_discrete};
 use crate::format::Json;
 use num_traits::{Signed, Zero};
@@ -71,12 +71,12 @@ pub(super) fn check_verdict(
     })())?;
     let name = if right == 0 { "stable" } else { "unstable" };
     if verdict != name {
-        return Err(Rejection { step: Step::Stable, reason: format!("the verdict is '{name}' then") });
+        return Step::Stable.fails(format!("the verdict is '{name}' then"));
     }
     let cell = Cell { lower: Q::zero(), upper: Q::zero(), right };
     prove(text_of_model, (None, &set), base, bits, &[cell], clock)?;
-    let at: Vec<String> = set.iter().map(|(name, value)| format!("{name} = {}", exact(value))).collect();
-    let at = if at.is_empty() { "The".to_owned() } else { format!("At {}, the", at.join(", ")) };
+    let at = words::values(set.iter().map(|(name, value)| (name, value)));
+    let at = if at.is_empty() { "The".to_owned() } else { format!("At {at}, the") };
     let statement = format!("{at} loop is {name}: {right} roots to the right of the imaginary axis, none on it.");
     Ok(Proved { statement, kind: "verdict" })
 }
@@ -100,7 +100,7 @@ fn prove(
         let right = Step::Line.of(counted(&family, &mut frequencies, axis, &middle))?;
         if right != cell.right {
             let reason = format!("{right} roots are to the right from {} to {}", cell.lower, cell.upper);
-            return Err(Rejection { step: Step::Stable, reason });
+            return Step::Stable.fails(reason);
         }
     }
     Ok(())
@@ -222,8 +222,7 @@ fn in_words(parameter: &str, set: &[(String, Q)], cells: &[Cell]) -> String {
     let within = |cell: &Cell| format!("[{}]", inward(&cell.lower, &cell.upper).join(", "));
     let all: Vec<String> = cells.iter().map(within).collect();
     let stable: Vec<String> = cells.iter().filter(|c| c.right == 0).map(within).collect();
-    let given: Vec<String> = set.iter().map(|(name, value)| format!("{name} = {}", exact(value))).collect();
-    let given = if given.is_empty() { String::new() } else { format!(", with {}", given.join(", ")) };
+    let given = with_values(set);
     let stable = if stable.is_empty() { "for none of them".to_owned() } else { format!("in {}", join(&stable)) };
     format!(
         "For {parameter} in {}{given}, the loop is stable exactly {stable}. Nothing is said of other values.",

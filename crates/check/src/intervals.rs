@@ -1,12 +1,18 @@
 //! The stable set of one parameter: the one forward pass over the line.
 
+mod statement;
+
+use super::characteristic::Characteristic;
 use super::clock::Clock;
 use super::coefficient::{Coefficient, Ring};
 use super::half_size::{InX, pair, times};
+use super::held::Question;
 use super::number::Q;
-use super::statement::{End, boolean, count, end, list, number, object, polynomials, text};
-use super::{Rejection, Step};
+use super::over::Over;
+use super::statement::{Domain, End, Extent, boolean, count, end, list, number, object, polynomial, polynomials, text};
+use super::{Proved, Rejection, Step, further_keys, is_same_time, table};
 use crate::format::Json;
+pub(super) use statement::Statement;
 
 /// How a polynomial is written in the certificate; the text says which one it is.
 pub(super) type Reader<'r, P> = &'r dyn Fn(&Json, &str) -> Result<P, String>;
@@ -59,9 +65,38 @@ struct Separator<P> {
     touch: Option<(bool, usize)>,
 }
 
-pub(super) fn check<P: Coefficient>(
+pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -> Result<Proved, Rejection> {
+    let table = table(json)?;
+    let parts = ["schema", "statement", "characteristic", "boundary", "factors", "line"];
+    let [_, _, characteristic, boundary, factors, line] =
+        Step::Format.of(object(json, "the certificate", parts, further_keys(table.as_ref())))?;
+    let s = Step::Statement.of(Statement::read(statement))?;
+    let (discrete, kept) = (s.discrete, if s.extent == Extent::Parameter { None } else { Some(s.parameter) });
+    let proof = Proof { boundary, factors, line, stable: s.stable };
+    let question = Question { model, kept, set: &s.set, extent: &s.extent, discrete };
+    match table {
+        None => {
+            let (d, _) = question.rational(characteristic, clock)?;
+            let Characteristic { is_doubled, degree, coefficients, poles, .. } = &d;
+            let d = Loop { discrete, is_doubled: *is_doubled, degree: *degree, coefficients, poles };
+            is_proved(&d, &s.domain, &proof, &polynomial, clock)?;
+        }
+        Some(table) => {
+            Step::Model.of(is_same_time(true, discrete))?;
+            let read = |json: &Json, what: &str| Over::read(json, what, &table);
+            let own = question.over_symbols(characteristic, &table, clock)?;
+            let (degree, coefficients) = (own.coefficients.len() - 1, own.coefficients.as_slice());
+            let d = Loop { discrete, is_doubled: own.is_doubled, degree, coefficients, poles: &own.poles };
+            is_proved(&d, &s.domain, &proof, &read, clock)?;
+        }
+    }
+    Ok(Proved { statement: s.in_words(s.stable), kind: "intervals" })
+}
+
+/// That the claimed set is the stable one.
+fn is_proved<P: Coefficient>(
     d: &Loop<'_, P>,
-    domain: &(Option<Q>, Option<Q>),
+    domain: &Domain,
     proof: &Proof<'_>,
     read: Reader<'_, P>,
     clock: &Clock,

@@ -69,15 +69,12 @@ pub use report::{Names, is_for_another_text, report};
 pub use tuned::TuneJudge;
 
 use clock::{Clock, out_of_time};
-use complex::{Meant, meant};
 use format::{
     Json, SCHEMA, SCHEMA_BY_ENCLOSURES, SCHEMA_FOR_ALL, SCHEMA_OF_BOXES, SCHEMA_OF_BOXES_WITH_SYMBOLS, SCHEMA_OF_CELLS,
     SCHEMA_OF_MAPS, SCHEMA_OF_MAPS_BY_BOXES, SCHEMA_OF_TUNING, SCHEMA_WITH_DEAD_TIME, SCHEMA_WITH_SYMBOLS,
 };
-use num_traits::Zero;
-use number::{Q, shorten};
-use over::Over;
-use statement::{Extent, bound, extent, identifier, object, polynomial, polynomials, text, values};
+use number::shorten;
+use statement::text;
 use std::fmt;
 use std::rc::Rc;
 use std::sync::atomic::Ordering;
@@ -204,6 +201,10 @@ impl Step {
     fn of<T>(self, result: Result<T, String>) -> Result<T, Rejection> {
         result.map_err(|reason| Rejection { step: self, reason })
     }
+
+    fn fails<T>(self, reason: impl Into<String>) -> Result<T, Rejection> {
+        Err(Rejection { step: self, reason: reason.into() })
+    }
 }
 
 /// Why a certificate proves nothing.
@@ -307,44 +308,12 @@ fn checked(model: &str, certificate: &str, limits: &Limits) -> Result<Proved, Re
 fn by_kind(model: &str, certificate: &str, clock: Clock) -> Result<Proved, Rejection> {
     let json = Step::Format.of(Json::parse(certificate))?;
     // Another version may have other parts, so it is looked at first.
-    let schema = json.get("schema").ok_or_else(|| "the certificate has no 'schema'".to_owned());
-    let schema = Step::Format.of(schema.and_then(|s| text(s, "'schema'")))?;
-    let known = [
-        SCHEMA,
-        SCHEMA_WITH_SYMBOLS,
-        SCHEMA_WITH_DEAD_TIME,
-        SCHEMA_OF_BOXES,
-        SCHEMA_OF_MAPS,
-        SCHEMA_OF_CELLS,
-        SCHEMA_OF_MAPS_BY_BOXES,
-        SCHEMA_OF_BOXES_WITH_SYMBOLS,
-        SCHEMA_BY_ENCLOSURES,
-        SCHEMA_FOR_ALL,
-        SCHEMA_OF_TUNING,
-    ];
-    if !known.contains(&schema) {
-        let [rest @ .., last] = known.map(|name| format!("'{name}'"));
-        let reason = format!("the schema is '{}', not {} or {last}", shorten(schema), rest.join(", "));
-        return Err(Rejection { step: Step::Format, reason });
-    }
+    let schema = Step::Format.of(schema(&json))?;
     let statement =
         Step::Format.of(json.get("statement").ok_or_else(|| "the certificate has no 'statement'".into()))?;
     let kind = Step::Statement.of(statement.get("kind").ok_or_else(|| "the statement has no 'kind'".into()))?;
-    // Of loops with several rates the unit disc is what is proved of.
     if toml::read(model).is_ok_and(|model| blocks::has_several_rates(&model)) {
-        let region = statement.get("region").and_then(|region| region.get("radius"));
-        let of_rates = [
-            SCHEMA,
-            SCHEMA_WITH_SYMBOLS,
-            SCHEMA_OF_MAPS_BY_BOXES,
-            SCHEMA_BY_ENCLOSURES,
-            SCHEMA_FOR_ALL,
-            SCHEMA_OF_TUNING,
-        ];
-        if !of_rates.contains(&schema) || !matches!(region, Some(Json::Text(one)) if one == "1") {
-            let reason = "a loop of several rates has certificates of stability without further wishes alone".into();
-            return Err(Rejection { step: Step::Model, reason });
-        }
+        Step::Model.of(fits_several_rates(schema, statement))?;
     }
     match Step::Statement.of(text(kind, "'kind'"))? {
         "boxes" if schema == SCHEMA_OF_MAPS_BY_BOXES => map_boxes::check(model, &json, clock),
@@ -358,16 +327,52 @@ fn by_kind(model: &str, certificate: &str, clock: Clock) -> Result<Proved, Rejec
         "verdict" if schema == SCHEMA_OF_CELLS => gain::check_verdict(model, &json, statement, &clock),
         "intervals" if schema == SCHEMA_WITH_DEAD_TIME => dead_time::check(model, &json, statement, &clock),
         "intervals" if [SCHEMA, SCHEMA_WITH_SYMBOLS].contains(&schema) => {
-            check_intervals(model, &json, statement, &clock)
+            intervals::check(model, &json, statement, &clock)
         }
         "verdict" if [SCHEMA, SCHEMA_WITH_SYMBOLS, SCHEMA_BY_ENCLOSURES].contains(&schema) => {
             verdict::check(model, &json, statement, &clock)
         }
-        other => {
-            let reason = format!("unknown kind of statement '{}'", shorten(other));
-            Err(Rejection { step: Step::Statement, reason })
-        }
+        other => Step::Statement.fails(format!("unknown kind of statement '{}'", shorten(other))),
     }
+}
+
+/// The version of a certificate, if it is known.
+fn schema(json: &Json) -> Result<&str, String> {
+    let schema = text(json.get("schema").ok_or("the certificate has no 'schema'")?, "'schema'")?;
+    let known = [
+        SCHEMA,
+        SCHEMA_WITH_SYMBOLS,
+        SCHEMA_WITH_DEAD_TIME,
+        SCHEMA_OF_BOXES,
+        SCHEMA_OF_MAPS,
+        SCHEMA_OF_CELLS,
+        SCHEMA_OF_MAPS_BY_BOXES,
+        SCHEMA_OF_BOXES_WITH_SYMBOLS,
+        SCHEMA_BY_ENCLOSURES,
+        SCHEMA_FOR_ALL,
+        SCHEMA_OF_TUNING,
+    ];
+    if known.contains(&schema) {
+        return Ok(schema);
+    }
+    let [rest @ .., last] = known.map(|name| format!("'{name}'"));
+    Err(format!("the schema is '{}', not {} or {last}", shorten(schema), rest.join(", ")))
+}
+
+/// Certificates of a loop with several rates prove stability in the unit disc.
+fn fits_several_rates(schema: &str, statement: &Json) -> Result<(), String> {
+    let region = statement.get("region").and_then(|region| region.get("radius"));
+    let of_rates =
+        [SCHEMA, SCHEMA_WITH_SYMBOLS, SCHEMA_OF_MAPS_BY_BOXES, SCHEMA_BY_ENCLOSURES, SCHEMA_FOR_ALL, SCHEMA_OF_TUNING];
+    match of_rates.contains(&schema) && matches!(region, Some(Json::Text(one)) if one == "1") {
+        true => Ok(()),
+        false => Err("a loop of several rates has certificates of stability without further wishes alone".into()),
+    }
+}
+
+/// Whether the model's time is that of the statement.
+fn is_same_time(model: bool, statement: bool) -> Result<(), String> {
+    if model == statement { Ok(()) } else { Err("the model's time is not that of the statement".into()) }
 }
 
 /// `time` of a statement.
@@ -396,73 +401,6 @@ fn table(json: &Json) -> Result<Option<Rc<Table>>, Rejection> {
 /// The keys of a certificate that may be there beside those of its kind.
 fn further_keys(table: Option<&Rc<Table>>) -> &'static [&'static str] {
     if table.is_some() { &["model", "bits", "symbols", "modes"] } else { &["model"] }
-}
-
-fn check_intervals(model: &str, json: &Json, statement: &Json, clock: &Clock) -> Result<Proved, Rejection> {
-    let table = table(json)?;
-    let parts = ["schema", "statement", "characteristic", "boundary", "factors", "line"];
-    let [_, _, characteristic, boundary, factors, line] =
-        Step::Format.of(object(json, "the certificate", parts, further_keys(table.as_ref())))?;
-    let keys = ["kind", "time", "parameter", "set", "region", "domain", "stable"];
-    let [_, time, parameter, set, region, domain, stable] =
-        Step::Statement.of(object(statement, "the statement", keys, &[]))?;
-    let discrete = Step::Statement.of(is_discrete(time))?;
-    let parameter = Step::Statement.of(text(parameter, "'parameter'").and_then(identifier))?;
-    let set = Step::Statement.of(values(set))?;
-    let extent = Step::Statement.of(extent(region, discrete))?;
-    let domain = Step::Statement.of((|| {
-        let [lower, upper] = object(domain, "'domain'", ["lower", "upper"], &[])?;
-        let (lower, upper) = (bound(lower, "'lower'")?, bound(upper, "'upper'")?);
-        if matches!((&lower, &upper), (Some(l), Some(u)) if l >= u) {
-            return Err("the domain is empty".to_owned());
-        }
-        if extent == Extent::Parameter {
-            if parameter != if discrete { "radius" } else { "decay" } {
-                return Err("the region depends on the parameter, which is not its radius or decay".into());
-            }
-            if discrete && lower.as_ref().is_none_or(|l| *l < Q::zero()) {
-                return Err("a radius is positive".into());
-            }
-            if set.iter().any(|(name, _)| name == parameter) {
-                return Err(format!("'{parameter}' is also a parameter of the model"));
-            }
-        }
-        Ok((lower, upper))
-    })())?;
-    let kept = if extent == Extent::Parameter { None } else { Some(parameter) };
-    let proof = intervals::Proof { boundary, factors, line, stable };
-    let other_time = || Rejection { step: Step::Model, reason: "the model's time is not that of the statement".into() };
-    match table {
-        None => {
-            let d = Step::Model.of(model::read(model, kept, &set, clock))?;
-            if d.discrete != discrete {
-                return Err(other_time());
-            }
-            let coefficients = Step::Model.of(region::transformed(&d.coefficients, discrete, &extent, clock))?;
-            let given = Step::Characteristic.of(polynomials(characteristic, "'characteristic'", polynomial))?;
-            let meant = Step::Characteristic.of(meant(&given, &coefficients, d.is_doubled, clock))?;
-            let (coefficients, degree) = match meant {
-                Meant::Root => (&given, d.degree / 2),
-                Meant::Own | Meant::Doubled => (&coefficients, d.degree),
-            };
-            let is_doubled = d.is_doubled;
-            let d = intervals::Loop { discrete, is_doubled, degree, coefficients, poles: &d.poles };
-            intervals::check(&d, &domain, &proof, &polynomial, clock)?;
-        }
-        Some(table) => {
-            if !discrete {
-                return Err(other_time());
-            }
-            let read = |json: &Json, what: &str| Over::read(json, what, &table);
-            let (coefficients, poles, is_doubled) =
-                held::characteristic(model, kept, &set, &extent, characteristic, &table, clock)?;
-            let degree = coefficients.len() - 1;
-            let d = intervals::Loop { discrete, is_doubled, degree, coefficients: &coefficients, poles: &poles };
-            intervals::check(&d, &domain, &proof, &read, clock)?;
-        }
-    }
-    let statement = verdict::sentence_of_intervals(parameter, &set, &extent, discrete, &domain, stable);
-    Ok(Proved { statement, kind: "intervals" })
 }
 
 fn same_characteristic(given: &[Uni], own: &[Uni]) -> Result<(), String> {

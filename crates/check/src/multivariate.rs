@@ -213,6 +213,21 @@ impl Multi {
         Ok(Some(quotient))
     }
 
+    /// The quotient by what is known to divide.
+    pub fn quotient(&self, divisor: &Multi, clock: &Clock) -> Result<Multi, String> {
+        self.divided(divisor, clock)?.ok_or_else(|| "internal: a divisor does not divide".into())
+    }
+
+    /// The least common multiple.
+    pub fn common_multiple<'m>(all: impl Iterator<Item = &'m Multi>, clock: &Clock) -> Result<Multi, String> {
+        let mut common = Multi::one();
+        for own in all {
+            let rest = own.quotient(&common.gcd(own, clock)?, clock)?;
+            common = common.times(&rest, clock)?;
+        }
+        Ok(common)
+    }
+
     /// A greatest common divisor over the integers, by primitive remainders in the first variable.
     pub fn gcd(&self, other: &Multi, clock: &Clock) -> Result<Multi, String> {
         clock.tick()?;
@@ -252,7 +267,7 @@ impl Multi {
         if self.is_zero() {
             return Ok((Multi::one(), Multi::default()));
         }
-        let rest = self.divided(&content, clock)?.ok_or("internal: a content does not divide")?;
+        let rest = self.quotient(&content, clock)?;
         Ok((content, rest))
     }
 
@@ -297,17 +312,24 @@ pub(super) struct Fraction {
     pub scalar: Multi,
 }
 
+impl From<Multi> for Fraction {
+    fn from(numerator: Multi) -> Self {
+        Fraction::over(numerator, Multi::one())
+    }
+}
+
 impl Fraction {
     pub fn number(value: &Q) -> Self {
-        Fraction {
-            numerator: Multi::constant(value.numer().clone()),
-            denominator: Multi::one(),
-            scalar: Multi::constant(value.denom().clone()),
-        }
+        Fraction::over(Multi::constant(value.numer().clone()), Multi::constant(value.denom().clone()))
     }
 
     pub fn variable(index: usize) -> Self {
-        Fraction { numerator: Multi::variable(index), denominator: Multi::one(), scalar: Multi::one() }
+        Multi::variable(index).into()
+    }
+
+    /// Over a polynomial without variable 0.
+    pub fn over(numerator: Multi, scalar: Multi) -> Self {
+        Fraction { numerator, denominator: Multi::one(), scalar }
     }
 
     /// Without common integer factors.
@@ -343,15 +365,13 @@ impl Fraction {
             (d.clone(), e.clone())
         } else {
             let g = d.gcd(e, clock)?.split_content(0, clock)?.1;
-            let rest = |m: &Multi| m.divided(&g, clock)?.ok_or_else(|| "internal: a gcd does not divide".to_owned());
-            (rest(d)?, rest(e)?)
+            (d.quotient(&g, clock)?, e.quotient(&g, clock)?)
         };
         let (left_scalar, right_scalar) = if self.scalar == other.scalar {
             (Multi::one(), Multi::one())
         } else if self.scalar.is_constant() && other.scalar.is_constant() {
             let g = self.scalar.gcd(&other.scalar, clock)?;
-            let rest = |m: &Multi| m.divided(&g, clock)?.ok_or_else(|| "internal: a gcd does not divide".to_owned());
-            (rest(&other.scalar)?, rest(&self.scalar)?)
+            (other.scalar.quotient(&g, clock)?, self.scalar.quotient(&g, clock)?)
         } else {
             (other.scalar.clone(), self.scalar.clone())
         };
@@ -376,7 +396,7 @@ impl Fraction {
         let top = self.denominator.times(&self.scalar, clock)?;
         let bottom = self.numerator.clone();
         if bottom.degree(0) == 0 {
-            Fraction { numerator: top, denominator: Multi::one(), scalar: bottom }
+            Fraction::over(top, bottom)
         } else {
             Fraction { numerator: top, denominator: bottom, scalar: Multi::one() }
         }

@@ -6,7 +6,7 @@ use common::may_share;
 pub(super) use common::separated;
 
 use super::blocks::cleared;
-use super::characteristic::{Form, product};
+use super::characteristic::{Form, closed};
 use super::clock::Clock;
 use super::complex::{parts, real_divisor, short, square_of_root};
 use super::enclosed::Determinant;
@@ -83,116 +83,114 @@ pub(super) fn with_sources(
         }
     }
     clock.reading(|| {
-        let values = &asked.values;
+        let reader = Reader { values: &asked.values, unit: asked.unit, clock };
         let positive = boxed.factor.map(|f| f.family.positive(FIRST + boxed.names.len(), clock)).transpose()?;
-        let positive = positive.unwrap_or_default();
         let mut divisors = Vec::with_capacity(asked.divisors.len());
         for divisor in &asked.divisors {
-            divisors.push(substituted(&divisor.coefficients(0), values, clock)?);
+            divisors.push(substituted(&divisor.coefficients(0), reader.values, clock)?);
         }
-        let unit = asked.unit;
-        let specialised = |rows: &[Vec<Multi>]| -> Result<Vec<Vec<Multi>>, String> {
-            rows.iter().map(|row| substituted(row, values, clock)).collect()
-        };
         let sources =
-            asked.moving.map_or_else(|| Ok(Sources::default()), |moving| moving.with_values(values, clock))?;
-        let (rows, degree) = match &asked.form {
+            asked.moving.map_or_else(|| Ok(Sources::default()), |moving| moving.with_values(reader.values, clock))?;
+        let (coefficients, sources) = reader.coefficients(&asked.form, by, sources, &mut divisors)?;
+        let [coefficients, imaginary] = reader.in_parts(coefficients);
+        let found = OverBox {
+            discrete: asked.discrete,
+            coefficients,
+            imaginary: asked.unit.map(|_| imaginary),
+            divisors,
+            is_doubled: asked.is_doubled,
+            // With a complex factor it is looked at where roots are.
+            has_lead_last: asked.unit.is_none() && !matches!(asked.form, Form::Written(_)),
+            positive: positive.unwrap_or_default(),
+            is_complex: asked.is_complex,
+        };
+        Ok((found, sources))
+    })
+}
+
+/// With the values of all parameters but those of the box, and, if a variable is the imaginary unit, with `j^2 = -1`.
+struct Reader<'r> {
+    values: &'r [Q],
+    unit: Option<usize>,
+    clock: &'r Clock,
+}
+
+impl Reader<'_> {
+    fn at_values(&self, rows: &[Vec<Multi>]) -> Result<Vec<Vec<Multi>>, String> {
+        rows.iter().map(|row| substituted(row, self.values, self.clock)).collect()
+    }
+
+    fn reduced(&self, d: Multi) -> Result<Multi, String> {
+        match self.unit {
+            Some(unit) => short(&d, unit, self.clock),
+            None => Ok(d),
+        }
+    }
+
+    fn divisor(&self, d: Multi) -> Result<Vec<Multi>, String> {
+        Ok(vec![match self.unit {
+            Some(unit) => real_divisor(&d, unit, self.clock)?,
+            None => d,
+        }])
+    }
+
+    /// The real and the imaginary parts.
+    fn in_parts(&self, coefficients: Vec<Multi>) -> [Vec<Multi>; 2] {
+        let Some(unit) = self.unit else { return [coefficients, Vec::new()] };
+        let (real, imaginary) = coefficients.iter().map(|c| parts(c, unit)).map(|[x, y]| (x, y)).unzip();
+        [real, imaginary]
+    }
+
+    /// The coefficients of a determinant that has at most this degree.
+    fn expanded(&self, rows: &[Vec<Multi>], degree: usize) -> Result<Vec<Multi>, String> {
+        let d = self.reduced(determinant(rows, self.clock)?)?;
+        if d.degree(0) > degree {
+            return Err("a determinant has a higher degree than the model".into());
+        }
+        Ok(resized(&d, degree))
+    }
+
+    /// The coefficients of a loop, the variables in them that are no parameters, and by what is divided for them.
+    fn coefficients(
+        &self,
+        form: &Form,
+        by: By<'_>,
+        sources: Sources,
+        divisors: &mut Vec<Vec<Multi>>,
+    ) -> Result<(Vec<Multi>, Sources), String> {
+        let clock = self.clock;
+        let (rows, degree) = match form {
             Form::Written(f) => {
-                let mut both = substituted(&[f.numerator.clone(), f.whole_denominator(clock)?], values, clock)?;
-                let below = both.pop().unwrap_or_default();
-                divisors.push(vec![unit.map_or_else(|| Ok(below.clone()), |unit| real_divisor(&below, unit, clock))?]);
-                let d = reduced(both.pop().unwrap_or_default(), unit, clock)?;
-                let degree = reduced(f.numerator.clone(), unit, clock)?.degree(0);
-                let [coefficients, imaginary] = in_parts(resized(&d, degree), unit);
-                let found = OverBox {
-                    discrete: asked.discrete,
-                    coefficients,
-                    imaginary: unit.map(|_| imaginary),
-                    divisors,
-                    is_doubled: asked.is_doubled,
-                    has_lead_last: false,
-                    positive,
-                    is_complex: asked.is_complex,
-                };
-                return Ok((found, sources));
+                let mut both = substituted(&[f.numerator.clone(), f.whole_denominator(clock)?], self.values, clock)?;
+                divisors.push(self.divisor(both.pop().unwrap_or_default())?);
+                let d = self.reduced(both.pop().unwrap_or_default())?;
+                let degree = self.reduced(f.numerator.clone())?.degree(0);
+                return Ok((resized(&d, degree), sources));
             }
             Form::Matrix(m) => (less(m, clock)?, m.len()),
-            Form::Feedback([a, b, c, k]) => {
-                let bkc = product(&product(b, k, clock)?, c, clock)?;
-                let mut m = a.clone();
-                for (row, other) in m.iter_mut().zip(bkc) {
-                    for (entry, f) in row.iter_mut().zip(other) {
-                        *entry = entry.plus(&f.negated(), clock)?;
-                    }
-                }
-                (less(&m, clock)?, m.len())
-            }
+            Form::Feedback(parts) => (less(&closed(parts, clock)?, clock)?, parts[0].len()),
             Form::System((rows, degree), alone) => {
                 for (rows, degree) in alone {
-                    let lead = expanded(&specialised(rows)?, *degree, unit, clock)?.pop().unwrap_or_default();
-                    divisors
-                        .push(vec![unit.map_or_else(|| Ok(lead.clone()), |unit| real_divisor(&lead, unit, clock))?]);
+                    let lead = self.expanded(&self.at_values(rows)?, *degree)?.pop();
+                    divisors.push(self.divisor(lead.unwrap_or_default())?);
                 }
                 (rows.clone(), *degree)
             }
         };
-        let rows = specialised(&rows)?;
-        let (coefficients, sources) = match by {
-            By::Expansion => (expanded(&rows, degree, unit, clock)?, sources),
+        let rows = self.at_values(&rows)?;
+        let found = match by {
+            By::Expansion => (self.expanded(&rows, degree)?, sources),
             By::Enclosures { window, bits } => {
-                let first = FIRST + window.len() + sources.len();
-                let found =
-                    Determinant { rows: &rows, degree, window, sources: &sources, bits, clock }.coefficients()?;
-                let mut coefficients = vec![Multi::default(); degree + 1];
-                for (i, powers) in found.keys().enumerate() {
-                    let mut e = vec![0; first + i + 1];
-                    e[FIRST..].iter_mut().zip(&powers[1..]).for_each(|(place, k)| *place = *k as u32);
-                    e[first + i] = 1;
-                    coefficients[powers[0]].add(e, Z::one());
-                }
-                (coefficients, sources.with_numbers(found.into_values().collect()))
+                let of = Determinant { rows: &rows, degree, window, sources: &sources, bits, clock };
+                let (coefficients, numbers) = of.as_further_variables()?;
+                (coefficients, sources.with_numbers(numbers))
             }
         };
-        if unit.is_none() {
-            divisors.push(coefficients.last().cloned().into_iter().collect());
+        if self.unit.is_none() {
+            divisors.push(found.0.last().cloned().into_iter().collect());
         }
-        let [coefficients, imaginary] = in_parts(coefficients, unit);
-        Ok((
-            OverBox {
-                discrete: asked.discrete,
-                coefficients,
-                imaginary: unit.map(|_| imaginary),
-                divisors,
-                is_doubled: asked.is_doubled,
-                // With a complex factor it is looked at where roots are.
-                has_lead_last: unit.is_none(),
-                positive,
-                is_complex: asked.is_complex,
-            },
-            sources,
-        ))
-    })
-}
-
-/// With `j^2 = -1`.
-fn reduced(d: Multi, unit: Option<usize>, clock: &Clock) -> Result<Multi, String> {
-    unit.map_or(Ok(d.clone()), |unit| short(&d, unit, clock))
-}
-
-/// The real and the imaginary parts.
-fn in_parts(coefficients: Vec<Multi>, unit: Option<usize>) -> [Vec<Multi>; 2] {
-    let Some(unit) = unit else { return [coefficients, Vec::new()] };
-    let (real, imaginary) = coefficients.iter().map(|c| parts(c, unit)).map(|[x, y]| (x, y)).unzip();
-    [real, imaginary]
-}
-
-/// The coefficients of a determinant that has at most this degree.
-fn expanded(rows: &[Vec<Multi>], degree: usize, unit: Option<usize>, clock: &Clock) -> Result<Vec<Multi>, String> {
-    let d = reduced(determinant(rows, clock)?, unit, clock)?;
-    if d.degree(0) > degree {
-        return Err("a determinant has a higher degree than the model".into());
+        Ok(found)
     }
-    Ok(resized(&d, degree))
 }
 
 /// So many coefficients and one.
@@ -311,7 +309,7 @@ pub(super) fn beside_factors(p: &Multi, factors: &[Multi], parameters: usize, cl
             if common.is_constant() {
                 break;
             }
-            p = p.divided(&common, clock)?.ok_or("internal: a gcd does not divide")?;
+            p = p.quotient(&common, clock)?;
         }
     }
     Ok(p)

@@ -85,6 +85,19 @@ pub(super) fn bound(json: &Json, what: &str) -> Result<Option<Q>, String> {
     }
 }
 
+/// The ends of an open interval; none where it does not end.
+pub(super) type Domain = (Option<Q>, Option<Q>);
+
+/// An open interval that is not empty.
+pub(super) fn interval(json: &Json) -> Result<Domain, String> {
+    let [lower, upper] = object(json, "'domain'", ["lower", "upper"], &[])?;
+    let (lower, upper) = (bound(lower, "'lower'")?, bound(upper, "'upper'")?);
+    match (&lower, &upper) {
+        (Some(l), Some(u)) if l >= u => Err("the domain is empty".to_owned()),
+        _ => Ok((lower, upper)),
+    }
+}
+
 /// Two numbers, the first below the second.
 pub(super) fn pair(json: &Json, what: &str) -> Result<(Q, Q), String> {
     match list(json, what)? {

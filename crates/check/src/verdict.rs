@@ -1,16 +1,16 @@
-//! The verdict at one point, and statements in words.
+//! The verdict at one point.
 
+use super::characteristic::Characteristic;
 use super::clock::Clock;
-use super::complex::{Meant, meant};
+use super::complex::Meant;
+use super::held::{self, Question};
 use super::number::Q;
 use super::roots::{Places, is_hurwitz, is_schur, places_by_axis, places_by_circle};
-use super::statement::{self, End, Extent, count, fixed_extent, list, object, polynomial, polynomials, text, values};
+use super::statement::{Extent, count, fixed_extent, object, text, values};
 use super::univariate::Uni;
-use super::words::{exact, shared_digits, with_decimal};
-use super::{Proved, Rejection, Step, by_enclosures, further_keys, held, is_discrete, model, region, table};
+use super::words::{self, exact};
+use super::{Proved, Rejection, Step, by_enclosures, further_keys, is_discrete, is_same_time, table};
 use crate::format::{Json, SCHEMA_BY_ENCLOSURES};
-use num_traits::Zero;
-use std::fmt::Write;
 
 /// What shows a verdict.
 enum Shown<'j> {
@@ -18,6 +18,61 @@ enum Shown<'j> {
     Polynomial(&'j Json),
     /// Enclosures with so many bits.
     Enclosures(usize),
+}
+
+/// What is said of a loop whose parameters all have values.
+struct Statement<'j> {
+    discrete: bool,
+    set: Vec<(String, Q)>,
+    extent: Extent,
+    verdict: &'j str,
+    /// The degree, and how many roots are inside, on the boundary, outside and infinite.
+    counts: [usize; 5],
+}
+
+impl<'j> Statement<'j> {
+    fn read(json: &'j Json) -> Result<Self, String> {
+        let keys = ["kind", "time", "set", "region", "verdict", "degree", "inside", "on", "outside", "infinite"];
+        let [_, time, set, region, verdict, numbers @ ..] = object(json, "the statement", keys, &[])?;
+        let discrete = is_discrete(time)?;
+        let (set, extent) = (values(set)?, fixed_extent(region, discrete)?);
+        let verdict = text(verdict, "'verdict'")?;
+        let mut counts = [0; 5];
+        for ((target, json), key) in counts.iter_mut().zip(numbers).zip(&keys[5..]) {
+            *target = count(json, &format!("'{key}'"))?;
+        }
+        Ok(Statement { discrete, set, extent, verdict, counts })
+    }
+
+    fn in_words(&self) -> String {
+        let (name, [_, inside, on, outside, infinite]) = (self.verdict, self.counts);
+        let at = match self.set.as_slice() {
+            [] => String::new(),
+            set => format!("At {}, ", words::values(set.iter().map(|(name, value)| (name, value)))),
+        };
+        let within = within(&self.extent, self.discrete);
+        match name {
+            "undefined" => format!("{at}the loop is undefined."),
+            _ => format!(
+                "{at}the loop is {name}{within}: {inside} roots inside, {on} on the boundary, {outside} outside, {infinite} infinite."
+            ),
+        }
+    }
+}
+
+/// What is found of a loop.
+struct Found {
+    name: &'static str,
+    degree: usize,
+    places: Places,
+    infinite: usize,
+}
+
+impl Found {
+    /// Of a loop without infinite roots.
+    fn of(degree: usize, places: Places) -> Self {
+        Found { name: named(&places, 0), degree, places, infinite: 0 }
+    }
 }
 
 pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -> Result<Proved, Rejection> {
@@ -34,94 +89,47 @@ pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -
         let [_, _, polynomial] = object(json, "the certificate", parts, further_keys(table.as_ref()))?;
         Ok(Shown::Polynomial(polynomial))
     })())?;
-    let keys = ["kind", "time", "set", "region", "verdict", "degree", "inside", "on", "outside", "infinite"];
-    let [_, time, set, region, verdict, degree, inside, on, outside, infinite] =
-        Step::Statement.of(object(statement, "the statement", keys, &[]))?;
-    let discrete = Step::Statement.of(is_discrete(time))?;
-    let set = Step::Statement.of(values(set))?;
-    let extent = Step::Statement.of(fixed_extent(region, discrete))?;
-    let verdict = Step::Statement.of(text(verdict, "'verdict'"))?;
-    let claimed = Step::Statement.of((|| {
-        Ok([
-            count(degree, "'degree'")?,
-            count(inside, "'inside'")?,
-            count(on, "'on'")?,
-            count(outside, "'outside'")?,
-            count(infinite, "'infinite'")?,
-        ])
-    })())?;
-    let (degree, name, places, infinite) = match (shown, &table) {
-        (Shown::Polynomial(characteristic), None) => rational(model, discrete, &set, &extent, characteristic, clock)?,
-        (Shown::Enclosures(_), _) | (_, Some(_)) if !discrete => {
-            let reason = "the model's time is not that of the statement".into();
-            return Err(Rejection { step: Step::Model, reason });
-        }
+    let s = Step::Statement.of(Statement::read(statement))?;
+    let question = Question { model, kept: None, set: &s.set, extent: &s.extent, discrete: s.discrete };
+    let Found { name, degree, places, infinite } = match (shown, &table) {
+        (Shown::Polynomial(characteristic), None) => rational(&question, characteristic, clock)?,
         (Shown::Enclosures(bits), _) => {
-            let (degree, places) = by_enclosures::places(model, &set, &extent, bits, clock)?;
-            (degree, named(&places, 0), places, 0)
+            Step::Model.of(is_same_time(true, s.discrete))?;
+            let (degree, places) = by_enclosures::places(model, &s.set, &s.extent, bits, clock)?;
+            Found::of(degree, places)
         }
         (Shown::Polynomial(characteristic), Some(table)) => {
-            let (d, poles, is_doubled) =
-                held::characteristic(model, None, &set, &extent, characteristic, table, clock)?;
-            let found = Step::Stable.of(held::places(&d, &poles, table, clock))?;
-            let (degree, places) = match is_doubled {
-                true => ((d.len() - 1) / 2, Step::Stable.of(found.halved())?),
-                false => (d.len() - 1, found),
-            };
-            (degree, named(&places, 0), places, 0)
+            Step::Model.of(is_same_time(true, s.discrete))?;
+            let d = question.over_symbols(characteristic, table, clock)?;
+            let places = Step::Stable.of(held::places(&d.coefficients, &d.poles, table, clock))?;
+            let degree = d.coefficients.len() - 1;
+            match d.is_doubled {
+                true => Found::of(degree / 2, Step::Stable.of(places.halved())?),
+                false => Found::of(degree, places),
+            }
         }
     };
-    if verdict != name {
-        return Err(Rejection { step: Step::Stable, reason: format!("the verdict is '{name}'") });
+    if s.verdict != name {
+        return Step::Stable.fails(format!("the verdict is '{name}'"));
     }
     let found = [degree, places.inside, places.on, places.outside, infinite];
-    if claimed != found {
-        let [n, i, o, x, l] = found;
-        let reason = format!("degree {n}: {i} roots are inside, {o} on the boundary, {x} outside, {l} infinite");
-        return Err(Rejection { step: Step::Stable, reason });
+    if s.counts != found {
+        return Step::Stable.fails(told_counts(found));
     }
-    let mut sentence = String::new();
-    let values: Vec<String> = set.iter().map(|(n, v)| format!("{n} = {}", exact(v))).collect();
-    if !values.is_empty() {
-        let _ = write!(sentence, "At {}, ", values.join(", "));
-    }
-    let _ = match name {
-        "undefined" => write!(sentence, "the loop is undefined."),
-        _ => write!(
-            sentence,
-            "the loop is {name}{}: {} roots inside, {} on the boundary, {} outside, {infinite} infinite.",
-            within(&extent, discrete),
-            places.inside,
-            places.on,
-            places.outside
-        ),
-    };
-    Ok(Proved { statement: sentence, kind: "verdict" })
+    Ok(Proved { statement: s.in_words(), kind: "verdict" })
 }
 
-/// The verdict of a loop without symbols: its degree, name, and where the roots are.
-fn rational(
-    model: &str,
-    discrete: bool,
-    set: &[(String, Q)],
-    extent: &Extent,
-    characteristic: &Json,
-    clock: &Clock,
-) -> Result<(usize, &'static str, Places, usize), Rejection> {
-    let d = Step::Model.of(model::read(model, None, set, clock))?;
-    if d.discrete != discrete {
-        return Err(Rejection { step: Step::Model, reason: "the model's time is not that of the statement".into() });
-    }
-    let coefficients = Step::Model.of(region::transformed(&d.coefficients, discrete, extent, clock))?;
-    let given = Step::Characteristic.of(polynomials(characteristic, "'characteristic'", polynomial))?;
-    let meant = Step::Characteristic.of(meant(&given, &coefficients, d.is_doubled, clock))?;
-    let (coefficients, degree) = match meant {
-        Meant::Root => (given, d.degree / 2),
-        Meant::Own | Meant::Doubled => (coefficients, d.degree),
-    };
-    let undefined = d.poles.iter().any(Uni::is_zero);
-    let polynomial = Uni::new(coefficients.iter().map(|c| c.at(0)).collect());
-    let (name, places, infinite) = if undefined {
+/// Where a degree's roots are.
+pub(super) fn told_counts([n, inside, on, outside, infinite]: [usize; 5]) -> String {
+    format!("degree {n}: {inside} roots are inside, {on} on the boundary, {outside} outside, {infinite} infinite")
+}
+
+/// The verdict of a loop without symbols.
+fn rational(question: &Question<'_>, characteristic: &Json, clock: &Clock) -> Result<Found, Rejection> {
+    let (d, meant) = question.rational(characteristic, clock)?;
+    let Characteristic { discrete, degree, .. } = d;
+    let polynomial = Uni::new(d.coefficients.iter().map(|c| c.at(0)).collect());
+    let (name, places, infinite) = if d.poles.iter().any(Uni::is_zero) {
         ("undefined", Places::default(), 0)
     } else if polynomial.is_zero() {
         ("unstable", Places::default(), degree)
@@ -131,13 +139,16 @@ fn rational(
         let infinite = degree - polynomial.degree();
         let quick = if discrete { is_schur(&polynomial, clock) } else { is_hurwitz(&polynomial, clock) };
         if Step::Stable.of(quick)? != (places.on + places.outside == 0) {
-            return Err(Rejection { step: Step::Stable, reason: "internal: two tests disagree".into() });
+            return Step::Stable.fails("internal: two tests disagree");
         }
         (named(&places, infinite), places, infinite)
     };
     Ok(match meant {
-        Meant::Doubled => (degree / 2, name, Step::Stable.of(places.halved())?, infinite / 2),
-        Meant::Own | Meant::Root => (degree, name, places, infinite),
+        Meant::Doubled => {
+            let places = Step::Stable.of(places.halved())?;
+            Found { name, degree: degree / 2, places, infinite: infinite / 2 }
+        }
+        Meant::Own | Meant::Root => Found { name, degree, places, infinite },
     })
 }
 
@@ -163,87 +174,4 @@ pub(super) fn within(extent: &Extent, discrete: bool) -> String {
         }
         Extent::Number(_) => String::new(),
     }
-}
-
-/// The statement about one parameter in words. An irrational end is given by its enclosure.
-pub(super) fn sentence_of_intervals(
-    parameter: &str,
-    set: &[(String, Q)],
-    extent: &Extent,
-    discrete: bool,
-    domain: &(Option<Q>, Option<Q>),
-    stable: &Json,
-) -> String {
-    let mut out = String::from("For all real ");
-    out.push_str(parameter);
-    let _ = match domain {
-        (None, None) => Ok(()),
-        (Some(l), None) => write!(out, " > {}", exact(l)),
-        (None, Some(u)) => write!(out, " < {}", exact(u)),
-        (Some(l), Some(u)) => write!(out, " in ({}, {})", exact(l), exact(u)),
-    };
-    for (i, (name, value)) in set.iter().enumerate() {
-        let _ = write!(out, "{}{name} = {}", if i == 0 { ", with " } else { ", " }, exact(value));
-    }
-    let _ = write!(out, ", the loop is stable{}", within(extent, discrete));
-    let intervals = list(stable, "").unwrap_or_default();
-    if intervals.is_empty() {
-        out.push_str(" nowhere.");
-        return out;
-    }
-    out.push_str(" exactly for ");
-    let mut origins: Vec<String> = Vec::new();
-    for (i, interval) in intervals.iter().enumerate() {
-        if i > 0 {
-            out.push_str(" or ");
-        }
-        let [lower, upper] = ["lower", "upper"].map(|key| {
-            let (number, origin) = interval.get(key).and_then(|e| end(e, parameter))?;
-            origins.extend(origin.map(|o| format!("{number} is {o}")).filter(|o| !origins.contains(o)));
-            Some(number)
-        });
-        out.push_str(&match (lower, upper) {
-            (None, None) => "all of them".to_owned(),
-            (Some(l), None) => format!("{parameter} > {l}"),
-            (None, Some(u)) => format!("{parameter} < {u}"),
-            (Some(l), Some(u)) => format!("{l} < {parameter} < {u}"),
-        });
-    }
-    if !origins.is_empty() {
-        let _ = write!(out, ", where {}", origins.join(", and "));
-    }
-    out.push('.');
-    out
-}
-
-/// Polynomials that take more characters than this are not written out.
-const SHOWN: usize = 200;
-
-/// An end as a number, and for an irrational one what it is; `None` for an infinite one.
-fn end(json: &Json, parameter: &str) -> Option<(String, Option<String>)> {
-    if let Some(Json::Text(number)) = json.get("switch") {
-        return Some((number.clone(), Some("a dead time with roots on the axis".into())));
-    }
-    let (f, a, b) = match statement::end(json, |p: &Json, _: &str| Ok(p.clone())).ok()? {
-        End::Infinite => return None,
-        End::Rational(q) => return Some((with_decimal(&q), None)),
-        End::Root(f, a, b) => (f, a, b),
-    };
-    let polynomial = match polynomial(&f, "") {
-        Err(_) => "a polynomial over exponentials in 'stable'".to_owned(),
-        Ok(f) => {
-            let terms = f.0.iter().enumerate().filter(|(_, c)| !c.is_zero()).map(|(k, c)| match k {
-                0 => c.to_string(),
-                1 => format!("{c}*{parameter}"),
-                _ => format!("{c}*{parameter}^{k}"),
-            });
-            let polynomial = terms.collect::<Vec<_>>().join(" + ").replace("+ -", "- ");
-            if polynomial.len() > SHOWN {
-                format!("a polynomial of degree {} in 'stable'", f.degree())
-            } else {
-                polynomial
-            }
-        }
-    };
-    Some((shared_digits(&a, &b), Some(format!("a root of {polynomial}"))))
 }

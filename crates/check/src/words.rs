@@ -27,6 +27,19 @@ pub(super) fn exact(q: &Q) -> String {
     decimal(q)
 }
 
+/// Names with their values.
+pub(super) fn values<'v>(set: impl Iterator<Item = (&'v String, &'v Q)>) -> String {
+    set.map(|(name, value)| format!("{name} = {}", exact(value))).collect::<Vec<_>>().join(", ")
+}
+
+/// `, with` these values; nothing where there are none.
+pub(super) fn with_values(set: &[(String, Q)]) -> String {
+    match set {
+        [] => String::new(),
+        set => format!(", with {}", values(set.iter().map(|(name, value)| (name, value)))),
+    }
+}
+
 /// An end of a set: a short fraction has its decimal behind it.
 pub(super) fn with_decimal(q: &Q) -> String {
     let shown = exact(q);

@@ -130,6 +130,40 @@ impl Ranges {
 /// An input and an output of the loop.
 type Ends = (String, String);
 
+/// The peak-to-peak gains of a loop, each found once, though several sums have it.
+struct Peaks<'p> {
+    problem: &'p Arc<Problem>,
+    known: RefCell<BTreeMap<Ends, Option<[Rational; 2]>>>,
+    budget: &'p Budget,
+}
+
+impl Peaks<'_> {
+    /// `None` for a loop that is not stable.
+    fn gain(&self, input: &str, output: &str) -> Result<Option<[Rational; 2]>, Error> {
+        let key = (input.to_owned(), output.to_owned());
+        if let Some(found) = self.known.borrow().get(&key) {
+            return Ok(found.clone());
+        }
+        let found = self.problem.peak_to_peak(input, output, DIGITS, self.budget)?;
+        let ends = found.value().gain.as_ref().map(|gain| [gain.lower.clone(), gain.upper.clone()]);
+        self.known.borrow_mut().insert(key, ends.clone());
+        Ok(ends)
+    }
+
+    /// How large an output gets by inputs with these bounds.
+    fn sum(&self, sources: &[(String, Rational)], output: &str) -> Result<Option<[Rational; 2]>, Error> {
+        let mut total = [Rational::ZERO, Rational::ZERO];
+        for (input, bound) in sources {
+            let Some([low, high]) = self.gain(input, output)? else { return Ok(None) };
+            total = [&total[0] + &(&low * bound), &total[1] + &(&high * bound)];
+        }
+        // Exact sums may be fractions of hundreds of digits.
+        let [low, high] = total;
+        let short = Enclosure::new(low, high).rounded(BITS);
+        Ok(Some([short.lower().clone(), short.upper().clone()]))
+    }
+}
+
 /// Bits behind the point of bounds, which are rounded outwards.
 const BITS: u64 = 96;
 
@@ -152,29 +186,8 @@ impl Shipped {
             Rational::new(least.abs().max(greatest.abs()).into(), 2.into())
         });
         let error = unit.map_or(Rational::ZERO, |unit| unit * error);
-        // Each gain once, though several sums have it.
-        let known: RefCell<BTreeMap<Ends, Option<[Rational; 2]>>> = RefCell::default();
-        let gain = |input: &String, output: &str| -> Result<Option<[Rational; 2]>, Error> {
-            let key = (input.clone(), output.to_owned());
-            if let Some(found) = known.borrow().get(&key) {
-                return Ok(found.clone());
-            }
-            let found = problem.peak_to_peak(input, output, DIGITS, budget)?;
-            let ends = found.value().gain.as_ref().map(|gain| [gain.lower.clone(), gain.upper.clone()]);
-            known.borrow_mut().insert(key, ends.clone());
-            Ok(ends)
-        };
-        let sum = |sources: &[(String, Rational)], output: &str| -> Result<Option<[Rational; 2]>, Error> {
-            let mut total = [Rational::ZERO, Rational::ZERO];
-            for (input, bound) in sources {
-                let Some([low, high]) = gain(input, output)? else { return Ok(None) };
-                total = [&total[0] + &(&low * bound), &total[1] + &(&high * bound)];
-            }
-            // Exact sums may be fractions of hundreds of digits.
-            let [low, high] = total;
-            let short = Enclosure::new(low, high).rounded(BITS);
-            Ok(Some([short.lower().clone(), short.upper().clone()]))
-        };
+        let peaks = Peaks { problem: &problem, known: RefCell::default(), budget };
+        let sum = |sources: &[(String, Rational)], output: &str| peaks.sum(sources, output);
         let errors: Vec<(String, Rational)> =
             names.errors.iter().flatten().map(|name| (name.clone(), error.clone())).collect();
         let input_errors: Vec<(String, Rational)> = match self.asked.signal {

@@ -129,19 +129,7 @@ pub fn classical_test(
     budget: &Budget,
 ) -> Result<ClassicalTest, Exhausted> {
     let n = p.formal_degree();
-    let full = p.polynomial().scaled(p.content());
-    let integer_content = full.coeffs().iter().fold(Integer::ZERO, |g, c| Domain::gcd(&g, &c.content()));
-    let base = if integer_content.is_zero() {
-        full
-    } else {
-        full.map(|c| c.div_exact_scalar(&integer_content).expect("the content divides"))
-    };
-    let constant_denominator = p.denominator().is_constant();
-    let scale = match (integer_content.is_zero(), constant_denominator) {
-        (true, _) => Rational::ONE,
-        (false, true) => Rational::new(integer_content, p.denominator().coeff(0)),
-        (false, false) => Rational::from(integer_content),
-    };
+    let (base, scale) = without_content(p);
     budget.step("the table");
     let (table, scales, inequalities) = match region {
         Shape::UnitDisc => jury_inequalities(&base, n, scale, budget)?,
@@ -182,10 +170,22 @@ pub fn classical_test(
     Ok(ClassicalTest {
         table,
         scales,
-        cleared_by: (!constant_denominator).then(|| p.denominator().clone()),
+        cleared_by: (!p.denominator().is_constant()).then(|| p.denominator().clone()),
         conditions,
         intersection,
     })
+}
+
+/// The polynomial without the integers that all its coefficients have in common, and what it is to be multiplied by to be the given one.
+fn without_content(p: &ParametricPolynomial) -> (Poly<UniPoly>, Rational) {
+    let full = p.polynomial().scaled(p.content());
+    let content = full.coeffs().iter().fold(Integer::ZERO, |g, c| Domain::gcd(&g, &c.content()));
+    if content.is_zero() {
+        return (full, Rational::ONE);
+    }
+    let base = full.map(|c| c.div_exact_scalar(&content).expect("the content divides"));
+    let denominator = if p.denominator().is_constant() { p.denominator().coeff(0) } else { Integer::ONE };
+    (base, Rational::new(content, denominator))
 }
 
 /// The exact solution set of one inequality over a range.

@@ -74,16 +74,7 @@ pub(super) fn complex_pair_at(
         Shape::LeftHalfPlane => &[0],
     };
     if let Some(exact) = value.exact() {
-        let special = p.specialised(&exact);
-        let Some(n) = special.degree().filter(|&n| n > 0) else { return Ok(None) };
-        let pair = HalfSizePair::new(&special, n, region);
-        let common = budget.enter(|| pair.a.gcd(&pair.b))?;
-        let range = match region {
-            Shape::UnitDisc => Range::between(Some(Rational::from(-2)), Some(Rational::from(2))),
-            Shape::LeftHalfPlane => Range::between(None, Some(Rational::ZERO)),
-        };
-        let roots = zeros_in(&common, &range, budget)?;
-        return Ok(roots.into_iter().last().map(|x| ComplexPair::of(region, HalfSizeRoot::Number(x.into()))));
+        return pair_at_rational(p, &exact, region, budget);
     }
     let pair = HalfSizePair::new(p.polynomial(), p.formal_degree(), region);
     let (first, second) = if pair.a.degree() >= pair.b.degree() { (pair.a, pair.b) } else { (pair.b, pair.a) };
@@ -111,9 +102,6 @@ pub(super) fn complex_pair_at(
             break;
         }
     }
-    if common.is_zero() {
-        return Ok(None);
-    }
     for &end in ends {
         while !common.is_constant() {
             let (quotient, rest) = divide_by_linear(&common, end);
@@ -123,10 +111,26 @@ pub(super) fn complex_pair_at(
             common = quotient;
         }
     }
-    if common.is_constant() {
-        return Ok(None);
-    }
-    Ok(Some(ComplexPair::of(region, HalfSizeRoot::Over { polynomial: common, parameter: value.clone() })))
+    let over = |polynomial| ComplexPair::of(region, HalfSizeRoot::Over { polynomial, parameter: value.clone() });
+    Ok((!common.is_constant()).then(|| over(common)))
+}
+
+fn pair_at_rational(
+    p: &ParametricPolynomial,
+    value: &Rational,
+    region: Shape,
+    budget: &Budget,
+) -> Result<Option<ComplexPair>, Exhausted> {
+    let special = p.specialised(value);
+    let Some(n) = special.degree().filter(|&n| n > 0) else { return Ok(None) };
+    let pair = HalfSizePair::new(&special, n, region);
+    let common = budget.enter(|| pair.a.gcd(&pair.b))?;
+    let range = match region {
+        Shape::UnitDisc => Range::between(Some(Rational::from(-2)), Some(Rational::from(2))),
+        Shape::LeftHalfPlane => Range::between(None, Some(Rational::ZERO)),
+    };
+    let roots = zeros_in(&common, &range, budget)?;
+    Ok(roots.into_iter().last().map(|x| ComplexPair::of(region, HalfSizeRoot::Number(x.into()))))
 }
 
 /// Bits of the first attempt to see that there is only one common root, and how often they are doubled.

@@ -118,35 +118,42 @@ impl Search {
                 Err(Error::Stopped(stopped)) => return Ok(Bracketed { stopped: Some(stopped), ..out }),
                 Err(error) => return Err(error),
             }
-            next = match (&low, &high) {
-                (None, Some(high)) if *high < tiny() => return Ok(out),
-                (None, Some(high)) => high * &half,
-                (Some(low), None) if step.is_some() && &whole - low > tiny() => {
-                    let longer = step.as_ref().expect("it was just seen") * &Rational::from(4);
-                    let next = self.within(low + &longer, &whole);
-                    step = Some(longer);
-                    next
-                }
-                (Some(low), None) if self.is_without_end => {
-                    if *low >= &whole * &half {
-                        return Ok(out);
-                    }
-                    low + low
-                }
-                (Some(low), None) if &whole - low < tiny() => return Ok(out),
-                (Some(low), None) => (low + &whole) * &half,
-                (Some(low), Some(high)) => {
-                    let width = high - low;
-                    if width <= high * &lines.asked.gap {
-                        return Ok(out);
-                    }
-                    let third = &width * &Rational::new(1.into(), 3.into());
-                    simplest_between(&(low + &third), &(high - &third)).expect("a third is left")
-                }
-                (None, None) => unreachable!("one of them was just found"),
-            };
+            let between = (low.as_ref(), high.as_ref());
+            match self.following(between, &mut step, &lines.asked.gap) {
+                Some(following) => next = following,
+                None => return Ok(out),
+            }
         }
         Ok(out)
+    }
+
+    /// The distance to ask about after these were seen: the greatest good one and the least other one; `None` where they are close enough.
+    fn following(
+        &self,
+        between: (Option<&Rational>, Option<&Rational>),
+        step: &mut Option<Rational>,
+        gap: &Rational,
+    ) -> Option<Rational> {
+        let half = Rational::new(1.into(), 2.into());
+        let whole = &self.ends[1] - &self.ends[0];
+        match between {
+            (None, Some(high)) => (*high >= tiny()).then(|| high * &half),
+            (Some(low), None) if step.is_some() && &whole - low > tiny() => {
+                let longer = step.as_ref().expect("it was just seen") * &Rational::from(4);
+                let next = self.within(low + &longer, &whole);
+                *step = Some(longer);
+                Some(next)
+            }
+            (Some(low), None) if self.is_without_end => (*low < &whole * &half).then(|| low + low),
+            (Some(low), None) => (&whole - low >= tiny()).then(|| (low + &whole) * &half),
+            (Some(low), Some(high)) => {
+                let width = high - low;
+                let third = &width * &Rational::new(1.into(), 3.into());
+                let middle = || simplest_between(&(low + &third), &(high - &third)).expect("a third is left");
+                (width > high * gap).then(middle)
+            }
+            (None, None) => unreachable!("one of them was just found"),
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! `jurist analyze`: the verdict at nominal and the stable set of each parameter.
 
 use super::{Context, Runs};
-use crate::cli::arguments::{DecisionOptions, RunOptions};
+use crate::cli::arguments::DecisionOptions;
 use crate::cli::destinations::Files;
 use crate::cli::input::decision;
 use crate::cli::requirements::warn_of_ignored;
@@ -18,38 +18,30 @@ pub(in crate::cli) struct Options {
 
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
-        run(self, context)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.decision.output.run
+        let output = &self.decision.output;
+        let digits = output.digits() as usize;
+        let (model, question) = decision(&self.decision, context)?;
+        warn_of_ignored(&model, context);
+        let answer = question.analyze(&context.budget)?;
+        let points = answer.verdict.iter().map(|(problem, _)| (problem, Asked::Verdict));
+        for (problem, asked) in points.chain(answer.sets.iter().map(|(problem, _)| (problem, Asked::Intervals))) {
+            context.explain(&self.decision.explain, output, problem, asked)?;
+        }
+        // Remarks on the question are the same for all its parts.
+        let first =
+            answer.verdict.as_ref().map(|(problem, _)| problem).or(answer.sets.first().map(|(problem, _)| problem));
+        if let Some(problem) = first {
+            context.warn(None, problem.warnings());
+        }
+        if let Some(stopped) = answer.stopped() {
+            return context.undecided(output, stopped, || Some(answer.text(digits)), || answer.json(digits));
+        }
+        context.answer(output, || answer.text(digits), || answer.json(digits))?;
+        Ok(Status::Holds)
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
         files.question(&self.decision.model.model, &self.decision.output.output);
         Ok(())
     }
-}
-
-/// Answers on standard output or in a file.
-fn run(options: &Options, context: &Context) -> Outcome {
-    let output = &options.decision.output;
-    let digits = output.digits() as usize;
-    let (model, question) = decision(&options.decision, context)?;
-    warn_of_ignored(&model, context);
-    let answer = question.analyze(&context.budget)?;
-    let points = answer.verdict.iter().map(|(problem, _)| (problem, Asked::Verdict));
-    for (problem, asked) in points.chain(answer.sets.iter().map(|(problem, _)| (problem, Asked::Intervals))) {
-        context.explain(&options.decision.explain, output, problem, asked)?;
-    }
-    // Remarks on the question are the same for all its parts.
-    let first = answer.verdict.as_ref().map(|(problem, _)| problem).or(answer.sets.first().map(|(problem, _)| problem));
-    if let Some(problem) = first {
-        context.warn(None, problem.warnings());
-    }
-    if let Some(stopped) = answer.stopped() {
-        return context.undecided(output, stopped, || Some(answer.text(digits)), || answer.json(digits));
-    }
-    context.answer(output, || answer.text(digits), || answer.json(digits))?;
-    Ok(Status::Holds)
 }

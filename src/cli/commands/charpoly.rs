@@ -1,7 +1,7 @@
 //! `jurist charpoly`: the characteristic polynomial.
 
 use super::{Context, Runs, decided};
-use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions, RunOptions};
+use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::assignments::in_line;
 use crate::cli::destinations::Files;
 use crate::cli::input::{known_names, load, question};
@@ -41,39 +41,30 @@ pub(in crate::cli) struct Options {
 
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
-        run(self, context)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.output.run
+        let notation = notation(self)?;
+        let model = load(self.model.model.as_ref(), &self.model.line, context)?;
+        let problem = problem(self, context, &model)?;
+        let file = self.output.output.as_ref();
+        let report = match decided(report(self, context, &problem))? {
+            Ok(report) => report,
+            Err(stopped) => {
+                if notation == Notation::Json {
+                    finish_answer(&undecided(self, &problem, &stopped), file)?;
+                }
+                return Ok(context.say_undecided(&stopped));
+            }
+        };
+        let digits = self.output.digits.map(|d| d as usize);
+        let text = context.budget.enter(|| report.write(notation, digits))?;
+        context.reporter.finish();
+        finish_answer(&text, file)?;
+        Ok(Status::Holds)
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
         files.question(&self.model.model, &self.output.output);
         Ok(())
     }
-}
-
-/// Answers on standard output or in a file.
-fn run(options: &Options, context: &Context) -> Outcome {
-    let notation = notation(options)?;
-    let model = load(options.model.model.as_ref(), &options.model.line, context)?;
-    let problem = problem(options, context, &model)?;
-    let file = options.output.output.as_ref();
-    let report = match decided(report(options, context, &problem))? {
-        Ok(report) => report,
-        Err(stopped) => {
-            if notation == Notation::Json {
-                finish_answer(&undecided(options, &problem, &stopped), file)?;
-            }
-            return Ok(context.say_undecided(&stopped));
-        }
-    };
-    let digits = options.output.digits.map(|d| d as usize);
-    let text = context.budget.enter(|| report.write(notation, digits))?;
-    context.reporter.finish();
-    finish_answer(&text, file)?;
-    Ok(Status::Holds)
 }
 
 /// The notation asked for: by `--format`, by `--json`, or by the file's ending.

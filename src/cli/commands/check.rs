@@ -39,61 +39,51 @@ pub(in crate::cli) struct Options {
 
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
-        run(self, context)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.run
+        let NamedModel { name, read, numbers, .. } = read_model(self.model.as_ref(), &self.line, context)?;
+        if read.is_ok() {
+            tell_numbers(&name, &numbers, &self.line, context)?;
+        }
+        let mut unmet = Vec::new();
+        let (source, diagnostics) = match read {
+            Ok((model, warnings)) => {
+                if self.sarif && !model.require().is_empty() {
+                    unmet = unmet_requirements(&model, &context.budget);
+                }
+                (Some(model.source().clone()), [warnings, unmet.clone()].concat())
+            }
+            Err(errors) => (errors.source_text().cloned(), errors.diagnostics().to_vec()),
+        };
+        let check = Check::new(&name, source.as_deref(), &diagnostics);
+        let status = match (check.accepted, unmet.is_empty()) {
+            (true, true) => Status::Holds,
+            (true, false) => Status::DoesNotHold,
+            (false, _) => Status::BadInput,
+        };
+        context.reporter.finish();
+        if self.json || self.sarif {
+            let text = if self.sarif { to_text(&check.sarif()) } else { to_text(&check) };
+            write_answer(&text, self.output.as_ref())?;
+            return Ok(status);
+        }
+        let only_warnings = check.accepted;
+        if !diagnostics.is_empty() && (!only_warnings || !context.quiet) {
+            show(&Diagnostics::new(source, diagnostics.clone()));
+        }
+        if check.accepted {
+            let remarks = match diagnostics.len() {
+                0 => "no mistakes found".to_owned(),
+                1 => "no mistakes found, one warning".to_owned(),
+                n => format!("no mistakes found, {n} warnings"),
+            };
+            write_answer(&format!("{name}: {remarks}"), self.output.as_ref())?;
+        }
+        Ok(status)
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
         files.question(&self.model, &self.output);
         Ok(())
     }
-}
-
-/// Every remark with its place; the status is 2 for a model that no question can be asked about, and 1 in a SARIF log of a loop that does
-/// not meet what its model requires.
-fn run(options: &Options, context: &Context) -> Outcome {
-    let NamedModel { name, read, numbers, .. } = read_model(options.model.as_ref(), &options.line, context)?;
-    if read.is_ok() {
-        tell_numbers(&name, &numbers, &options.line, context)?;
-    }
-    let mut unmet = Vec::new();
-    let (source, diagnostics) = match read {
-        Ok((model, warnings)) => {
-            if options.sarif && !model.require().is_empty() {
-                unmet = unmet_requirements(&model, &context.budget);
-            }
-            (Some(model.source().clone()), [warnings, unmet.clone()].concat())
-        }
-        Err(errors) => (errors.source_text().cloned(), errors.diagnostics().to_vec()),
-    };
-    let check = Check::new(&name, source.as_deref(), &diagnostics);
-    let status = match (check.accepted, unmet.is_empty()) {
-        (true, true) => Status::Holds,
-        (true, false) => Status::DoesNotHold,
-        (false, _) => Status::BadInput,
-    };
-    context.reporter.finish();
-    if options.json || options.sarif {
-        let text = if options.sarif { to_text(&check.sarif()) } else { to_text(&check) };
-        write_answer(&text, options.output.as_ref())?;
-        return Ok(status);
-    }
-    let only_warnings = check.accepted;
-    if !diagnostics.is_empty() && (!only_warnings || !context.quiet) {
-        show(&Diagnostics::new(source, diagnostics.clone()));
-    }
-    if check.accepted {
-        let remarks = match diagnostics.len() {
-            0 => "no mistakes found".to_owned(),
-            1 => "no mistakes found, one warning".to_owned(),
-            n => format!("no mistakes found, {n} warnings"),
-        };
-        write_answer(&format!("{name}: {remarks}"), options.output.as_ref())?;
-    }
-    Ok(status)
 }
 
 /// Significant digits of the values in remarks.

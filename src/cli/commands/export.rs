@@ -45,27 +45,18 @@ impl Program {
 
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
-        run(self, context)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.run
+        let model = load(self.model.model.as_ref(), &self.model.line, context)?;
+        let problem = question(context, &model, &self.model, &RegionOptions::default())?.problem()?;
+        context.warn(None, problem.warnings());
+        let target = self.to.target();
+        let script = Script::of(&problem, target, &context.budget)?;
+        context.reporter.finish();
+        finish_answer(&script.text(target), self.output.as_ref())?;
+        Ok(Status::Holds)
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
         files.question(&self.model.model, &self.output);
         Ok(())
     }
-}
-
-/// Writes the script to standard output or to a file.
-fn run(options: &Options, context: &Context) -> Outcome {
-    let model = load(options.model.model.as_ref(), &options.model.line, context)?;
-    let problem = question(context, &model, &options.model, &RegionOptions::default())?.problem()?;
-    context.warn(None, problem.warnings());
-    let target = options.to.target();
-    let script = Script::of(&problem, target, &context.budget)?;
-    context.reporter.finish();
-    finish_answer(&script.text(target), options.output.as_ref())?;
-    Ok(Status::Holds)
 }

@@ -53,11 +53,33 @@ const SYSTEM: Wanted = Wanted {
 
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
-        run(self, context)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.run
+        let time = self.sample_time.as_ref().map(|text| sample_time(text, context)).transpose()?;
+        let (name, bytes) = read_bytes(&self.file, &SYSTEM, context)?;
+        context.budget.step("reading the system");
+        let file = Path::new(&name).file_name().map_or(name.clone(), |file| file.to_string_lossy().into_owned());
+        let is_c = is_c(&name, &bytes);
+        refuse_options(self, is_c, context)?;
+        if is_c {
+            let words = Words { round: self.round.as_deref(), realisation: None };
+            let (read, writing) = read_c((&name, &bytes), &self.of_c, words, context)?;
+            let read = if self.stored { read.stored(writing.rounding)? } else { read };
+            let text = read.model(&file, &writing)?;
+            context.reporter.finish();
+            finish_answer(&text, self.output.as_ref())?;
+            return Ok(Status::Holds);
+        }
+        let (variables, source) = read(&name, &bytes)?;
+        let system = assemble(variables, time).map_err(|error| match source {
+            Some(source) => Diagnostics::from(error).in_source(&source),
+            None => in_file(&name, error).into(),
+        })?;
+        let (text, remarks) = model(&system, &file, Form { open: self.open, last_place: self.last_place });
+        for remark in remarks.iter().filter(|_| !context.quiet) {
+            note(&format!("note: {remark}"));
+        }
+        context.reporter.finish();
+        finish_answer(&text, self.output.as_ref())?;
+        Ok(Status::Holds)
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
@@ -65,37 +87,6 @@ impl Runs for Options {
         files.answer(self.output.as_ref());
         Ok(())
     }
-}
-
-/// Writes the model to standard output or to a file.
-fn run(options: &Options, context: &Context) -> Outcome {
-    let time = options.sample_time.as_ref().map(|text| sample_time(text, context)).transpose()?;
-    let (name, bytes) = read_bytes(&options.file, &SYSTEM, context)?;
-    context.budget.step("reading the system");
-    let file = Path::new(&name).file_name().map_or(name.clone(), |file| file.to_string_lossy().into_owned());
-    let is_c = is_c(&name, &bytes);
-    refuse_options(options, is_c, context)?;
-    if is_c {
-        let words = Words { round: options.round.as_deref(), realisation: None };
-        let (read, writing) = read_c((&name, &bytes), &options.of_c, words, context)?;
-        let read = if options.stored { read.stored(writing.rounding)? } else { read };
-        let text = read.model(&file, &writing)?;
-        context.reporter.finish();
-        finish_answer(&text, options.output.as_ref())?;
-        return Ok(Status::Holds);
-    }
-    let (variables, source) = read(&name, &bytes)?;
-    let system = assemble(variables, time).map_err(|error| match source {
-        Some(source) => Diagnostics::from(error).in_source(&source),
-        None => in_file(&name, error).into(),
-    })?;
-    let (text, remarks) = model(&system, &file, Form { open: options.open, last_place: options.last_place });
-    for remark in remarks.iter().filter(|_| !context.quiet) {
-        note(&format!("note: {remark}"));
-    }
-    context.reporter.finish();
-    finish_answer(&text, options.output.as_ref())?;
-    Ok(Status::Holds)
 }
 
 /// Options of matrices go with matrices, those of DSVerifier with its files.

@@ -2,7 +2,7 @@
 
 use super::{Context, Runs, decided};
 use crate::certified::{CertifiedIntervals, certify_intervals, certify_required_intervals};
-use crate::cli::arguments::{DecisionOptions, RunOptions};
+use crate::cli::arguments::DecisionOptions;
 use crate::cli::commands::map::{freed, ranges};
 use crate::cli::destinations::Files;
 use crate::cli::input::{decision, known_names, only_parameter};
@@ -15,12 +15,13 @@ use clap::Args;
 use jurist_engine::answer::Answer;
 use jurist_engine::coverage::Asked;
 use jurist_engine::model::Model;
-use jurist_engine::problem::{DECAY, Question, RADIUS};
+use jurist_engine::problem::{DECAY, Problem, Question, RADIUS};
 use jurist_engine::response::{MapForAll, RequiredSet, Requirement};
 use jurist_engine::show::documents::Intervals;
 use jurist_engine::show::intervals_text;
 use std::ffi::OsString;
 use std::slice::from_ref;
+use std::sync::Arc;
 
 /// Options of `jurist intervals`.
 #[derive(Args, Debug, Default)]
@@ -51,11 +52,42 @@ pub(in crate::cli) struct Options {
 
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
-        run(self, context)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.decision.output.run
+        let output = &self.decision.output;
+        let (model, question) = decision(&self.decision, context)?;
+        let name = match &self.param {
+            Some(name) => name.clone(),
+            None => only_parameter(&model, &self.decision.model)?,
+        };
+        if name != RADIUS && name != DECAY {
+            known_names(context, &model, "--param", from_ref(&name))?;
+        }
+        let digits = output.digits() as usize;
+        let (all, question) = (ranges(&self.for_all, &[&name], &model, context)?, question.free(&name));
+        let free = freed(&question, all.iter().map(|all| &all.name));
+        let asked = self.require.asked(&model, free, &self.decision.region, context)?.0;
+        let question = asked.region.clone().into_iter().fold(question, Question::within);
+        refuse_theorems(&asked, self.smt2.is_some() || self.coq.is_some())?;
+        if !all.is_empty() {
+            let for_all = MapForAll::new(all).with_requirements(asked.list.clone(), asked.at.clone());
+            return match decided(for_all.intervals(question, &context.budget))? {
+                Ok(answer) => required(&answer, (&asked.list, asked.at.as_deref()), self, &model, context),
+                Err(stopped) => Ok(context.say_undecided(&stopped)),
+            };
+        }
+        let problem = question.problem()?;
+        let requirements = asked.list;
+        let question = requirements.iter().fold(Asked::Intervals, |asked, r| asked.with_requirement(r, problem.time()));
+        context.explain(&self.decision.explain, output, &problem, question)?;
+        if !requirements.is_empty() {
+            let at = asked.at.as_deref();
+            return match decided(problem.required_set(&requirements, at, &context.budget))? {
+                Ok(answer) => required(&answer, (&requirements, at), self, &model, context),
+                Err(stopped) => {
+                    context.undecided(output, &stopped, || None, || Intervals::new(&problem, Err(&stopped), digits))
+                }
+            };
+        }
+        stable_set(&problem, (&model, &name), self, context)
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
@@ -67,49 +99,16 @@ impl Runs for Options {
     }
 }
 
-/// Answers on standard output or in a file.
-fn run(options: &Options, context: &Context) -> Outcome {
+/// The answer without requirements.
+fn stable_set(problem: &Arc<Problem>, (model, name): (&Model, &str), options: &Options, context: &Context) -> Outcome {
     let output = &options.decision.output;
-    let (model, question) = decision(&options.decision, context)?;
-    let name = match &options.param {
-        Some(name) => name.clone(),
-        None => only_parameter(&model, &options.decision.model)?,
-    };
-    if name != RADIUS && name != DECAY {
-        known_names(context, &model, "--param", from_ref(&name))?;
-    }
     let digits = output.digits() as usize;
-    let (all, question) = (ranges(&options.for_all, &[&name], &model, context)?, question.free(&name));
-    let free = freed(&question, all.iter().map(|all| &all.name));
-    let asked = options.require.asked(&model, free, &options.decision.region, context)?.0;
-    let question = asked.region.clone().into_iter().fold(question, Question::within);
-    refuse_theorems(&asked, options.smt2.is_some() || options.coq.is_some())?;
-    if !all.is_empty() {
-        let for_all = MapForAll::new(all).with_requirements(asked.list.clone(), asked.at.clone());
-        return match decided(for_all.intervals(question, &context.budget))? {
-            Ok(answer) => required(&answer, (&asked.list, asked.at.as_deref()), options, &model, context),
-            Err(stopped) => Ok(context.say_undecided(&stopped)),
-        };
-    }
-    let problem = question.problem()?;
-    let requirements = asked.list;
-    let question = requirements.iter().fold(Asked::Intervals, |asked, r| asked.with_requirement(r, problem.time()));
-    context.explain(&options.decision.explain, output, &problem, question)?;
-    if !requirements.is_empty() {
-        let at = asked.at.as_deref();
-        return match decided(problem.required_set(&requirements, at, &context.budget))? {
-            Ok(answer) => required(&answer, (&requirements, at), options, &model, context),
-            Err(stopped) => {
-                context.undecided(output, &stopped, || None, || Intervals::new(&problem, Err(&stopped), digits))
-            }
-        };
-    }
     let answer = match decided(problem.stable_set(&context.budget))? {
         Ok(answer) => answer,
         Err(stopped) => {
             let known = Err(&stopped);
-            let text = || Some(intervals_text(&problem, known, digits));
-            return context.undecided(output, &stopped, text, || Intervals::new(&problem, known, digits));
+            let text = || Some(intervals_text(problem, known, digits));
+            return context.undecided(output, &stopped, text, || Intervals::new(problem, known, digits));
         }
     };
     context.warn(None, problem.warnings());
@@ -137,7 +136,7 @@ fn run(options: &Options, context: &Context) -> Outcome {
             ));
         }
     }
-    written(options, &model, (&name, &certified), context)?;
+    written(options, model, (name, &certified), context)?;
     Ok(Status::Holds)
 }
 

@@ -1,7 +1,7 @@
 //! `jurist jury`: the classical table and its conditions.
 
 use super::{Context, Runs, decided};
-use crate::cli::arguments::{DecisionOptions, RunOptions};
+use crate::cli::arguments::DecisionOptions;
 use crate::cli::destinations::Files;
 use crate::cli::input::{decision, known_names};
 use crate::cli::status::{Error, Outcome, Status};
@@ -24,51 +24,42 @@ pub(in crate::cli) struct Options {
 
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
-        run(self, context)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.decision.output.run
+        let output = &self.decision.output;
+        let (model, question) = decision(&self.decision, context)?;
+        let digits = output.digits() as usize;
+        let Some(param) = &self.param else {
+            let problem = question.problem()?;
+            context.explain(&self.decision.explain, output, &problem, Asked::Jury)?;
+            let answer = match decided(problem.point_table(&context.budget))? {
+                Ok(answer) => answer,
+                Err(stopped) => {
+                    return context.undecided(output, &stopped, || None, || JuryAtPoint::new(&problem, Err(&stopped)));
+                }
+            };
+            context.warn(None, problem.warnings());
+            context.answer(output, || answer.text(digits), || answer.json())?;
+            return Ok(Status::Holds);
+        };
+        if param != RADIUS && param != DECAY {
+            known_names(context, &model, "--param", from_ref(param))?;
+        }
+        let problem = question.free(param).problem()?;
+        context.explain(&self.decision.explain, output, &problem, Asked::JuryInParameter)?;
+        let answer = match decided(problem.parametric_table(&context.budget))? {
+            Ok(answer) => answer,
+            Err(stopped) => {
+                let known = Err(&stopped);
+                let text = || Some(table_text(&problem, known, digits));
+                return context.undecided(output, &stopped, text, || JuryInParameter::new(&problem, known, digits));
+            }
+        };
+        context.warn(None, problem.warnings());
+        context.answer(output, || answer.text(digits), || answer.json(digits))?;
+        Ok(Status::Holds)
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
         files.question(&self.decision.model.model, &self.decision.output.output);
         Ok(())
     }
-}
-
-/// Answers on standard output or in a file.
-fn run(options: &Options, context: &Context) -> Outcome {
-    let output = &options.decision.output;
-    let (model, question) = decision(&options.decision, context)?;
-    let digits = output.digits() as usize;
-    let Some(param) = &options.param else {
-        let problem = question.problem()?;
-        context.explain(&options.decision.explain, output, &problem, Asked::Jury)?;
-        let answer = match decided(problem.point_table(&context.budget))? {
-            Ok(answer) => answer,
-            Err(stopped) => {
-                return context.undecided(output, &stopped, || None, || JuryAtPoint::new(&problem, Err(&stopped)));
-            }
-        };
-        context.warn(None, problem.warnings());
-        context.answer(output, || answer.text(digits), || answer.json())?;
-        return Ok(Status::Holds);
-    };
-    if param != RADIUS && param != DECAY {
-        known_names(context, &model, "--param", from_ref(param))?;
-    }
-    let problem = question.free(param).problem()?;
-    context.explain(&options.decision.explain, output, &problem, Asked::JuryInParameter)?;
-    let answer = match decided(problem.parametric_table(&context.budget))? {
-        Ok(answer) => answer,
-        Err(stopped) => {
-            let known = Err(&stopped);
-            let text = || Some(table_text(&problem, known, digits));
-            return context.undecided(output, &stopped, text, || JuryInParameter::new(&problem, known, digits));
-        }
-    };
-    context.warn(None, problem.warnings());
-    context.answer(output, || answer.text(digits), || answer.json(digits))?;
-    Ok(Status::Holds)
 }

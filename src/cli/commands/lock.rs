@@ -39,11 +39,48 @@ pub(in crate::cli) struct Options {
 
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
-        run(self, context)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.run
+        let within = match self.within.parse::<Tolerance>() {
+            Ok(Tolerance::Share { above, .. }) if above.sign().is_gt() => above,
+            _ => {
+                let place = context.line.option_value("--within", &self.within).span;
+                let error = Diagnostic::error(Code::OptionValue, "--within expects a share above 0");
+                return Err(in_line(
+                    context.line,
+                    vec![error.at(place, "not accepted").help("for example --within 0.5%")],
+                )
+                .into());
+            }
+        };
+        let named = read_model(Some(&self.model), &self.line, context)?;
+        let model = named.read?.0;
+        tell_numbers(&named.name, &named.numbers, &self.line, context)?;
+        if let Some(file) = &self.output {
+            if file != "-" && ending(file).as_deref() != Some("json") {
+                return Err(unknown_ending(file, &["json"]).into());
+            }
+            check_read(context, [("the lock", file)], &named.numbers.files)?;
+        }
+        if self.output.is_none() && !Path::new(&self.model).is_file() {
+            let error = Diagnostic::error(Code::Usage, "a lock stands beside a model file, and this model is not one");
+            let place = context.line.argument(&self.model.to_string_lossy()).unwrap_or_default();
+            return Err(
+                in_line(context.line, vec![error.at(place, "no file").help("say where it goes: -o FILE")]).into()
+            );
+        }
+        known_names(context, &model, "--param", &self.param)?;
+        let path = Path::new(&self.model);
+        let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let lock = match self.param.as_slice() {
+            [] => of_all(&model, &name, &within, context)?,
+            named => make(&model, &name, named, &within, &context.budget)?,
+        };
+        context.reporter.finish();
+        if lock.limits.is_empty() {
+            return Err(Diagnostic::error(Code::Missing, "no limit of this model is known that could be locked").into());
+        }
+        let file = self.output.clone().unwrap_or_else(|| file_of(path).into_os_string());
+        finish_answer(&to_text(&lock), Some(&file))?;
+        Ok(Status::Holds)
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
@@ -51,48 +88,6 @@ impl Runs for Options {
         files.answer(self.output.as_ref());
         Ok(())
     }
-}
-
-/// Writes the lock; parameters whose limits are not known are told of and left out, but where one was named.
-fn run(options: &Options, context: &Context) -> Outcome {
-    let within = match options.within.parse::<Tolerance>() {
-        Ok(Tolerance::Share { above, .. }) if above.sign().is_gt() => above,
-        _ => {
-            let place = context.line.option_value("--within", &options.within).span;
-            let error = Diagnostic::error(Code::OptionValue, "--within expects a share above 0");
-            return Err(
-                in_line(context.line, vec![error.at(place, "not accepted").help("for example --within 0.5%")]).into()
-            );
-        }
-    };
-    let named = read_model(Some(&options.model), &options.line, context)?;
-    let model = named.read?.0;
-    tell_numbers(&named.name, &named.numbers, &options.line, context)?;
-    if let Some(file) = &options.output {
-        if file != "-" && ending(file).as_deref() != Some("json") {
-            return Err(unknown_ending(file, &["json"]).into());
-        }
-        check_read(context, [("the lock", file)], &named.numbers.files)?;
-    }
-    if options.output.is_none() && !Path::new(&options.model).is_file() {
-        let error = Diagnostic::error(Code::Usage, "a lock stands beside a model file, and this model is not one");
-        let place = context.line.argument(&options.model.to_string_lossy()).unwrap_or_default();
-        return Err(in_line(context.line, vec![error.at(place, "no file").help("say where it goes: -o FILE")]).into());
-    }
-    known_names(context, &model, "--param", &options.param)?;
-    let path = Path::new(&options.model);
-    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    let lock = match options.param.as_slice() {
-        [] => of_all(&model, &name, &within, context)?,
-        named => make(&model, &name, named, &within, &context.budget)?,
-    };
-    context.reporter.finish();
-    if lock.limits.is_empty() {
-        return Err(Diagnostic::error(Code::Missing, "no limit of this model is known that could be locked").into());
-    }
-    let file = options.output.clone().unwrap_or_else(|| file_of(path).into_os_string());
-    finish_answer(&to_text(&lock), Some(&file))?;
-    Ok(Status::Holds)
 }
 
 /// Work for the limits of one parameter that nobody named.

@@ -39,49 +39,40 @@ pub(in crate::cli) struct Options {
 
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
-        run(self, context)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.run
+        let kind = wanted(&self.picture)?;
+        let model = load(self.model.model.as_ref(), &self.model.line, context)?;
+        warn_of_ignored(&model, context);
+        let question = question(context, &model, &self.model, &Default::default())?;
+        let name = match &self.param {
+            Some(name) => name.clone(),
+            None => only_parameter(&model, &self.model)?,
+        };
+        known_names(context, &model, "--param", from_ref(&name))?;
+        let answer = question.free(&name).stable_set(&context.budget)?;
+        context.warn(None, answer.problem().warnings());
+        let range = match &self.range {
+            Some(text) => range_of(text, context)?,
+            None => locus_range(&answer).ok_or_else(|| {
+                Diagnostic::error(Code::Usage, "the parameter's range is unknown").help("give it with --range LO..HI")
+            })?,
+        };
+        let scale = if self.log { Some(ParameterScale::Logarithmic) } else { None };
+        let budget = &context.budget;
+        let picture = budget.enter(|| locus_of(&answer, &range, scale, budget))??;
+        context.reporter.finish();
+        for crossing in &picture.crossings {
+            crate::cli::output::note(&format!("crossing: {}", crossing.label));
+        }
+        let table = || picture.locus.to_csv(&name);
+        let document = || to_text(&locus_json(&answer, &picture));
+        let out = Picture { figure: &picture.figure, csv: &table, json: &document, csv_beside: self.picture.csv };
+        deliver(&out, kind, self.picture.output.as_ref())?;
+        Ok(Status::Holds)
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
         files.picture(&self.model.model, &self.picture)
     }
-}
-
-/// Draws to a file or on the terminal.
-fn run(options: &Options, context: &Context) -> Outcome {
-    let kind = wanted(&options.picture)?;
-    let model = load(options.model.model.as_ref(), &options.model.line, context)?;
-    warn_of_ignored(&model, context);
-    let question = question(context, &model, &options.model, &Default::default())?;
-    let name = match &options.param {
-        Some(name) => name.clone(),
-        None => only_parameter(&model, &options.model)?,
-    };
-    known_names(context, &model, "--param", from_ref(&name))?;
-    let answer = question.free(&name).stable_set(&context.budget)?;
-    context.warn(None, answer.problem().warnings());
-    let range = match &options.range {
-        Some(text) => range_of(text, context)?,
-        None => locus_range(&answer).ok_or_else(|| {
-            Diagnostic::error(Code::Usage, "the parameter's range is unknown").help("give it with --range LO..HI")
-        })?,
-    };
-    let scale = if options.log { Some(ParameterScale::Logarithmic) } else { None };
-    let budget = &context.budget;
-    let picture = budget.enter(|| locus_of(&answer, &range, scale, budget))??;
-    context.reporter.finish();
-    for crossing in &picture.crossings {
-        crate::cli::output::note(&format!("crossing: {}", crossing.label));
-    }
-    let table = || picture.locus.to_csv(&name);
-    let document = || to_text(&locus_json(&answer, &picture));
-    let out = Picture { figure: &picture.figure, csv: &table, json: &document, csv_beside: options.picture.csv };
-    deliver(&out, kind, options.picture.output.as_ref())?;
-    Ok(Status::Holds)
 }
 
 fn range_of(text: &str, context: &Context) -> Result<(Rational, Rational), Error> {

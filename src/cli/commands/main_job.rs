@@ -1,7 +1,7 @@
 //! `jurist`: the main job on the built-in drive.
 
 use super::{Context, Runs, decided};
-use crate::cli::arguments::{OutputOptions, RunOptions};
+use crate::cli::arguments::OutputOptions;
 use crate::cli::destinations::Files;
 use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
@@ -17,29 +17,20 @@ pub(in crate::cli) struct Options {
 
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
-        run(self, context)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.output.run
+        context.check_output(&self.output)?;
+        let job = match decided(main_job(&Model::drive(), &context.budget))? {
+            Ok(job) => job,
+            Err(stopped) => {
+                return context.undecided(&self.output, &stopped, || None, || main_job_undecided(&stopped));
+            }
+        };
+        let digits = self.output.digits() as usize;
+        context.answer(&self.output, || main_job_text(&job, digits), || main_job_json(&job, digits))?;
+        Ok(Status::Holds)
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
         files.answer(self.output.output.as_ref());
         Ok(())
     }
-}
-
-/// Answers on standard output or in a file.
-fn run(options: &Options, context: &Context) -> Outcome {
-    context.check_output(&options.output)?;
-    let job = match decided(main_job(&Model::drive(), &context.budget))? {
-        Ok(job) => job,
-        Err(stopped) => {
-            return context.undecided(&options.output, &stopped, || None, || main_job_undecided(&stopped));
-        }
-    };
-    let digits = options.output.digits() as usize;
-    context.answer(&options.output, || main_job_text(&job, digits), || main_job_json(&job, digits))?;
-    Ok(Status::Holds)
 }

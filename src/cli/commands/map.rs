@@ -4,7 +4,7 @@ use super::map_body;
 use super::map_boxes::{self, MethodOptions};
 use super::{Context, Runs, decided};
 use crate::certified::certify_boxes;
-use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, RegionOptions, RunOptions};
+use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::assignments::{AxisRequest, axis, in_line};
 use crate::cli::destinations::Files;
 use crate::cli::input::{known_name, load, question};
@@ -14,6 +14,7 @@ use crate::cli::requirements::RequirementOptions;
 use crate::cli::status::{Error, Outcome, Status};
 use crate::cli::written::{certified, certify, check_certificate};
 use clap::Args;
+use jurist_algebra::limits::Exhausted;
 use jurist_draw::figures::map::{MapContents, WindowRequest, choose_windows, trace_map};
 use jurist_draw::page::map_page;
 #[cfg(feature = "cli")]
@@ -21,9 +22,9 @@ use jurist_drive::published_limits;
 use jurist_engine::answer::{Answer, BoxRequest, Map, MapBoxes, MapMethod, MapOrBoxes};
 use jurist_engine::coverage::Asked;
 use jurist_engine::error::{Code, Diagnostic, Error as EngineError};
-use jurist_engine::model::Model;
+use jurist_engine::model::{Model, Time};
 use jurist_engine::problem::{DECAY, Problem, Question, RADIUS};
-use jurist_engine::response::{AllOf, MapForAll, Requirements};
+use jurist_engine::response::{AllOf, MapForAll, Requirement, Requirements};
 use jurist_engine::show::{documents, map_boxes_text, map_text};
 use std::ffi::OsString;
 use std::path::Path;
@@ -94,11 +95,63 @@ pub(super) enum Picture {
 
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
-        run(self, context)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.output.run
+        let picture = picture_of(self)?;
+        let axes = [("-x", &self.x), ("-y", &self.y)];
+        let [x, y] = axes.map(|(option, text)| axis(context.line, option, text));
+        let requests = [x?, y?];
+        let model = load(self.model.model.as_ref(), &self.model.line, context)?;
+        let mut question = question(context, &model, &self.model, &self.region)?;
+        for request in &requests {
+            if ![RADIUS, DECAY].contains(&request.name.as_str()) {
+                known_name(context, &model, &request.name, request.name_span)?;
+            }
+            question = question.free(&request.name);
+        }
+        if let Some(z) = &self.z {
+            return map_body::run(z, self, &requests, picture, (&model, question), context);
+        }
+        let all = ranges(&self.for_all, &requests.each_ref().map(|axis| axis.name.as_str()), &model, context)?;
+        let free = freed(&question, all.iter().map(|all| &all.name));
+        let asked = self.require.asked_each(&model, free, &self.region, context)?.0;
+        let question = asked.region.clone().into_iter().fold(question, Question::within);
+        let boxes = self.method.request(&requests, context)?;
+        if !all.is_empty() {
+            let asked = MapForAll::new(all).with_requirements(asked.list, asked.at);
+            let found = match map_boxes::for_all(&asked, question, (&boxes, self.method.method()), context)? {
+                Ok(found) => found,
+                Err(stopped) => return Ok(context.say_undecided(&stopped)),
+            };
+            return of_boxes(&found, self, &model, context);
+        }
+        let mut method = self.method.method();
+        let problem = question.plane_problem()?;
+        if self.certificate.is_some() {
+            method = self.method.method_certified(&problem, &asked, &context.budget)?;
+        }
+        context.explain(&self.explain, &self.output, &problem, asked_by(method, &asked.list, problem.time()))?;
+        let digits = self.output.digits() as usize;
+        let places = digits.clamp(LIMIT_DIGITS.0, LIMIT_DIGITS.1);
+        let answer = match decided(required(&problem, method, &boxes, places, &asked, context))? {
+            Ok(MapOrBoxes::Exact(answer)) => *answer,
+            Ok(MapOrBoxes::Boxes(found)) => {
+                context.warn(None, problem.warnings());
+                if let Some(line) = map_boxes::window_note(&found, &boxes) {
+                    note(&line);
+                }
+                return of_boxes(&found, self, &model, context);
+            }
+            Err(stopped) => {
+                let is_by_boxes = problem.ends_in_boxes(method, &boxes);
+                let status = undecided(&problem, &stopped, (picture, is_by_boxes), self, context)?;
+                // Boxes decide no requirements.
+                let boxes_may_help = self.certificate.is_none() && asked.is_empty();
+                if let Some(hint) = self.method.hint(&boxes).filter(|_| boxes_may_help) {
+                    note(&hint);
+                }
+                return Ok(status);
+            }
+        };
+        of_exact_map(&answer, (picture, &requests), self, &model, context)
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
@@ -137,98 +190,56 @@ pub(super) fn freed<'a>(question: &Question, names: impl IntoIterator<Item = &'a
     names.into_iter().fold(question.clone(), |question, name| question.without_value(name).free(name))
 }
 
-/// Answers on standard output or in a file.
-fn run(options: &Options, context: &Context) -> Outcome {
-    let picture = picture_of(options)?;
-    let axes = [("-x", &options.x), ("-y", &options.y)];
-    let [x, y] = axes.map(|(option, text)| axis(context.line, option, text));
-    let requests = [x?, y?];
-    let model = load(options.model.model.as_ref(), &options.model.line, context)?;
-    let mut question = question(context, &model, &options.model, &options.region)?;
-    for request in &requests {
-        if ![RADIUS, DECAY].contains(&request.name.as_str()) {
-            known_name(context, &model, &request.name, request.name_span)?;
-        }
-        question = question.free(&request.name);
-    }
-    if let Some(z) = &options.z {
-        if options.certificate.is_some() {
-            let error = Diagnostic::error(
-                Code::NoCertificate,
-                "maps at several values of a third parameter have no certificate",
-            );
-            return Err(error.help("ask for the map at one value: '--set NAME=VALUE' in the place of '-z'").into());
-        }
-        return map_body::run(z, options, &requests, picture, (&model, question), context);
-    }
-    let all = ranges(&options.for_all, &requests.each_ref().map(|axis| axis.name.as_str()), &model, context)?;
-    let free = freed(&question, all.iter().map(|all| &all.name));
-    let asked = options.require.asked_each(&model, free, &options.region, context)?.0;
-    let question = asked.region.clone().into_iter().fold(question, Question::within);
-    let boxes = options.method.request(&requests, context)?;
-    if !all.is_empty() {
-        let asked = MapForAll::new(all).with_requirements(asked.list, asked.at);
-        let found = match map_boxes::for_all(&asked, question, (&boxes, options.method.method()), context)? {
-            Ok(found) => found,
-            Err(stopped) => return Ok(context.say_undecided(&stopped)),
-        };
-        return of_boxes(&found, options, &model, context);
-    }
-    let mut method = options.method.method();
-    let problem = question.plane_problem()?;
-    if options.certificate.is_some() {
-        method = options.method.method_certified(&problem, &asked, &context.budget)?;
-    }
-    let question = match method {
-        MapMethod::Boxes if asked.list.is_empty() => Asked::BoxMap,
+/// How a map is asked for.
+fn asked_by(method: MapMethod, requirements: &[Requirement], time: Time) -> Asked {
+    match method {
+        MapMethod::Boxes if requirements.is_empty() => Asked::BoxMap,
         MapMethod::Boxes => Asked::BoxMapWithRequirements,
-        MapMethod::Exact if asked.list.is_empty() => Asked::ExactMap,
-        _ => asked.list.iter().fold(Asked::Map, |question, r| question.with_requirement(r, problem.time())),
-    };
-    context.explain(&options.explain, &options.output, &problem, question)?;
+        MapMethod::Exact if requirements.is_empty() => Asked::ExactMap,
+        _ => requirements.iter().fold(Asked::Map, |question, r| question.with_requirement(r, time)),
+    }
+}
+
+/// What is known of a map that the budget did not allow.
+fn undecided(
+    problem: &Arc<Problem>,
+    stopped: &Exhausted,
+    (picture, is_by_boxes): (Option<Picture>, bool),
+    options: &Options,
+    context: &Context,
+) -> Outcome {
+    let (output, digits) = (&options.output, options.output.digits() as usize);
+    match (picture, is_by_boxes) {
+        // There is nothing to draw.
+        (Some(_), _) => Ok(context.say_undecided(stopped)),
+        (None, true) => {
+            let text = || Some(map_boxes_text(problem, Err(stopped), digits));
+            context.undecided(output, stopped, text, || documents::MapBoxes::new(problem, Err(stopped)))
+        }
+        (None, false) => {
+            let text = || Some(map_text(problem, Err(stopped), digits));
+            context.undecided(output, stopped, text, || documents::Map::new(problem, Err(stopped), digits))
+        }
+    }
+}
+
+/// An exact map: drawn, or its regions and limits.
+fn of_exact_map(
+    answer: &Answer<Map>,
+    (picture, requests): (Option<Picture>, &[AxisRequest; 2]),
+    options: &Options,
+    model: &Model,
+    context: &Context,
+) -> Outcome {
     let digits = options.output.digits() as usize;
-    let places = digits.clamp(LIMIT_DIGITS.0, LIMIT_DIGITS.1);
-    let answer = match decided(required(&problem, method, &boxes, places, &asked, context))? {
-        Ok(MapOrBoxes::Exact(answer)) => *answer,
-        Ok(MapOrBoxes::Boxes(found)) => {
-            context.warn(None, problem.warnings());
-            if let Some(line) = map_boxes::window_note(&found, &boxes) {
-                note(&line);
-            }
-            return of_boxes(&found, options, &model, context);
-        }
-        Err(stopped) => {
-            let by_boxes = problem.ends_in_boxes(method, &boxes);
-            let output = &options.output;
-            let status = match (picture, by_boxes) {
-                // There is nothing to draw.
-                (Some(_), _) => context.say_undecided(&stopped),
-                (None, true) => {
-                    let text = || Some(map_boxes_text(&problem, Err(&stopped), digits));
-                    context.undecided(output, &stopped, text, || documents::MapBoxes::new(&problem, Err(&stopped)))?
-                }
-                (None, false) => {
-                    let text = || Some(map_text(&problem, Err(&stopped), digits));
-                    context
-                        .undecided(output, &stopped, text, || documents::Map::new(&problem, Err(&stopped), digits))?
-                }
-            };
-            // Boxes decide no requirements.
-            let boxes_may_help = options.certificate.is_none() && asked.is_empty();
-            if let Some(hint) = options.method.hint(&boxes).filter(|_| boxes_may_help) {
-                note(&hint);
-            }
-            return Ok(status);
-        }
-    };
-    context.warn(None, problem.warnings());
+    context.warn(None, answer.problem().warnings());
     if let Err(stopped) = &answer.value().limits {
         note(&format!("the regions are decided, what limits them is not: {stopped}"));
     }
     match picture {
         Some(kind) if WRITES => {
-            let windows = windows(options, &requests);
-            context.budget.enter(|| draw(&answer, kind, windows, options, context))??;
+            let windows = windows(options, requests);
+            context.budget.enter(|| draw(answer, kind, windows, options, context))??;
         }
         _ => context.answer(&options.output, || answer.text(digits), || answer.json(digits))?,
     }

@@ -32,6 +32,11 @@ pub(super) fn run(
     (model, question): (&Model, Question),
     context: &Context,
 ) -> Outcome {
+    if options.certificate.is_some() {
+        let message = "maps at several values of a third parameter have no certificate";
+        let error = Diagnostic::error(Code::NoCertificate, message);
+        return Err(error.help("ask for the map at one value: '--set NAME=VALUE' in the place of '-z'").into());
+    }
     let request = slices(context.line, "-z", z)?;
     known_name(context, model, request.values.name(), request.name_span)?;
     fits(options)?;

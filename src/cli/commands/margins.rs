@@ -2,7 +2,7 @@
 
 use super::map::ranges;
 use super::{Context, Runs, decided};
-use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, RegionOptions, RunOptions};
+use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::assignments::plain_number;
 use crate::cli::destinations::Files;
 use crate::cli::input::{known_names, load, question};
@@ -42,46 +42,37 @@ pub(in crate::cli) struct Options {
 
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
-        run(self, context)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.output.run
+        let output = &self.output;
+        context.check_output(output)?;
+        let model = load(self.model.model.as_ref(), &self.model.line, context)?;
+        let question = question(context, &model, &self.model, &RegionOptions::default())?;
+        if let Some(name) = &self.param {
+            return by_parameter(name, (&model, question), self, context);
+        }
+        let all = ranges(&self.for_all, &[], &model, context)?;
+        if !all.is_empty() {
+            return least(all, question, self, context);
+        }
+        let skew: Rational = plain_number(context.line, "--skew", &self.skew)?;
+        let digits = output.digits() as usize;
+        let problem = question.problem()?;
+        context.explain(&self.explain, output, &problem, Asked::Margins)?;
+        let answer = match decided(problem.margins(self.at.as_deref(), &skew, &context.budget))? {
+            Ok(answer) => answer,
+            Err(stopped) => {
+                let document = || Margins::new(&problem, Err(&stopped), digits);
+                return context.undecided(output, &stopped, || None, document);
+            }
+        };
+        context.warn(None, problem.warnings());
+        context.answer(output, || answer.text(digits), || answer.json(digits))?;
+        Ok(if answer.value().stable.is_some() { Status::Holds } else { Status::DoesNotHold })
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
         files.question(&self.model.model, &self.output.output);
         Ok(())
     }
-}
-
-/// Answers on standard output or in a file; the status is 1 for a loop that is not stable.
-fn run(options: &Options, context: &Context) -> Outcome {
-    let output = &options.output;
-    context.check_output(output)?;
-    let model = load(options.model.model.as_ref(), &options.model.line, context)?;
-    let question = question(context, &model, &options.model, &RegionOptions::default())?;
-    if let Some(name) = &options.param {
-        return by_parameter(name, (&model, question), options, context);
-    }
-    let all = ranges(&options.for_all, &[], &model, context)?;
-    if !all.is_empty() {
-        return least(all, question, options, context);
-    }
-    let skew: Rational = plain_number(context.line, "--skew", &options.skew)?;
-    let digits = output.digits() as usize;
-    let problem = question.problem()?;
-    context.explain(&options.explain, output, &problem, Asked::Margins)?;
-    let answer = match decided(problem.margins(options.at.as_deref(), &skew, &context.budget))? {
-        Ok(answer) => answer,
-        Err(stopped) => {
-            let document = || Margins::new(&problem, Err(&stopped), digits);
-            return context.undecided(output, &stopped, || None, document);
-        }
-    };
-    context.warn(None, problem.warnings());
-    context.answer(output, || answer.text(digits), || answer.json(digits))?;
-    Ok(if answer.value().stable.is_some() { Status::Holds } else { Status::DoesNotHold })
 }
 
 /// The values of a parameter for which the loop has each margin.

@@ -84,7 +84,7 @@ pub(super) struct Context<'a> {
 
 impl<'a> Context<'a> {
     pub fn new(line: &'a CommandLine, arguments: &Arguments) -> Self {
-        let options = arguments.asked().run_options();
+        let options = arguments.run_options();
         if let Some(threads) = options.threads {
             // A pool that exists already keeps its size: that changes the time, no answer.
             let _ = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global();
@@ -247,13 +247,6 @@ pub(super) trait Runs {
     /// Runs it.
     fn run(&self, context: &Context) -> Outcome;
 
-    /// The options that say how long to work and how much to say.
-    fn run_options(&self) -> &RunOptions {
-        const NONE: &RunOptions =
-            &RunOptions { timeout: None, work: None, memory: None, threads: None, quiet: false, verbose: false };
-        NONE
-    }
-
     /// Adds the files that it reads and writes.
     fn files<'a>(&'a self, _: &mut Files<'a>) -> Result<(), Error> {
         Ok(())
@@ -271,9 +264,10 @@ pub(super) trait Runs {
     }
 }
 
-/// Makes the commands of a list: a variant with the options of its module, and what runs it; `in` names the feature that a command needs.
+/// Makes the commands of a list: a variant with the options of its module, and what runs it; in brackets, where these say how long to work and how
+/// much to say; `in` names the feature that a command needs.
 macro_rules! commands {
-    ($($(#[$attribute:meta])* $module:ident: $name:ident $(in $feature:literal)?;)+) => {
+    ($($(#[$attribute:meta])* $module:ident: $name:ident$(($($run:ident).+))? $(in $feature:literal)?;)+) => {
         /// The commands. Each has its file here.
         #[derive(Subcommand, Debug)]
         pub(super) enum Command {
@@ -287,71 +281,77 @@ macro_rules! commands {
                     $($(#[cfg(feature = $feature)])? Command::$name(options) => options,)+
                 }
             }
+
+            fn run_options(&self) -> Option<&RunOptions> {
+                match self {
+                    $($(#[cfg(feature = $feature)])? Command::$name(_options) => None$(.or(Some(&_options.$($run).+)))?,)+
+                }
+            }
         }
     };
 }
 
 commands! {
     /// Verdict at the nominal point, and the stable set of each parameter
-    analyze: Analyze;
+    analyze: Analyze(decision.output.run);
     /// The exact stable set of one parameter
     #[command(after_help = CAUSES)]
-    intervals: Intervals;
+    intervals: Intervals(decision.output.run);
     /// One point: stable, marginal, unstable or undefined, with the exact number of roots
-    verdict: Verdict;
+    verdict: Verdict(decision.output.run);
     /// The roots of the closed loop (poles) with certified digits, their damping and natural frequency
-    roots: Roots;
+    roots: Roots(output.run);
     /// The characteristic polynomial, symbolic in the kept parameters
-    charpoly: Charpoly;
+    charpoly: Charpoly(output.run);
     /// The Jury table (Routh table in continuous time) and its conditions
-    jury: Jury;
+    jury: Jury(decision.output.run);
     /// The stable region in two parameters, every cell decided exactly
-    map: Map;
+    map: Map(output.run);
     /// Root locus of one parameter, with the exact crossings on it
-    locus: Locus;
+    locus: Locus(run);
     /// Gain, phase, delay, modulus and disk margins of the loop cut at a signal, exactly, and all crossings
-    margins: Margins;
+    margins: Margins(output.run);
     /// Magnitude and phase of the open loop over frequency, with the exact crossings marked
-    bode: Bode;
+    bode: Bode(picture.run);
     /// The curve of the open loop around -1, with the exact crossings and margins marked
-    nyquist: Nyquist;
+    nyquist: Nyquist(picture.run);
     /// The peak gain (H-infinity norm) of a closed-loop transfer function, exactly
-    norm: Norm;
+    norm: Norm(output.run);
     /// Time response, of the sampled loop or of the switched circuit
-    simulate: Simulate in "cli";
+    simulate: Simulate(run) in "cli";
     /// The same question at many points, on all cores; resumable
-    sweep: Sweep in "cli";
+    sweep: Sweep(run) in "cli";
     /// Stable for every value within tolerances: proof or counterexample, and how far they can grow
-    tolerance: Tolerance;
+    tolerance: Tolerance(decision.output.run);
     /// The best gains within what is required, exactly or in a bracket; or that no gains meet it
-    tune: Tune;
+    tune: Tune(output.run);
     /// The controller as it is stored and run: rounded coefficients, every rounding, fewest bits, ranges of signals
-    ship: Ship in "cli";
+    ship: Ship(output.run) in "cli";
     /// One page about one's own loop: verdict, limits and causes, margins, what moves them, worst corner, figures
-    report: Report in "cli";
+    report: Report(run) in "cli";
     /// The built-in drive's paper once more, as one HTML report with figures
-    paper: Paper in "cli";
+    paper: Paper(run) in "cli";
     /// The page for the browser, with everything it computes with, as a folder of files
-    page: Page in "cli";
+    page: Page(run) in "cli";
     /// Tries what models are expected to be: [[expect]], [require], locked limits
-    test: Test in "cli";
+    test: Test(run) in "cli";
     /// Holds the limits of a model fast, for 'jurist test'
-    lock: Lock in "cli";
+    lock: Lock(run) in "cli";
     /// Re-checks a certificate against a model, with code that shares nothing with the engine
     #[command(
         mut_arg("timeout", |timeout| timeout.help("Rejects the certificate after this time, with exit status 4")),
         mut_arg("memory", |memory| memory.help("Rejects the certificate rather than use more megabytes, with exit status 4 [default: 800]")),
         mut_arg("work", |work| work.hide(true))
     )]
-    verify: Verify;
+    verify: Verify(run);
     /// Only reads a model: every mistake with its place
-    check: Check;
+    check: Check(run);
     /// The loop as a script of another program: python-control, or MATLAB and Octave
-    export: Export in "cli";
+    export: Export(run) in "cli";
     /// A commented model file to begin with
     new: New;
     /// A model file from a state-space system of MATLAB, SciPy, NumPy or OpenModelica, or a loop of DSVerifier
-    import: Import in "cli";
+    import: Import(run) in "cli";
     /// What an error code or a word of the answers means
     explain: Explain in "cli";
     /// A completion script for a shell
@@ -378,6 +378,19 @@ impl Arguments {
             None => &self.main_job,
             #[cfg(not(feature = "cli"))]
             None => &Nothing,
+        }
+    }
+
+    /// The options that say how long to work and how much to say.
+    pub fn run_options(&self) -> &RunOptions {
+        const NONE: &RunOptions =
+            &RunOptions { timeout: None, work: None, memory: None, threads: None, quiet: false, verbose: false };
+        match &self.command {
+            Some(command) => command.run_options().unwrap_or(NONE),
+            #[cfg(feature = "cli")]
+            None => &self.main_job.output.run,
+            #[cfg(not(feature = "cli"))]
+            None => NONE,
         }
     }
 }

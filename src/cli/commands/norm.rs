@@ -1,7 +1,7 @@
 //! `jurist norm`: the peak gain of a closed-loop transfer function, over frequencies or of bounded signals.
 
 use super::{Context, Runs, decided};
-use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, ReadingOptions, RegionOptions, RunOptions};
+use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, ReadingOptions, RegionOptions};
 use crate::cli::destinations::Files;
 use crate::cli::input::{load, question};
 use crate::cli::status::{Error, Outcome, Status};
@@ -36,10 +36,6 @@ pub(in crate::cli) struct Options {
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
         run(self, context)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.output.run
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {

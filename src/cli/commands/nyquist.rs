@@ -1,7 +1,6 @@
 //! `jurist nyquist`: the curve of the open loop around -1.
 
 use super::{Context, Runs, frequency_response};
-use crate::cli::arguments::RunOptions;
 use crate::cli::destinations::Files;
 use crate::cli::status::{Error, Outcome};
 use clap::Args;
@@ -16,10 +15,6 @@ pub(in crate::cli) struct Options {
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
         frequency_response::run(&self.picture, frequency_response::NYQUIST, context)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.picture.run
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {

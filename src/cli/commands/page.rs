@@ -22,35 +22,26 @@ pub(in crate::cli) struct Options {
 
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
-        run(self, context)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.run
+        let Some(files) = packed::files() else {
+            let help = "in the sources, 'web/build' makes it, and 'web/build --program' a program that has it inside";
+            return Err(Diagnostic::error(Code::NoPage, "this program was built without the page").help(help).into());
+        };
+        let folder = Path::new(&self.output);
+        std::fs::create_dir_all(folder).map_err(|e| {
+            Diagnostic::error(Code::Write, format!("cannot make the folder {}: {}", folder.display(), plain(&e)))
+        })?;
+        for (name, content) in &files {
+            write(&folder.join(name), content)?;
+        }
+        if !context.quiet {
+            note(&format!("wrote {}: open it in a browser", folder.join("index.html").display()));
+        }
+        Ok(Status::Holds)
     }
 
     fn writes_a_folder(&self) -> bool {
         true
     }
-}
-
-/// Writes the files.
-fn run(options: &Options, context: &Context) -> Outcome {
-    let Some(files) = packed::files() else {
-        let help = "in the sources, 'web/build' makes it, and 'web/build --program' a program that has it inside";
-        return Err(Diagnostic::error(Code::NoPage, "this program was built without the page").help(help).into());
-    };
-    let folder = Path::new(&options.output);
-    std::fs::create_dir_all(folder).map_err(|e| {
-        Diagnostic::error(Code::Write, format!("cannot make the folder {}: {}", folder.display(), plain(&e)))
-    })?;
-    for (name, content) in &files {
-        write(&folder.join(name), content)?;
-    }
-    if !context.quiet {
-        note(&format!("wrote {}: open it in a browser", folder.join("index.html").display()));
-    }
-    Ok(Status::Holds)
 }
 
 #[cfg(not(feature = "page"))]

@@ -26,36 +26,27 @@ pub(in crate::cli) struct Options {
 
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
-        run(self, context)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.run
+        let folder = Path::new(&self.output);
+        std::fs::create_dir_all(folder).map_err(|e| {
+            Diagnostic::error(Code::Write, format!("cannot make the folder {}: {}", folder.display(), plain(&e)))
+        })?;
+        let report = context.budget.enter(|| paper_report(&context.budget))??;
+        context.budget.step("writing");
+        write(&folder.join("report.html"), report.html.as_bytes())?;
+        for figure in &report.figures {
+            write(&folder.join(format!("{}.svg", figure.name)), figure.figure.svg().as_bytes())?;
+        }
+        if self.latex {
+            write(&folder.join("tables.tex"), report.latex.as_bytes())?;
+        }
+        context.reporter.finish();
+        if !context.quiet {
+            note(&format!("wrote {}", folder.join("report.html").display()));
+        }
+        Ok(Status::Holds)
     }
 
     fn writes_a_folder(&self) -> bool {
         true
     }
-}
-
-/// Writes `report.html` and the figures as SVG files.
-fn run(options: &Options, context: &Context) -> Outcome {
-    let folder = Path::new(&options.output);
-    std::fs::create_dir_all(folder).map_err(|e| {
-        Diagnostic::error(Code::Write, format!("cannot make the folder {}: {}", folder.display(), plain(&e)))
-    })?;
-    let report = context.budget.enter(|| paper_report(&context.budget))??;
-    context.budget.step("writing");
-    write(&folder.join("report.html"), report.html.as_bytes())?;
-    for figure in &report.figures {
-        write(&folder.join(format!("{}.svg", figure.name)), figure.figure.svg().as_bytes())?;
-    }
-    if options.latex {
-        write(&folder.join("tables.tex"), report.latex.as_bytes())?;
-    }
-    context.reporter.finish();
-    if !context.quiet {
-        note(&format!("wrote {}", folder.join("report.html").display()));
-    }
-    Ok(Status::Holds)
 }

@@ -39,11 +39,48 @@ pub(in crate::cli) struct Options {
 
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
-        run(self, context)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.run
+        let file = &self.output;
+        if file != "-" && !matches!(ending(file).as_deref(), Some("html" | "htm")) {
+            return Err(unknown_ending(file, &["html"]).into());
+        }
+        let model = load(self.model.model.as_ref(), &self.model.line, context)?;
+        let question = question(context, &model, &self.model, &RegionOptions::default())?;
+        let for_all = ranges(&self.for_all, &[], &model, context)?;
+        let limits = self.run.timeout.map_or_else(Limits::default, Limits::within);
+        let checker = |certificate: &str| {
+            check(&model.source().text, certificate, &limits).map(|_| ()).map_err(|rejection| rejection.to_string())
+        };
+        let name = self.model.model.as_ref().map(|path| path.to_string_lossy().into_owned());
+        let certifier = |answer: &Answer<StableSet>, budget: &Budget| {
+            let certified = certify_intervals(answer, budget)?;
+            let name = &answer.problem().parameter().name;
+            let share = certified.window.as_ref().map(|window| share(name, window, &certified.proved));
+            Ok((certified.text, share))
+        };
+        let best = |budget: &Budget| -> Result<String, jurist_engine::error::Error> {
+            let answer = TuneAnswer::of_model(&question, budget)?;
+            // The heading of the report is its first line already.
+            Ok(answer
+                .text(DEFAULT_DIGITS as usize)
+                .split_once('\n')
+                .map(|(_, rest)| rest.to_owned())
+                .unwrap_or_default())
+        };
+        let request = ReportRequest {
+            file: name.as_deref(),
+            at: self.at.as_deref(),
+            certify: Some(&certifier),
+            check: Some(&checker),
+            for_all: &for_all,
+            best: model.tuning().is_some().then_some(&best),
+        };
+        let report = loop_report(&question, &request, &context.budget);
+        context.reporter.finish();
+        finish_answer(&report.html, Some(file))?;
+        Ok(match &report.stopped {
+            Some(stopped) => context.say_undecided(stopped),
+            None => Status::Holds,
+        })
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
@@ -51,46 +88,4 @@ impl Runs for Options {
         files.answer(Some(&self.output));
         Ok(())
     }
-}
-
-/// Writes the page; the status is 3 where the budget ended a part of it.
-fn run(options: &Options, context: &Context) -> Outcome {
-    let file = &options.output;
-    if file != "-" && !matches!(ending(file).as_deref(), Some("html" | "htm")) {
-        return Err(unknown_ending(file, &["html"]).into());
-    }
-    let model = load(options.model.model.as_ref(), &options.model.line, context)?;
-    let question = question(context, &model, &options.model, &RegionOptions::default())?;
-    let for_all = ranges(&options.for_all, &[], &model, context)?;
-    let limits = options.run.timeout.map_or_else(Limits::default, Limits::within);
-    let checker = |certificate: &str| {
-        check(&model.source().text, certificate, &limits).map(|_| ()).map_err(|rejection| rejection.to_string())
-    };
-    let name = options.model.model.as_ref().map(|path| path.to_string_lossy().into_owned());
-    let certifier = |answer: &Answer<StableSet>, budget: &Budget| {
-        let certified = certify_intervals(answer, budget)?;
-        let name = &answer.problem().parameter().name;
-        let share = certified.window.as_ref().map(|window| share(name, window, &certified.proved));
-        Ok((certified.text, share))
-    };
-    let best = |budget: &Budget| -> Result<String, jurist_engine::error::Error> {
-        let answer = TuneAnswer::of_model(&question, budget)?;
-        // The heading of the report is its first line already.
-        Ok(answer.text(DEFAULT_DIGITS as usize).split_once('\n').map(|(_, rest)| rest.to_owned()).unwrap_or_default())
-    };
-    let request = ReportRequest {
-        file: name.as_deref(),
-        at: options.at.as_deref(),
-        certify: Some(&certifier),
-        check: Some(&checker),
-        for_all: &for_all,
-        best: model.tuning().is_some().then_some(&best),
-    };
-    let report = loop_report(&question, &request, &context.budget);
-    context.reporter.finish();
-    finish_answer(&report.html, Some(file))?;
-    Ok(match &report.stopped {
-        Some(stopped) => context.say_undecided(stopped),
-        None => Status::Holds,
-    })
 }

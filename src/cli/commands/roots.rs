@@ -1,7 +1,7 @@
 //! `jurist roots`: where the roots of the closed loop are.
 
 use super::{Context, Runs, decided};
-use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, RegionOptions, RunOptions};
+use crate::cli::arguments::{ExplainOptions, ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::destinations::Files;
 use crate::cli::input::{load, question};
 use crate::cli::status::{Error, Outcome, Status};
@@ -26,34 +26,25 @@ pub(in crate::cli) struct Options {
 
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
-        run(self, context)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.output.run
+        let output = &self.output;
+        context.check_output(output)?;
+        let model = load(self.model.model.as_ref(), &self.model.line, context)?;
+        let digits = output.digits() as usize;
+        let problem = question(context, &model, &self.model, &RegionOptions::default())?.problem()?;
+        context.explain(&self.explain, output, &problem, Asked::Roots)?;
+        let answer = match decided(problem.rightmost_roots(self.rightmost.into(), digits, &context.budget))? {
+            Ok(answer) => answer,
+            Err(stopped) => {
+                return context.undecided(output, &stopped, || None, || Roots::new(&problem, Err(&stopped), digits));
+            }
+        };
+        context.warn(None, problem.warnings());
+        context.answer(output, || answer.text(digits), || answer.json(digits))?;
+        Ok(Status::Holds)
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
         files.question(&self.model.model, &self.output.output);
         Ok(())
     }
-}
-
-/// Answers on standard output or in a file.
-fn run(options: &Options, context: &Context) -> Outcome {
-    let output = &options.output;
-    context.check_output(output)?;
-    let model = load(options.model.model.as_ref(), &options.model.line, context)?;
-    let digits = output.digits() as usize;
-    let problem = question(context, &model, &options.model, &RegionOptions::default())?.problem()?;
-    context.explain(&options.explain, output, &problem, Asked::Roots)?;
-    let answer = match decided(problem.rightmost_roots(options.rightmost.into(), digits, &context.budget))? {
-        Ok(answer) => answer,
-        Err(stopped) => {
-            return context.undecided(output, &stopped, || None, || Roots::new(&problem, Err(&stopped), digits));
-        }
-    };
-    context.warn(None, problem.warnings());
-    context.answer(output, || answer.text(digits), || answer.json(digits))?;
-    Ok(Status::Holds)
 }

@@ -1,7 +1,7 @@
 //! `jurist ship`: the controller as it is stored and run.
 
 use super::{Context, Runs, decided};
-use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions, RunOptions};
+use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::assignments::{assignments, in_line};
 use crate::cli::destinations::Files;
 use crate::cli::import::{DsOptions, Words, read_c};
@@ -108,11 +108,62 @@ pub(in crate::cli) struct Written {
 
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
-        run(self, context)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.output.run
+        let output = &self.output;
+        let picture = picture(self)?;
+        if picture.is_none() {
+            context.check_output(output)?;
+        }
+        let model = model(self, context)?;
+        if let Some(name) = &self.param {
+            known_names(context, &model, "--param", from_ref(name))?;
+        }
+        let question = question(context, &model, &self.model, &self.region)?;
+        let (asked, question) = self.require.asked(&model, question, &self.region, context)?;
+        let shipping = Asked::of(&model, &overrides(self, context, model.inputs())?)?;
+        let domain_of = |name: &String| question.domains_set().get(name).cloned();
+        let limits_of = self.param.as_ref().map(|name| (name.clone(), domain_of(name)));
+        let problem = question.problem()?;
+        let beside = Beside { fewest: self.fewest, limits_of, worst_input: self.written.worst.is_some() };
+        let answer = match decided(ShipAnswer::of(&problem, shipping, &asked, &beside, &context.budget))? {
+            Ok(answer) => answer,
+            Err(stopped) => return context.undecided(output, &stopped, || None, || no_answer(&problem, &stopped)),
+        };
+        context.warn(None, problem.warnings());
+        let rounded = answer.shipped.rounded_text();
+        for (text, file) in [(rounded, &self.written.rounded), (&answer.shipped.every_text().0, &self.written.every)] {
+            if let Some(file) = file {
+                write_answer(text, Some(file))?;
+            }
+        }
+        if !self.model.set.is_empty()
+            && !context.quiet
+            && (self.written.rounded.is_some() || self.written.every.is_some())
+        {
+            note(
+                "note: the models that are written have the file's own values beside the controller: give --set again with them",
+            );
+        }
+        signals(&answer, self, context)?;
+        let digits = output.digits() as usize;
+        if let Some(stopped) = answer.stopped() {
+            return context.undecided(output, stopped, || Some(answer.text(digits)), || answer.json(digits));
+        }
+        match picture {
+            Some(kind) => draw(&answer, kind, output)?,
+            None => context.answer(output, || answer.text(digits), || answer.json(digits))?,
+        }
+        let proof =
+            certified(context, &self.written.certificate, || answer.rounded.verdict.certificate(&context.budget))?;
+        if let Some((text, file)) = &proof {
+            write_answer(text, Some(file))?;
+            check_certificate(context, &output.run, rounded, text, file);
+        }
+        code(&answer, self, proof.as_ref().map(|(text, _)| text.as_str()))?;
+        Ok(match answer.holds() {
+            Holds::Yes => Status::Holds,
+            Holds::No => Status::DoesNotHold,
+            Holds::Open => Status::Undecided,
+        })
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
@@ -129,67 +180,6 @@ impl Runs for Options {
         files.outputs.extend(self.written.certificate.iter().map(|file| ("the certificate", file.clone())));
         Ok(())
     }
-}
-
-/// Answers on standard output or in a file: 0 stable, requirements and ranges hold, 1 not, 3 open.
-fn run(options: &Options, context: &Context) -> Outcome {
-    let output = &options.output;
-    let picture = picture(options)?;
-    if picture.is_none() {
-        context.check_output(output)?;
-    }
-    let model = model(options, context)?;
-    if let Some(name) = &options.param {
-        known_names(context, &model, "--param", from_ref(name))?;
-    }
-    let question = question(context, &model, &options.model, &options.region)?;
-    let (asked, question) = options.require.asked(&model, question, &options.region, context)?;
-    let shipping = Asked::of(&model, &overrides(options, context, model.inputs())?)?;
-    let domain_of = |name: &String| question.domains_set().get(name).cloned();
-    let limits_of = options.param.as_ref().map(|name| (name.clone(), domain_of(name)));
-    let problem = question.problem()?;
-    let beside = Beside { fewest: options.fewest, limits_of, worst_input: options.written.worst.is_some() };
-    let answer = match decided(ShipAnswer::of(&problem, shipping, &asked, &beside, &context.budget))? {
-        Ok(answer) => answer,
-        Err(stopped) => return context.undecided(output, &stopped, || None, || no_answer(&problem, &stopped)),
-    };
-    context.warn(None, problem.warnings());
-    let rounded = answer.shipped.rounded_text();
-    for (text, file) in [(rounded, &options.written.rounded), (&answer.shipped.every_text().0, &options.written.every)]
-    {
-        if let Some(file) = file {
-            write_answer(text, Some(file))?;
-        }
-    }
-    if !options.model.set.is_empty()
-        && !context.quiet
-        && (options.written.rounded.is_some() || options.written.every.is_some())
-    {
-        note(
-            "note: the models that are written have the file's own values beside the controller: give --set again with them",
-        );
-    }
-    signals(&answer, options, context)?;
-    let digits = output.digits() as usize;
-    if let Some(stopped) = answer.stopped() {
-        return context.undecided(output, stopped, || Some(answer.text(digits)), || answer.json(digits));
-    }
-    match picture {
-        Some(kind) => draw(&answer, kind, output)?,
-        None => context.answer(output, || answer.text(digits), || answer.json(digits))?,
-    }
-    let proof =
-        certified(context, &options.written.certificate, || answer.rounded.verdict.certificate(&context.budget))?;
-    if let Some((text, file)) = &proof {
-        write_answer(text, Some(file))?;
-        check_certificate(context, &output.run, rounded, text, file);
-    }
-    code(&answer, options, proof.as_ref().map(|(text, _)| text.as_str()))?;
-    Ok(match answer.holds() {
-        Holds::Yes => Status::Holds,
-        Holds::No => Status::DoesNotHold,
-        Holds::Open => Status::Undecided,
-    })
 }
 
 /// What is said where the file of `--from` cannot be read.

@@ -79,45 +79,36 @@ pub(in crate::cli) struct Options {
 
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
-        run(self, context)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.run
+        let kind = wanted(&self.picture)?;
+        let model = match (&self.model.model, self.switched) {
+            (None, true) => Model::from_toml(&Source::new("<built-in drive>", DRIVE_BLOCKS))?.0,
+            (path, _) => load(path.as_ref(), &self.model.line, context)?,
+        };
+        let problem = question(context, &model, &self.model, &Default::default())?.problem()?;
+        context.warn(None, problem.warnings());
+        let course = course(self, &problem, context)?;
+        context.budget.step("simulating");
+        let (mut answer, finals) = if self.switched {
+            problem.refuse_written_complex()?;
+            (switched(self, &problem, &course, context)?, Vec::new())
+        } else {
+            sampled(&problem, &course, context)?
+        };
+        answer.trace = answer.trace.with_units(|name| signal_unit(&model, name));
+        let verdict = problem.verdict(&context.budget)?.value().verdict;
+        context.reporter.finish();
+        let figure = response_figure(&problem, &answer, &finals, verdict, course.is_duration_asked());
+        let table = || answer.trace.to_csv();
+        let document = || to_text(&simulation_json(&problem, &answer));
+        let out = Picture { figure: &figure, csv: &table, json: &document, csv_beside: self.picture.csv };
+        deliver(&out, kind, self.picture.output.as_ref())?;
+        Ok(Status::Holds)
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
         files.inputs.extend(self.inputs.iter().map(|path| ("the table of inputs", path.as_os_str())));
         files.picture(&self.model.model, &self.picture)
     }
-}
-
-/// Draws to a file or on the terminal.
-fn run(options: &Options, context: &Context) -> Outcome {
-    let kind = wanted(&options.picture)?;
-    let model = match (&options.model.model, options.switched) {
-        (None, true) => Model::from_toml(&Source::new("<built-in drive>", DRIVE_BLOCKS))?.0,
-        (path, _) => load(path.as_ref(), &options.model.line, context)?,
-    };
-    let problem = question(context, &model, &options.model, &Default::default())?.problem()?;
-    context.warn(None, problem.warnings());
-    let course = course(options, &problem, context)?;
-    context.budget.step("simulating");
-    let (mut answer, finals) = if options.switched {
-        problem.refuse_written_complex()?;
-        (switched(options, &problem, &course, context)?, Vec::new())
-    } else {
-        sampled(&problem, &course, context)?
-    };
-    answer.trace = answer.trace.with_units(|name| signal_unit(&model, name));
-    let verdict = problem.verdict(&context.budget)?.value().verdict;
-    context.reporter.finish();
-    let figure = response_figure(&problem, &answer, &finals, verdict, course.is_duration_asked());
-    let table = || answer.trace.to_csv();
-    let document = || to_text(&simulation_json(&problem, &answer));
-    let out = Picture { figure: &figure, csv: &table, json: &document, csv_beside: options.picture.csv };
-    deliver(&out, kind, options.picture.output.as_ref())?;
-    Ok(Status::Holds)
 }
 
 /// Inputs over time: name, time from which on, value.

@@ -53,54 +53,46 @@ pub(in crate::cli) struct Options {
 
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
-        run(self, context)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.run
+        let format = Format::of(self.output.as_ref())?;
+        let model = load(self.model.as_ref(), &self.line, context)?;
+        let (questions, names) = questions(self, &model, context)?;
+        let file = self.output.as_ref().filter(|file| *file != "-");
+        let mut kept = match file.filter(|_| self.resume) {
+            Some(file) => kept(file, format, &questions, context)?,
+            None => HashMap::new(),
+        };
+        let part = file.map(|file| Part::open(file, self.resume)).transpose()?;
+        let open: Vec<&Question> =
+            questions.iter().filter(|(key, _)| !kept.contains_key(key)).map(|(_, q)| q).collect();
+        let asked = ask(&open, &model, self, part.as_ref(), context);
+        let answered: Vec<Vec<Row>> = asked.into_iter().flatten().collect::<Result<_, Error>>()?;
+        context.reporter.finish();
+        let rest = open.len() - answered.len();
+        if rest > 0
+            && let Err(stopped) = context.budget.check()
+        {
+            note(&format!("{rest} of {} questions are open; '--resume' goes on from here", questions.len()));
+            return Ok(context.say_undecided(&stopped));
+        }
+        let of_questions = questions.iter().filter_map(|(key, _)| kept.remove(key));
+        let mut all: Vec<Row> = of_questions.flatten().chain(answered.into_iter().flatten()).collect();
+        all.sort_by(order);
+        finish_answer(&format.text(&all, &names), self.output.as_ref())?;
+        if let Some(part) = part {
+            part.done();
+        }
+        let undecided = all.iter().filter(|row| text(row, "status") == "undecided").count();
+        if undecided > 0 {
+            note(&format!("undecided: {undecided} of {} questions", questions.len()));
+            return Ok(Status::Undecided);
+        }
+        Ok(Status::Holds)
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
         files.question(&self.model, &self.output);
         Ok(())
     }
-}
-
-/// Writes the rows; the status is 3 where a question or the whole was not decided in time.
-fn run(options: &Options, context: &Context) -> Outcome {
-    let format = Format::of(options.output.as_ref())?;
-    let model = load(options.model.as_ref(), &options.line, context)?;
-    let (questions, names) = questions(options, &model, context)?;
-    let file = options.output.as_ref().filter(|file| *file != "-");
-    let mut kept = match file.filter(|_| options.resume) {
-        Some(file) => kept(file, format, &questions, context)?,
-        None => HashMap::new(),
-    };
-    let part = file.map(|file| Part::open(file, options.resume)).transpose()?;
-    let open: Vec<&Question> = questions.iter().filter(|(key, _)| !kept.contains_key(key)).map(|(_, q)| q).collect();
-    let asked = ask(&open, &model, options, part.as_ref(), context);
-    let answered: Vec<Vec<Row>> = asked.into_iter().flatten().collect::<Result<_, Error>>()?;
-    context.reporter.finish();
-    let rest = open.len() - answered.len();
-    if rest > 0
-        && let Err(stopped) = context.budget.check()
-    {
-        note(&format!("{rest} of {} questions are open; '--resume' goes on from here", questions.len()));
-        return Ok(context.say_undecided(&stopped));
-    }
-    let of_questions = questions.iter().filter_map(|(key, _)| kept.remove(key));
-    let mut all: Vec<Row> = of_questions.flatten().chain(answered.into_iter().flatten()).collect();
-    all.sort_by(order);
-    finish_answer(&format.text(&all, &names), options.output.as_ref())?;
-    if let Some(part) = part {
-        part.done();
-    }
-    let undecided = all.iter().filter(|row| text(row, "status") == "undecided").count();
-    if undecided > 0 {
-        note(&format!("undecided: {undecided} of {} questions", questions.len()));
-        return Ok(Status::Undecided);
-    }
-    Ok(Status::Holds)
 }
 
 /// The rows that earlier runs of this sweep left, by key.

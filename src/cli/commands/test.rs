@@ -44,11 +44,35 @@ pub(in crate::cli) struct Options {
 
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
-        run(self, context)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.run
+        let cases = match &self.cases {
+            Some(file) => Some(Arc::new(Table::read(&text(Path::new(file))?)?)),
+            None => None,
+        };
+        let mut collector = Collector::new(cases);
+        let suites = collector.suites(&self.paths)?;
+        let named = [("the JUnit report", &self.junit), ("the SARIF log", &self.sarif), ("the answer", &self.output)];
+        let outputs = named.into_iter().filter_map(|(what, file)| Some((what, file.as_ref()?)));
+        check_read(context, outputs, &collector.read)?;
+        let outcomes = try_all(&suites, &context.budget);
+        context.reporter.finish();
+        if !context.quiet {
+            collector.notes.iter().for_each(|said| note(&format!("note: {said}")));
+        }
+        let document = outcomes.document();
+        if let Some(file) = &self.junit {
+            write_answer(&junit::report(&document), Some(file))?;
+        }
+        if let Some(file) = &self.sarif {
+            write_answer(&to_text(&outcomes.sarif()), Some(file))?;
+        }
+        let answer = if self.json { to_text(&document) } else { outcomes.text(self.only_bad) };
+        finish_answer(&answer, self.output.as_ref())?;
+        Ok(match document {
+            Test { errors: 1.., .. } => Status::BadInput,
+            Test { failed: 1.., .. } => Status::DoesNotHold,
+            Test { undecided: 1.., .. } => Status::Undecided,
+            _ => Status::Holds,
+        })
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
@@ -59,38 +83,4 @@ impl Runs for Options {
         files.answer(self.output.as_ref());
         Ok(())
     }
-}
-
-/// A line for each expectation; the status is 2 if a file is bad, else 1 if one does not hold, else 3 if one is undecided.
-fn run(options: &Options, context: &Context) -> Outcome {
-    let cases = match &options.cases {
-        Some(file) => Some(Arc::new(Table::read(&text(Path::new(file))?)?)),
-        None => None,
-    };
-    let mut collector = Collector::new(cases);
-    let suites = collector.suites(&options.paths)?;
-    let named =
-        [("the JUnit report", &options.junit), ("the SARIF log", &options.sarif), ("the answer", &options.output)];
-    let outputs = named.into_iter().filter_map(|(what, file)| Some((what, file.as_ref()?)));
-    check_read(context, outputs, &collector.read)?;
-    let outcomes = try_all(&suites, &context.budget);
-    context.reporter.finish();
-    if !context.quiet {
-        collector.notes.iter().for_each(|said| note(&format!("note: {said}")));
-    }
-    let document = outcomes.document();
-    if let Some(file) = &options.junit {
-        write_answer(&junit::report(&document), Some(file))?;
-    }
-    if let Some(file) = &options.sarif {
-        write_answer(&to_text(&outcomes.sarif()), Some(file))?;
-    }
-    let answer = if options.json { to_text(&document) } else { outcomes.text(options.only_bad) };
-    finish_answer(&answer, options.output.as_ref())?;
-    Ok(match document {
-        Test { errors: 1.., .. } => Status::BadInput,
-        Test { failed: 1.., .. } => Status::DoesNotHold,
-        Test { undecided: 1.., .. } => Status::Undecided,
-        _ => Status::Holds,
-    })
 }

@@ -3,7 +3,7 @@
 use super::map::ranges;
 use super::{Context, Runs, decided};
 use crate::certified::certify_tolerance;
-use crate::cli::arguments::{DecisionOptions, RunOptions};
+use crate::cli::arguments::DecisionOptions;
 use crate::cli::assignments::in_line;
 use crate::cli::command_line::Place;
 use crate::cli::destinations::Files;
@@ -73,70 +73,61 @@ const MOST_DIGITS: u32 = 18;
 
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
-        run(self, context)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.decision.output.run
+        let output = &self.decision.output;
+        let picture = picture(output.output.as_ref());
+        if picture.is_none() {
+            context.check_output(output)?;
+        }
+        let model = load(self.decision.model.model.as_ref(), &self.decision.model.line, context)?;
+        let question = question(context, &model, &self.decision.model, &self.decision.region)?;
+        let (asked, question) = self.require.asked(&model, question, &self.decision.region, context)?;
+        let request = request(self, &model, context)?.require(asked.list, asked.at);
+        let digits = output.digits() as usize;
+        let begun = Begun::new(self, picture, context);
+        let told = |answer: &Answer<ToleranceAnswer>| begun.tell(answer, context);
+        let answer = match decided(question.clone().tolerance_told(&request, &told, &context.budget))? {
+            Ok(answer) => answer,
+            Err(stopped) if picture.is_some() => return Ok(context.say_undecided(&stopped)),
+            Err(stopped) => {
+                let mut open = question;
+                for (name, _) in &request.tolerances {
+                    open = open.without_value(name).free(name);
+                }
+                let problem = open.problem()?;
+                let text = || Some(begun.rest_of(tolerance_text(&problem, Err(&stopped), digits)));
+                return context
+                    .undecided(output, &stopped, text, || documents::Tolerance::new(&problem, Err(&stopped), digits));
+            }
+        };
+        context.warn(None, answer.problem().warnings());
+        if let (Some(name), None, false) = (&self.limit, &answer.value().limit, context.quiet) {
+            note(&format!(
+                "note: --limit begins at a nominal point that is stable: 'jurist intervals --param {}' finds one",
+                visible(name)
+            ));
+        }
+        let question = request
+            .requirements
+            .iter()
+            .fold(Asked::Tolerance, |question, r| question.with_requirement(r, answer.problem().time()));
+        context.explain(&self.decision.explain, output, answer.problem(), question)?;
+        let status = shown(&answer, picture, &begun, self, context)?;
+        let model = &answer.problem().model().source().text;
+        let at = request.at.as_deref();
+        certify(context, &output.run, model, &self.certificate, || {
+            let certified = certify_tolerance(&answer, at, &context.budget)?;
+            if let Some(factor) = certified.factor.as_ref().filter(|_| !context.quiet) {
+                note(&format!("note: the certificate is of the box with the factor {}", to_decimal(factor, 9)));
+            }
+            Ok(certified.text)
+        })?;
+        Ok(status)
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
         files.question(&self.decision.model.model, &self.decision.output.output);
         Ok(())
     }
-}
-
-/// Answers on standard output or in a file: 0 stable for all values, 1 not, 3 undecided.
-fn run(options: &Options, context: &Context) -> Outcome {
-    let output = &options.decision.output;
-    let picture = picture(output.output.as_ref());
-    if picture.is_none() {
-        context.check_output(output)?;
-    }
-    let model = load(options.decision.model.model.as_ref(), &options.decision.model.line, context)?;
-    let question = question(context, &model, &options.decision.model, &options.decision.region)?;
-    let (asked, question) = options.require.asked(&model, question, &options.decision.region, context)?;
-    let request = request(options, &model, context)?.require(asked.list, asked.at);
-    let digits = output.digits() as usize;
-    let begun = Begun::new(options, picture, context);
-    let told = |answer: &Answer<ToleranceAnswer>| begun.tell(answer, context);
-    let answer = match decided(question.clone().tolerance_told(&request, &told, &context.budget))? {
-        Ok(answer) => answer,
-        Err(stopped) if picture.is_some() => return Ok(context.say_undecided(&stopped)),
-        Err(stopped) => {
-            let mut open = question;
-            for (name, _) in &request.tolerances {
-                open = open.without_value(name).free(name);
-            }
-            let problem = open.problem()?;
-            let text = || Some(begun.rest_of(tolerance_text(&problem, Err(&stopped), digits)));
-            return context
-                .undecided(output, &stopped, text, || documents::Tolerance::new(&problem, Err(&stopped), digits));
-        }
-    };
-    context.warn(None, answer.problem().warnings());
-    if let (Some(name), None, false) = (&options.limit, &answer.value().limit, context.quiet) {
-        note(&format!(
-            "note: --limit begins at a nominal point that is stable: 'jurist intervals --param {}' finds one",
-            visible(name)
-        ));
-    }
-    let question = request
-        .requirements
-        .iter()
-        .fold(Asked::Tolerance, |question, r| question.with_requirement(r, answer.problem().time()));
-    context.explain(&options.decision.explain, output, answer.problem(), question)?;
-    let status = shown(&answer, picture, &begun, options, context)?;
-    let model = &answer.problem().model().source().text;
-    let at = request.at.as_deref();
-    certify(context, &output.run, model, &options.certificate, || {
-        let certified = certify_tolerance(&answer, at, &context.budget)?;
-        if let Some(factor) = certified.factor.as_ref().filter(|_| !context.quiet) {
-            note(&format!("note: the certificate is of the box with the factor {}", to_decimal(factor, 9)));
-        }
-        Ok(certified.text)
-    })?;
-    Ok(status)
 }
 
 /// The beginning of the text on standard output: a proof is printed as soon as it stands.

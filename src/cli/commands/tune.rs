@@ -3,7 +3,7 @@
 use super::map::{freed, ranges};
 use super::{Context, Runs, decided};
 use crate::certified::certify_tune;
-use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions, RunOptions};
+use crate::cli::arguments::{ModelOptions, OutputOptions, RegionOptions};
 use crate::cli::assignments::{bound, in_line, plain_number};
 use crate::cli::command_line::Place;
 use crate::cli::destinations::Files;
@@ -69,11 +69,54 @@ pub(in crate::cli) struct Options {
 
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
-        run(self, context)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.output.run
+        let output = &self.output;
+        context.check_output(output)?;
+        let model = load(self.model.model.as_ref(), &self.model.line, context)?;
+        known_names(context, &model, "--free", &self.free)?;
+        let gains = gains(self, &model, context)?;
+        let question = question(context, &model, &self.model, &self.region)?;
+        if let Some(gain) = gains.iter().find(|gain| question.values_set().contains_key(&gain.name)) {
+            let error = Diagnostic::error(Code::KeptAndSet, format!("'{}' is free and has a value", gain.name));
+            return Err(error.help("leave out --set, or free another gain").into());
+        }
+        let for_all = all_plants(self, (&model, &question), &gains, context)?;
+        let question = for_all
+            .iter()
+            .fold(question, |question, all| question.set(&all.name, all.range[0].midpoint(&all.range[1])));
+        // What is required may not depend on what is free, nor on a name whose values are all of a range.
+        let names = gains.iter().map(|gain| &gain.name).chain(for_all.iter().map(|all| &all.name));
+        let free = freed(&question, names);
+        let (required, _) = self.require.asked(&model, free.clone(), &self.region, context)?;
+        let question = match required.region.clone() {
+            Some(region) => question.within(region),
+            None => question,
+        };
+        let mut asked = asked(self, (&model, gains), required, context)?;
+        asked.for_all = for_all;
+        let digits = output.digits() as usize;
+        let answer = TuneAnswer::of(&question, asked, &context.budget);
+        let answer = match decided(answer.map_err(|error| about(self, &model, context, error)))? {
+            Ok(answer) => answer,
+            Err(stopped) => {
+                let problem = free.problem()?;
+                let nothing =
+                    || documents::Verdict::new(&problem, Err::<&jurist_engine::answer::PointVerdict, _>(&stopped));
+                return context.undecided(output, &stopped, || None, nothing);
+            }
+        };
+        context.warn(None, answer.problem.warnings());
+        if let Some(stopped) = answer.stopped() {
+            return context.undecided(output, stopped, || Some(answer.text(digits)), || answer.json(digits));
+        }
+        if answer.is_feasible() == Some(false) {
+            // The search for what excludes each other may have taken all of the budget.
+            context.answer(output, || apart(|| answer.text(digits)), || apart(|| answer.json(digits)))?;
+        } else {
+            context.answer(output, || answer.text(digits), || answer.json(digits))?;
+        }
+        let text = &answer.problem.model().source().text;
+        certify(context, &output.run, text, &self.certificate, || certify_tune(&answer, &context.budget))?;
+        Ok(if answer.is_feasible() == Some(false) { Status::DoesNotHold } else { Status::Holds })
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
@@ -81,57 +124,6 @@ impl Runs for Options {
         files.outputs.extend(self.certificate.iter().map(|file| ("the certificate", file.clone())));
         Ok(())
     }
-}
-
-/// Answers on standard output or in a file: 0 answered, 1 no gains meet what is required, 3 open.
-fn run(options: &Options, context: &Context) -> Outcome {
-    let output = &options.output;
-    context.check_output(output)?;
-    let model = load(options.model.model.as_ref(), &options.model.line, context)?;
-    known_names(context, &model, "--free", &options.free)?;
-    let gains = gains(options, &model, context)?;
-    let question = question(context, &model, &options.model, &options.region)?;
-    if let Some(gain) = gains.iter().find(|gain| question.values_set().contains_key(&gain.name)) {
-        let error = Diagnostic::error(Code::KeptAndSet, format!("'{}' is free and has a value", gain.name));
-        return Err(error.help("leave out --set, or free another gain").into());
-    }
-    let for_all = all_plants(options, (&model, &question), &gains, context)?;
-    let question =
-        for_all.iter().fold(question, |question, all| question.set(&all.name, all.range[0].midpoint(&all.range[1])));
-    // What is required may not depend on what is free, nor on a name whose values are all of a range.
-    let names = gains.iter().map(|gain| &gain.name).chain(for_all.iter().map(|all| &all.name));
-    let free = freed(&question, names);
-    let (required, _) = options.require.asked(&model, free.clone(), &options.region, context)?;
-    let question = match required.region.clone() {
-        Some(region) => question.within(region),
-        None => question,
-    };
-    let mut asked = asked(options, (&model, gains), required, context)?;
-    asked.for_all = for_all;
-    let digits = output.digits() as usize;
-    let answer = TuneAnswer::of(&question, asked, &context.budget);
-    let answer = match decided(answer.map_err(|error| about(options, &model, context, error)))? {
-        Ok(answer) => answer,
-        Err(stopped) => {
-            let problem = free.problem()?;
-            let nothing =
-                || documents::Verdict::new(&problem, Err::<&jurist_engine::answer::PointVerdict, _>(&stopped));
-            return context.undecided(output, &stopped, || None, nothing);
-        }
-    };
-    context.warn(None, answer.problem.warnings());
-    if let Some(stopped) = answer.stopped() {
-        return context.undecided(output, stopped, || Some(answer.text(digits)), || answer.json(digits));
-    }
-    if answer.is_feasible() == Some(false) {
-        // The search for what excludes each other may have taken all of the budget.
-        context.answer(output, || apart(|| answer.text(digits)), || apart(|| answer.json(digits)))?;
-    } else {
-        context.answer(output, || answer.text(digits), || answer.json(digits))?;
-    }
-    let text = &answer.problem.model().source().text;
-    certify(context, &output.run, text, &options.certificate, || certify_tune(&answer, &context.budget))?;
-    Ok(if answer.is_feasible() == Some(false) { Status::DoesNotHold } else { Status::Holds })
 }
 
 /// What is to be best, how narrow a bracket is to be and what may be given up: as the command line says, else as the model does.

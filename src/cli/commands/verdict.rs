@@ -2,7 +2,7 @@
 
 use super::{Context, Runs, decided};
 use crate::certified::certify_requirements;
-use crate::cli::arguments::{DecisionOptions, RunOptions};
+use crate::cli::arguments::DecisionOptions;
 use crate::cli::destinations::Files;
 use crate::cli::input::decision;
 use crate::cli::output::write_answer;
@@ -33,11 +33,64 @@ pub(in crate::cli) struct Options {
 
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
-        run(self, context)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.decision.output.run
+        let output = &self.decision.output;
+        let (model, question) = decision(&self.decision, context)?;
+        let (asked, question) = self.require.asked(&model, question, &self.decision.region, context)?;
+        refuse_theorems(&asked, self.coq.is_some())?;
+        let problem = question.problem()?;
+        let question = asked.list.iter().fold(Asked::Verdict, |asked, r| asked.with_requirement(r, problem.time()));
+        context.explain(&self.decision.explain, output, &problem, question)?;
+        let found = match decided(problem.requirements_met(&asked.list, asked.at.as_deref(), &context.budget))? {
+            Ok(found) => found,
+            Err(stopped) => {
+                return context.undecided(
+                    output,
+                    &stopped,
+                    || None,
+                    || documents::Verdict::new(&problem, Err(&stopped)),
+                );
+            }
+        };
+        let answer = match decided(problem.verdict(&context.budget))? {
+            Ok(answer) => answer,
+            Err(stopped) => {
+                return context.undecided(
+                    output,
+                    &stopped,
+                    || None,
+                    || documents::Verdict::new(&problem, Err(&stopped)),
+                );
+            }
+        };
+        context.warn(None, problem.warnings());
+        if let Some(file) = self.coq.as_ref().filter(|_| WRITES) {
+            write_answer(&answer.coq(&context.budget)?, Some(file))?;
+        }
+        let digits = output.digits() as usize;
+        let in_region = answer.value().verdict == Verdict::Stable;
+        let text = || {
+            let list = found.iter().map(|r| r.text(digits));
+            let regional = asked
+                .regional
+                .iter()
+                .map(|(name, text)| format!("{name} {text}: {}", if in_region { "met" } else { "not met" }));
+            list.chain(regional).fold(answer.text(), |text, line| format!("{text}{line}\n"))
+        };
+        let document = || {
+            let list = found.iter().map(|r| documents::RequirementFound::new(r, digits));
+            let regional =
+                |(name, text): &(String, String)| documents::RequirementFound::of_region(name, text, in_region);
+            let requirements = list.chain(asked.regional.iter().map(regional)).collect();
+            documents::Verdict { requirements, ..answer.json() }
+        };
+        context.answer(output, text, document)?;
+        let model = &problem.model().source().text;
+        let good = found.iter().all(|r| r.met) && answer.value().verdict == Verdict::Stable;
+        certify(context, &output.run, model, &self.certificate, || match asked.list.as_slice() {
+            [] => answer.certificate(&context.budget),
+            list => certify_requirements(&problem, list, asked.at.as_deref(), good, &context.budget),
+        })?;
+        Ok(if good { Status::Holds } else { Status::DoesNotHold })
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
@@ -46,55 +99,4 @@ impl Runs for Options {
         files.outputs.extend(self.coq.iter().map(|file| ("the file for Coq", file.clone())));
         Ok(())
     }
-}
-
-/// Answers on standard output or in a file; the status is 1 for anything but stable.
-fn run(options: &Options, context: &Context) -> Outcome {
-    let output = &options.decision.output;
-    let (model, question) = decision(&options.decision, context)?;
-    let (asked, question) = options.require.asked(&model, question, &options.decision.region, context)?;
-    refuse_theorems(&asked, options.coq.is_some())?;
-    let problem = question.problem()?;
-    let question = asked.list.iter().fold(Asked::Verdict, |asked, r| asked.with_requirement(r, problem.time()));
-    context.explain(&options.decision.explain, output, &problem, question)?;
-    let found = match decided(problem.requirements_met(&asked.list, asked.at.as_deref(), &context.budget))? {
-        Ok(found) => found,
-        Err(stopped) => {
-            return context.undecided(output, &stopped, || None, || documents::Verdict::new(&problem, Err(&stopped)));
-        }
-    };
-    let answer = match decided(problem.verdict(&context.budget))? {
-        Ok(answer) => answer,
-        Err(stopped) => {
-            return context.undecided(output, &stopped, || None, || documents::Verdict::new(&problem, Err(&stopped)));
-        }
-    };
-    context.warn(None, problem.warnings());
-    if let Some(file) = options.coq.as_ref().filter(|_| WRITES) {
-        write_answer(&answer.coq(&context.budget)?, Some(file))?;
-    }
-    let digits = output.digits() as usize;
-    let in_region = answer.value().verdict == Verdict::Stable;
-    let text = || {
-        let list = found.iter().map(|r| r.text(digits));
-        let regional = asked
-            .regional
-            .iter()
-            .map(|(name, text)| format!("{name} {text}: {}", if in_region { "met" } else { "not met" }));
-        list.chain(regional).fold(answer.text(), |text, line| format!("{text}{line}\n"))
-    };
-    let document = || {
-        let list = found.iter().map(|r| documents::RequirementFound::new(r, digits));
-        let regional = |(name, text): &(String, String)| documents::RequirementFound::of_region(name, text, in_region);
-        let requirements = list.chain(asked.regional.iter().map(regional)).collect();
-        documents::Verdict { requirements, ..answer.json() }
-    };
-    context.answer(output, text, document)?;
-    let model = &problem.model().source().text;
-    let good = found.iter().all(|r| r.met) && answer.value().verdict == Verdict::Stable;
-    certify(context, &output.run, model, &options.certificate, || match asked.list.as_slice() {
-        [] => answer.certificate(&context.budget),
-        list => certify_requirements(&problem, list, asked.at.as_deref(), good, &context.budget),
-    })?;
-    Ok(if good { Status::Holds } else { Status::DoesNotHold })
 }

@@ -35,11 +35,47 @@ fn shown(name: &OsStr) -> String {
 
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
-        run(self, context)
-    }
-
-    fn run_options(&self) -> &RunOptions {
-        &self.run
+        let model = model_text(&self.model, &self.line, context, MAX_TEXT as u64)?;
+        let certificate = read_text(context, &self.certificate, MAX_TEXT as u64, &CERTIFICATE)?;
+        if let (Ok(first), Ok(second)) = (&model, &certificate)
+            && is_certificate(first)
+            && !is_certificate(second)
+        {
+            let error = Diagnostic::error(Code::Usage, "the first file is a certificate, and the second one is none");
+            return Err(error.help("the model comes first: jurist verify MODEL CERTIFICATE").into());
+        }
+        let limits = self.run.timeout.map_or_else(Limits::default, Limits::within);
+        let result = match (&model, &certificate) {
+            (Ok(model), Ok(certificate)) => {
+                let [of_model, of_certificate] = [&self.model, &self.certificate].map(|name| shown(name));
+                let names = Names { model: &of_model, certificate: &of_certificate };
+                let proved = check(model, certificate, &limits).map_err(|rejection| rejection.to_string());
+                proved.map(|proved| report(&proved, model, certificate, names))
+            }
+            (Err(reason), _) | (_, Err(reason)) => Err(format!("the certificate is rejected: {reason}")),
+        };
+        context.reporter.finish();
+        match result {
+            Ok(said) => {
+                write_answer(&said, None)?;
+                Ok(Status::Holds)
+            }
+            Err(reason) => {
+                note(&reason);
+                if let (Ok(model), Ok(certificate)) = (&model, &certificate)
+                    && is_for_another_text(model, certificate)
+                {
+                    note("the certificate was written for another text of a model: is it that of this file?");
+                }
+                let refers = |text: &str| Reference::all(&Source::new("", text)).is_ok_and(|found| !found.is_empty());
+                if model.is_ok_and(|text| refers(&text)) {
+                    note(
+                        "the model takes numbers from other files: the certificate is about the copy that '--resolved FILE' wrote",
+                    );
+                }
+                Ok(Status::Rejected)
+            }
+        }
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {
@@ -56,49 +92,4 @@ impl Runs for Options {
 /// Whether a text begins as a certificate does, whatever it proves.
 fn is_certificate(text: &str) -> bool {
     text.trim_start().starts_with('{') && text.contains("jurist/certificate/")
-}
-
-/// Prints the proved statement and names its texts; the status is 4 for a certificate that proves nothing.
-fn run(options: &Options, context: &Context) -> Outcome {
-    let model = model_text(&options.model, &options.line, context, MAX_TEXT as u64)?;
-    let certificate = read_text(context, &options.certificate, MAX_TEXT as u64, &CERTIFICATE)?;
-    if let (Ok(first), Ok(second)) = (&model, &certificate)
-        && is_certificate(first)
-        && !is_certificate(second)
-    {
-        let error = Diagnostic::error(Code::Usage, "the first file is a certificate, and the second one is none");
-        return Err(error.help("the model comes first: jurist verify MODEL CERTIFICATE").into());
-    }
-    let limits = options.run.timeout.map_or_else(Limits::default, Limits::within);
-    let result = match (&model, &certificate) {
-        (Ok(model), Ok(certificate)) => {
-            let [of_model, of_certificate] = [&options.model, &options.certificate].map(|name| shown(name));
-            let names = Names { model: &of_model, certificate: &of_certificate };
-            let proved = check(model, certificate, &limits).map_err(|rejection| rejection.to_string());
-            proved.map(|proved| report(&proved, model, certificate, names))
-        }
-        (Err(reason), _) | (_, Err(reason)) => Err(format!("the certificate is rejected: {reason}")),
-    };
-    context.reporter.finish();
-    match result {
-        Ok(said) => {
-            write_answer(&said, None)?;
-            Ok(Status::Holds)
-        }
-        Err(reason) => {
-            note(&reason);
-            if let (Ok(model), Ok(certificate)) = (&model, &certificate)
-                && is_for_another_text(model, certificate)
-            {
-                note("the certificate was written for another text of a model: is it that of this file?");
-            }
-            let refers = |text: &str| Reference::all(&Source::new("", text)).is_ok_and(|found| !found.is_empty());
-            if model.is_ok_and(|text| refers(&text)) {
-                note(
-                    "the model takes numbers from other files: the certificate is about the copy that '--resolved FILE' wrote",
-                );
-            }
-            Ok(Status::Rejected)
-        }
-    }
 }

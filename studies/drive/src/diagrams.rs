@@ -91,7 +91,12 @@ pub fn chopper() -> Figure {
     s.wire(&[(390.0, 290.0), (390.0, 300.0)]);
     s.label_left((310.0, 250.0), "V_a");
     s.arrow(&[(340.0, 292.0), (340.0, 188.0)]);
-    // Waveforms.
+    waveforms(&mut s);
+    s.finish()
+}
+
+/// Voltage and current of the chopper.
+fn waveforms(s: &mut Sketch) {
     let (left, period) = (540.0, 110.0);
     for (base, name) in [(150.0, "V_a"), (300.0, "i_a")] {
         s.arrow(&[(left, base), (885.0, base)]);
@@ -115,7 +120,6 @@ pub fn chopper() -> Figure {
     s.label((left + period + 9.0, 168.0), "T");
     s.label((left + 2.0 * period + 13.0, 168.0), "2T");
     s.label((710.0, 350.0), "(b) voltage and current");
-    s.finish()
 }
 
 /// The modulator: control voltage against the sawtooth.
@@ -147,8 +151,8 @@ pub fn pwm_signal() -> Figure {
     s.finish()
 }
 
-/// A PI controller with one sample of delay and trapezoidal integration.
-fn controller(reference: &str, measured: &str, gain: &str, name: char, kp: &str, ki: &str, output: &str) -> Figure {
+/// A PI controller with one sample of delay and trapezoidal integration, with the names of its signals and of its gains.
+fn controller([reference, measured, output]: [&str; 3], [gain, kp, ki]: [&str; 3], name: char) -> Figure {
     let mut s = Sketch::new(820.0, 240.0);
     let y = 80.0;
     s.arrow(&[(20.0, y), (79.0, y)]);
@@ -183,12 +187,12 @@ fn controller(reference: &str, measured: &str, gain: &str, name: char, kp: &str,
 
 /// The current controller.
 pub fn current_controller() -> Figure {
-    controller("I_ref(n)", "i_a(n)", "k_1", 'i', "K_pi", "K_ii", "E_c(n)")
+    controller(["I_ref(n)", "i_a(n)", "E_c(n)"], ["k_1", "K_pi", "K_ii"], 'i')
 }
 
 /// The speed controller.
 pub fn speed_controller() -> Figure {
-    controller("ω_ref(n)", "ω(n)", "k_2", 's', "K_ps", "K_is", "I_ref(n)")
+    controller(["ω_ref(n)", "ω(n)", "I_ref(n)"], ["k_2", "K_ps", "K_is"], 's')
 }
 
 /// The tracker with output feedback.

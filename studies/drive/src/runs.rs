@@ -6,7 +6,9 @@ use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_draw::figures::{ResponseCurve, response_panel};
 use jurist_draw::page::{figure, math, paragraph};
-use jurist_draw::simulate::{Excitation, Pulse, Record, SampledModel, Step, SwitchedModel, Trace, eigenvalues};
+use jurist_draw::simulate::{
+    Excitation, Pulse, Record, SampledModel, Step, SwitchedModel, SwitchedRun, SwitchedState, Trace, eigenvalues,
+};
 use jurist_engine::error::Error;
 use jurist_engine::model::Model;
 use jurist_engine::problem::Problem;
@@ -75,27 +77,14 @@ fn one_case(
     let inputs = DVector::from_vec(vec![SPEED_REFERENCE, 0.0]);
     let steady = circuit.periodic_steady_state(&inputs);
     let multiplier = circuit.small_signal_eigenvalues(&inputs).and_then(|v| v.first().map(|z| z.norm()));
-    let disturbed = steady.map(|operating| {
-        let mut start = operating.state.clone();
-        start.plant[0] += DISTURBANCE;
-        let mut run = circuit.simulate(&start, &reference(), periods, Record::Samples);
-        for (k, signal) in run.trace.signals.iter_mut().take(operating.state.plant.len()).enumerate() {
-            for value in &mut signal.values {
-                *value -= operating.state.plant[k];
-            }
-        }
-        run
-    });
+    let disturbed = steady.map(|operating| deviation(&circuit, &operating.state, periods));
     let mut html = format!("<h3>{}</h3>\n", math(case.heading));
     let word = if growth < 1.0 { "settles" } else { "grows without bound" };
     html.push_str(&paragraph(&format!(
         "The linear model {word}: its dominant pair changes by a factor of {growth:.7} per period. {} From rest the \
          linear model's current controller asks for up to {:.0} V against a carrier of {} V; the circuit is at a limit of \
          its modulator in {} of {periods} periods.",
-        multiplier.map_or_else(String::new, |m| format!(
-            "The circuit's small deviations change by a factor of {m:.7} per period: it is small-signal {}.",
-            if m < 1.0 { "stable" } else { "unstable" }
-        )),
+        multiplier.map_or_else(String::new, small_signal),
         largest_control(model, &trace),
         constant(model, "E_sw"),
         rest.clamped,
@@ -127,6 +116,25 @@ fn one_case(
         html.push_str("</div>\n");
     }
     Ok(html)
+}
+
+/// How the circuit moves against its steady state when that is disturbed.
+fn deviation(circuit: &SwitchedModel, steady: &SwitchedState, periods: usize) -> SwitchedRun {
+    let mut start = steady.clone();
+    start.plant[0] += DISTURBANCE;
+    let mut run = circuit.simulate(&start, &reference(), periods, Record::Samples);
+    for (k, signal) in run.trace.signals.iter_mut().take(steady.plant.len()).enumerate() {
+        for value in &mut signal.values {
+            *value -= steady.plant[k];
+        }
+    }
+    run
+}
+
+/// What a factor per period says.
+fn small_signal(factor: f64) -> String {
+    let word = if factor < 1.0 { "stable" } else { "unstable" };
+    format!("The circuit's small deviations change by a factor of {factor:.7} per period: it is small-signal {word}.")
 }
 
 /// The largest output of the current controller in the linear model's first tenth of a second, V:

@@ -131,6 +131,12 @@ impl<R: Domain> Matrix<R> {
         Matrix { rows: self.rows, columns: self.columns, entries: self.entries.iter().map(f).collect() }
     }
 
+    /// The same where an image may be missing: the first reason for it.
+    pub fn try_map<S: Domain, E>(&self, f: impl FnMut(&R) -> Result<S, E>) -> Result<Matrix<S>, E> {
+        let entries = self.entries.iter().map(f).collect::<Result<_, E>>()?;
+        Ok(Matrix { rows: self.rows, columns: self.columns, entries })
+    }
+
     /// Rows and columns exchanged.
     pub fn transposed(&self) -> Self {
         Matrix::from_fn(self.columns, self.rows, |i, j| self[(j, i)].clone())

@@ -230,11 +230,26 @@ impl Rows {
 
     /// The coefficients modulo one prime: `lengths` by `n + 1` powers of `z`.
     fn image(&self, f: &PrimeField, mut data: Vec<u64>) -> Vec<u64> {
+        let (n, width) = (self.n, self.entries.len() + self.n);
+        let mut grid = Grid::new(f, self.lengths.iter().copied().max().unwrap_or(1).max(n + 1));
+        let scale = self.divide_by_numbers(f, &mut grid, &mut data);
+        let mut inner = width;
+        for (&terms, &length) in self.terms.iter().zip(&self.lengths).rev() {
+            data = grid.evaluate(&data, terms, inner, length);
+            inner *= length;
+        }
+        let mut out = self.at_points(f, &grid, &data, scale);
+        let mut inner = n + 1;
+        for &length in self.lengths.iter().rev() {
+            grid.interpolate(&mut out, length, inner);
+            inner *= length;
+        }
+        out
+    }
+
+    /// Divides rows whose denominator is a number other than zero here; the product of these numbers.
+    fn divide_by_numbers(&self, f: &PrimeField, grid: &mut Grid, data: &mut [u64]) -> u64 {
         let (n, count) = (self.n, self.entries.len());
-        let width = count + n;
-        let longest = self.lengths.iter().copied().max().unwrap_or(1).max(n + 1);
-        let mut grid = Grid::new(f, longest);
-        // Rows whose denominator is a number other than zero here are divided at once.
         let mut numbers = vec![0; n];
         for (i, q) in self.denominators.iter().enumerate().filter(|(_, q)| q.is_constant()) {
             debug_assert!(!q.is_zero());
@@ -244,7 +259,7 @@ impl Rows {
         inverses.push(grid.factorial());
         f.invert_all(&mut inverses);
         grid.prepare_interpolation(inverses[n]);
-        for block in data.chunks_exact_mut(width) {
+        for block in data.chunks_exact_mut(count + n) {
             for (x, (i, _, _)) in
                 block.iter_mut().zip(&self.entries).filter(|(x, (i, _, _))| **x != 0 && numbers[*i] != 0)
             {
@@ -254,41 +269,37 @@ impl Rows {
         for i in (0..n).filter(|&i| numbers[i] != 0) {
             data[count + i] = f.one();
         }
-        let scale = numbers.iter().filter(|&&x| x != 0).fold(f.one(), |product, &x| f.mul(product, x));
-        let mut inner = width;
-        for (&terms, &length) in self.terms.iter().zip(&self.lengths).rev() {
-            data = grid.evaluate(&data, terms, inner, length);
-            inner *= length;
-        }
-        let points = data.len() / width;
+        numbers.iter().filter(|&&x| x != 0).fold(f.one(), |product, &x| f.mul(product, x))
+    }
+
+    /// The coefficients at points, from the values of entries and denominators there.
+    fn at_points(&self, f: &PrimeField, grid: &Grid, data: &[u64], scale: u64) -> Vec<u64> {
+        let (n, count) = (self.n, self.entries.len());
+        let points = data.len() / (count + n);
         claim(8 * (points * n * n) as u64);
         let mut matrices = vec![0; points * n * n];
-        for (values, matrix) in data.chunks_exact(width).zip(matrices.chunks_exact_mut((n * n).max(1))) {
+        for (values, matrix) in data.chunks_exact(count + n).zip(matrices.chunks_exact_mut((n * n).max(1))) {
             for (&x, (i, j, _)) in values.iter().zip(&self.entries) {
                 matrix[i * n + j] = x;
             }
         }
         let mut diagonals: Vec<u64> =
-            data.chunks_exact(width).flat_map(|values| values[count..].iter().copied()).collect();
+            data.chunks_exact(count + n).flat_map(|values| values[count..].iter().copied()).collect();
         let mut out = vec![0; points * (n + 1)];
-        // Where a denominator vanishes the determinants are interpolated.
+        let mut factors = vec![scale; points];
         let mut regular = Vec::with_capacity(points);
-        for point in 0..points {
-            let diagonal = &diagonals[point * n..(point + 1) * n];
+        for (point, diagonal) in diagonals.chunks_exact(n).enumerate() {
             if diagonal.contains(&0) {
+                // Where a denominator vanishes the determinants are interpolated.
                 let matrix = &matrices[point * n * n..(point + 1) * n * n];
                 let values = &mut out[point * (n + 1)..(point + 1) * (n + 1)];
                 determinants_by_elimination(f, matrix, diagonal, &grid.points()[..=n], values);
                 grid.interpolate(values, n + 1, 1);
             } else {
+                let with = |product, &q| if q == f.one() { product } else { f.mul(product, q) };
+                factors[point] = diagonal.iter().fold(scale, with);
                 regular.push(point);
             }
-        }
-        let mut factors = vec![scale; points];
-        for &point in &regular {
-            let diagonal = &diagonals[point * n..(point + 1) * n];
-            factors[point] =
-                diagonal.iter().fold(scale, |product, &q| if q == f.one() { product } else { f.mul(product, q) });
         }
         invert_and_scale_rows(f, &mut matrices, &mut diagonals, n, &regular);
         reduce_to_hessenberg(f, &mut matrices, n, &regular);
@@ -301,11 +312,6 @@ impl Rows {
             for v in values {
                 *v = f.mul(*v, factor);
             }
-        }
-        let mut inner = n + 1;
-        for &length in self.lengths.iter().rev() {
-            grid.interpolate(&mut out, length, inner);
-            inner *= length;
         }
         out
     }

@@ -102,11 +102,6 @@ impl Transcendental {
         Transcendental { source: Arc::new(source), place: place.into() }
     }
 
-    /// What encloses it.
-    pub fn source(&self) -> &dyn Enclosing {
-        &*self.source
-    }
-
     /// Where it comes from.
     pub fn origin(&self) -> Origin {
         self.source.origin()

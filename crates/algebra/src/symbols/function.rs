@@ -146,12 +146,6 @@ impl Function {
         }
     }
 
-    /// The variables that occur.
-    pub fn variables(&self) -> Vec<usize> {
-        let all: std::collections::BTreeSet<usize> = self.polynomials().flat_map(MultiPoly::variables).collect();
-        all.into_iter().collect()
-    }
-
     /// The function at series of the parameter and the symbols.
     pub(super) fn at_series<S: Elementary>(&self, values: &[S]) -> S {
         Scheme::of(self).at(values)

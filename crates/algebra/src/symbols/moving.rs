@@ -1,15 +1,17 @@
 //! Symbols that depend on a parameter, such as `exp(-2*T)` in `T`, and the zeros of polynomials in the parameter and in them.
 
+mod search;
+
 use super::forms::Forms;
 use super::function::polynomial_at;
 use super::horner::Scheme;
 use super::moving_root::MovingRoot;
 use super::pieces::{self, Look, Piece};
-use super::scales::{between_scales, exponent, joined, octaves};
+use super::scales::{between_scales, joined};
 use super::values::values_of;
 use super::{Definition, Function, Symbols};
 use crate::ball::{Ball, Elementary, Known, Series, TaylorModel};
-use crate::limits::{Budget, Exhausted, parallel_map};
+use crate::limits::{Budget, Exhausted};
 use crate::number::{Enclosure, Integer, Rational, Sign};
 use crate::poly::algebraic::simplest_between;
 use crate::poly::real_roots::rational_roots;
@@ -17,8 +19,7 @@ use crate::poly::{
     Domain, MultiPoly, RationalFunction, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots, isolate_real_roots_in,
 };
 use crate::real::{Enclosing, Real, Transcendental};
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
+use search::Search;
 use std::sync::{Arc, OnceLock};
 
 /// A table of symbols whose arguments are rational functions of a parameter (variable 0) and of earlier symbols (symbol `i` is
@@ -62,18 +63,6 @@ const FEW_BITS: u64 = 112;
 
 /// Bits of the first attempt with others.
 pub(super) const FIRST_BITS: u64 = 192;
-
-/// So many intervals are looked at side by side, however many threads there are: work is counted, and what it decides is the same.
-const BATCH: usize = 4;
-
-/// After so many intervals what is left stays undecided.
-const MOST_LOOKS: usize = 4000;
-
-/// After so much work, in the units of [`checkpoint`](crate::limits::checkpoint), what is left stays undecided: some seconds.
-const MOST_WORK: u64 = 100_000_000;
-
-/// Where the range begins at 0 and the function is not known there, values smaller than the usual one by so many octaves are decided where that is seen at once.
-const MOST_OCTAVES: i64 = 12;
 
 /// How often the bits are doubled for one interval.
 const MOST_DOUBLINGS: usize = 4;
@@ -341,81 +330,12 @@ impl MovingSymbols {
         budget: &Budget,
     ) -> Result<Zeros, Exhausted> {
         let mut found = Zeros::default();
-        let mut brackets: Vec<(Rational, Rational, u32)> = Vec::new();
-        let mut start = lower.clone();
-        let at_lower = self.vanishing(f, lower, budget)?;
-        if at_lower != Some(false) {
-            match budget.enter(|| self.clear_above(f, lower, upper, at_lower == Some(true)))? {
-                Some(end) => start = end,
-                None => {
-                    let width = (upper - lower) * Rational::dyadic(&Integer::ONE, 40);
-                    start = lower + &width;
-                    found.undecided.push((lower.clone(), start.clone()));
-                }
-            }
-        }
-        let mut end = upper.clone();
-        if self.may_vanish_at(f, upper, budget)? {
-            end = upper - &((upper - lower) * Rational::dyadic(&Integer::ONE, 40));
-            found.undecided.push((end.clone(), upper.clone()));
-        }
-        // Whether the range goes down to 0 and nothing is known of the function there.
-        let is_open = start.is_zero();
-        // Every octave away from the usual value waits for two halvings, so that a place where zeros crowd leaves others decided.
-        let mut todo = BinaryHeap::from([Reverse((0, start, end, 0))]);
+        let (start, end) = self.beside_ends(f, [lower, upper], &mut found.undecided, budget)?;
         let usual = if lower < near && near < upper { near.clone() } else { lower.midpoint(upper) };
         let scheme = Arc::new(Scheme::of(f));
         let forms = budget.enter(|| Forms::of(self, f).best_around(self, &usual, TERMS))?;
-        // Counted, not timed: the same model has the same answer on every machine.
-        let work = Budget::with_work(MOST_WORK);
-        let mut looks = 0;
-        while !todo.is_empty() {
-            budget.check()?;
-            let batch: Vec<_> =
-                (0..BATCH).map_while(|_| todo.pop()).map(|Reverse((_, lo, hi, n))| (lo, hi, n)).collect();
-            looks += batch.len();
-            let is_last = looks > MOST_LOOKS;
-            let one = |(lo, hi, halvings): (Rational, Rational, i64)| {
-                // Towards 0 there is no end of octaves.
-                let is_far = || is_open && hi < *near && octaves(&lo, &hi, near) > MOST_OCTAVES;
-                let looks = self.look(&forms, &lo, &hi);
-                let goes_on = !is_last && halvings < MOST_HALVINGS && !is_far();
-                // What is left of an interval is looked at as it is, most of one in two parts.
-                let is_most = |a: &Rational, b: &Rational| (b - a) * Rational::from(2) > &hi - &lo;
-                let part = |(a, b, look): (Rational, Rational, Look)| {
-                    let middle = goes_on && look == Look::Unknown && is_most(&a, &b);
-                    let middle = middle.then(|| self.split_point(&scheme, &a, &b, near));
-                    (a, b, look, middle)
-                };
-                (looks.into_iter().map(part).collect::<Vec<_>>(), goes_on)
-            };
-            let nothing = || {
-                let unknown = |(lo, hi, _): &(Rational, Rational, i64)| (lo.clone(), hi.clone(), Look::Unknown, None);
-                batch.iter().map(|interval| (vec![unknown(interval)], false)).collect()
-            };
-            let seen: Vec<_> =
-                budget.enter(|| work.enter(|| parallel_map(batch.clone(), one)))?.unwrap_or_else(|_| nothing());
-            for ((lo, hi, halvings), (looks, goes_on)) in batch.into_iter().zip(seen) {
-                let width = hi - lo;
-                let mut again = |lo: Rational, hi: Rational| {
-                    let shorter = width.checked_div(&(&hi - &lo)).map_or(1, |ratio| exponent(&ratio).max(1));
-                    let priority = 2 * octaves(&lo, &hi, near) + halvings + shorter - 1;
-                    todo.push(Reverse((priority, lo, hi, halvings + shorter)));
-                };
-                for (lo, hi, look, middle) in looks {
-                    match (look, middle) {
-                        (Look::None, _) => {}
-                        (Look::One { halvings }, _) => brackets.push((lo, hi, halvings)),
-                        (Look::Unknown, Some(middle)) => {
-                            again(lo, middle.clone());
-                            again(middle.clone(), hi);
-                        }
-                        (Look::Unknown, None) if goes_on => again(lo, hi),
-                        _ => found.undecided.push((lo, hi)),
-                    }
-                }
-            }
-        }
+        let search = Search { symbols: self, scheme: &scheme, forms: &forms, near, is_open: start.is_zero() };
+        let mut brackets = search.brackets(start, end, &mut found.undecided, budget)?;
         // Next to its zero a square root has enclosures, but no series.
         let may_vanish = |(lo, hi): &(Rational, Rational)| {
             self.value(&scheme, &Ball::between(lo, hi, FIRST_BITS)).is_none_or(|value| value.contains_zero())
@@ -438,6 +358,34 @@ impl MovingSymbols {
             found.zeros.push(self.known(root, f, budget)?);
         }
         Ok(found)
+    }
+
+    /// Numbers beside the ends of an interval between which and them there is no zero, or it is not known.
+    fn beside_ends(
+        self: &Arc<Self>,
+        f: &Function,
+        [lower, upper]: [&Rational; 2],
+        undecided: &mut Vec<(Rational, Rational)>,
+        budget: &Budget,
+    ) -> Result<(Rational, Rational), Exhausted> {
+        let width = || (upper - lower) * Rational::dyadic(&Integer::ONE, 40);
+        let mut start = lower.clone();
+        let at_lower = self.vanishing(f, lower, budget)?;
+        if at_lower != Some(false) {
+            match budget.enter(|| self.clear_above(f, lower, upper, at_lower == Some(true)))? {
+                Some(end) => start = end,
+                None => {
+                    start = lower + &width();
+                    undecided.push((lower.clone(), start.clone()));
+                }
+            }
+        }
+        let mut end = upper.clone();
+        if self.may_vanish_at(f, upper, budget)? {
+            end = upper - &width();
+            undecided.push((end.clone(), upper.clone()));
+        }
+        Ok((start, end))
     }
 
     /// Whether the function is zero at a rational value of the parameter, or that is neither proved nor disproved by some thousand bits.

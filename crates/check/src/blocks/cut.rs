@@ -3,7 +3,7 @@
 use super::rates::Rate;
 use super::{Diagram, Row};
 use crate::factor::Cut;
-use crate::multivariate::{Fraction, Multi};
+use crate::multivariate::Fraction;
 use crate::number::{Q, shorten};
 use crate::toml::Toml;
 use num_traits::One;
@@ -49,9 +49,8 @@ impl Diagram<'_, '_> {
             }
             Cut::Parameter(_) => return Ok(()),
         };
-        let whole = |m: &Multi| Fraction { numerator: m.clone(), denominator: Multi::one(), scalar: Multi::one() };
-        let mut row = Row::from([(behind, whole(&factor.value.scalar))]);
-        let minus = whole(&factor.value.numerator).negated();
+        let mut row = Row::from([(behind, Fraction::from(factor.value.scalar.clone()))]);
+        let minus = Fraction::from(factor.value.numerator.clone()).negated();
         self.feed(&mut row, &minus, &before)?;
         self.rows.push(row);
         self.rates.note(Rate::ALWAYS, behind..behind + 1, self.rows.len(), self.unknowns - signals);

@@ -3,7 +3,7 @@
 use super::{Diagram, Matrices, Row, Rule, Values};
 use crate::clock::Clock;
 use crate::complex::{doubled_matrix, has_unit};
-use crate::hold::{self, Enters, Held, Hold, MovingHold, Pulse};
+use crate::hold::{self, Enters, Held, Hold, MovingHold, Pulse, Pulses};
 use crate::multivariate::{Fraction, Multi};
 use crate::number::Q;
 use crate::over_symbols::substituted;
@@ -30,11 +30,7 @@ impl Diagram<'_, '_> {
             delay = Some(delay.map_or(Ok(own.clone()), |delay| delay.plus(&own, clock))?);
         }
         if time.is_none() && factor.is_none() {
-            time = self.sample_time.map(|t| self.scope.scalar(t)).transpose()?;
-            time = time.map(|time| self.scope.real(time)).transpose()?;
-            // A slower block has its own period.
-            let every = Fraction::number(&Q::from_integer(self.rate.every.into()));
-            time = time.map(|time| time.times(&every, clock)).transpose()?;
+            time = self.period()?;
         }
         if (frame.is_some() && method != "zoh") || (advance.is_some() && frame.is_none()) {
             return Err("only 'zoh' has a 'frame', and an 'advance' goes with it".into());
@@ -65,26 +61,24 @@ impl Diagram<'_, '_> {
             let ratio = delay.map_or(Ok(Q::zero()), |delay| ratio(&delay, &time, &values, clock))?;
             return Ok(Rule::Moving(MovingHold { is_first_order: method == "foh", time, ratio, pulses }));
         }
-        let time = numbered(&time, &values, clock)?;
         let delay = delay.map_or(Ok(Q::zero()), |delay| numbered(&delay, &values, clock))?;
         let number = |f: &Fraction| numbered(f, &values, clock);
-        let pulse = |pulse: &Option<Pulse<Fraction>>| {
-            let Some(Pulse { duty, edges }) = pulse else { return Ok(None) };
-            let duty = number(duty)?;
-            if duty <= Q::zero() || duty >= Q::one() {
-                return Err("the duty ratio of a modulator is not between 0 and 1".to_owned());
-            }
-            Ok(Some(Pulse { duty, edges: edges.iter().map(number).collect::<Result<_, _>>()? }))
-        };
-        let pulses = pulses.iter().map(pulse).collect::<Result<_, _>>()?;
-        Ok(Rule::Hold(Hold { is_first_order: method == "foh", time, delay, pulses }))
+        let pulses = numbered_pulses(&pulses, number)?;
+        Ok(Rule::Hold(Hold { is_first_order: method == "foh", time: number(&time)?, delay, pulses }))
+    }
+
+    /// The time between the samples of a block, if the loop has one: a slower block has its own.
+    fn period(&mut self) -> Result<Option<Fraction>, String> {
+        let Some(time) = self.sample_time else { return Ok(None) };
+        let time = self.scope.scalar(time).and_then(|time| self.scope.real(time))?;
+        time.times(&Fraction::number(&Q::from_integer(self.rate.every.into())), self.scope.clock).map(Some)
     }
 
     /// States of `num/den`: the companion matrix of the denominator.
     pub(super) fn realised(&self, num: &Multi, den: &Multi) -> Result<Matrices, String> {
         let clock = self.scope.clock;
         let Some(values) = self.values else { return Err("internal: a hold without values".into()) };
-        let whole = |m: &Multi| Fraction { numerator: m.clone(), denominator: Multi::one(), scalar: Multi::one() };
+        let whole = |m: &Multi| Fraction::from(m.clone());
         // Numbers, where only numbers can be in an exponential.
         let read = |c: &Multi| match self.scope.moving {
             Some(_) => Ok(whole(c)),
@@ -124,7 +118,7 @@ impl Diagram<'_, '_> {
         let in_parts = self.in_parts(a)?;
         let a = in_parts.as_deref().unwrap_or(a);
         let numbers = a.iter().map(|row| row.iter().map(number).collect()).collect::<Result<Vec<Vec<Q>>, _>>()?;
-        let of = hold::held(&numbers, inputs, hold, values.table, values.first, clock)?;
+        let of = hold::held(&numbers, inputs, hold, &values, clock)?;
         self.scope.divisors.extend(of.divisors.iter().filter(|m| !m.is_constant()).cloned());
         if in_parts.is_some() { self.joined(of) } else { Ok(of) }
     }
@@ -180,12 +174,16 @@ impl Diagram<'_, '_> {
     /// The rows of a block behind a hold: its states, then the past inputs it remembers.
     pub(super) fn held(
         &mut self,
-        [a, b, c, d]: Matrices,
+        matrices: Matrices,
         of: Held,
         inputs: &[Row],
         outputs: Range<usize>,
     ) -> Result<(), String> {
         let clock = self.scope.clock;
+        for &j in &of.on_edge {
+            is_smooth(&matrices, j, clock)?;
+        }
+        let [a, b, c, d] = matrices;
         let (n, m) = (a.len(), inputs.len());
         let (states, past) = (self.unknowns, self.unknowns + n);
         self.unknowns += n + of.past * m;
@@ -193,35 +191,15 @@ impl Diagram<'_, '_> {
         // Seen from a frame that turns: exp(ja) G(z exp(jwT)).
         let one = Fraction::number(&Q::one());
         let [turn, ahead] = self.frame.take().unwrap_or_else(|| [one.clone(), one]);
-        let mut entering = Vec::with_capacity(inputs.len());
-        for input in inputs {
-            let turned = |(k, c): (&usize, &Fraction)| Ok((*k, c.times(&ahead, clock)?));
-            entering.push(input.iter().map(turned).collect::<Result<Row, String>>()?);
-        }
-        let inputs = entering.as_slice();
+        let turned = |(k, c): (&usize, &Fraction)| Ok((*k, c.times(&ahead, clock)?));
+        let inputs =
+            inputs.iter().map(|input| input.iter().map(turned).collect()).collect::<Result<Vec<Row>, String>>()?;
         let later = turn.times(&Fraction::variable(0), clock)?;
-        let z = |k: i64| if k < 0 { later.clone() } else { Fraction::number(&Q::one()) };
-        let over = |m: &Multi| Fraction { numerator: m.clone(), denominator: Multi::one(), scalar: of.over.clone() };
-        // Adds a multiple of an input of some age.
-        let feed_aged = |diagram: &mut Self, row: &mut Row, factor: &Fraction, age: i64, j: usize| match age {
-            -1 | 0 => diagram.feed(row, &factor.times(&z(age), clock)?, &inputs[j]),
-            k => diagram.add(row, past + (k as usize - 1) * m + j, factor.clone()),
-        };
-        for &j in &of.on_edge {
-            for i in 0..outputs.len() {
-                let mut step = Fraction::number(&Q::zero());
-                for k in 0..n {
-                    step = step.plus(&c[i][k].times(&b[k][j], clock)?, clock)?;
-                }
-                if !step.numerator.is_zero() || !d[i][j].numerator.is_zero() {
-                    return Err("a sample stands on an edge of a pulse".into());
-                }
-            }
-        }
+        let aged = Aged { inputs, later: later.clone(), past };
+        let over = |m: &Multi| Fraction::over(m.clone(), of.over.clone());
         for i in 0..n {
             // z x - state x - sum matrix B u = 0
-            let mut row = Row::new();
-            row.insert(states + i, later.clone());
+            let mut row = Row::from([(states + i, later.clone())]);
             for j in 0..n {
                 self.add(&mut row, states + j, over(&of.state[i][j]).negated())?;
             }
@@ -229,7 +207,7 @@ impl Diagram<'_, '_> {
                 for &j in &enters.inputs {
                     for k in (0..n).filter(|&k| !enters.matrix[i][k].is_zero() && !b[k][j].numerator.is_zero()) {
                         let factor = over(&enters.matrix[i][k]).times(&b[k][j], clock)?.negated();
-                        feed_aged(self, &mut row, &factor, enters.age, j)?;
+                        self.feed_aged(&mut row, &factor, (enters.age, j), &aged)?;
                     }
                 }
             }
@@ -237,29 +215,72 @@ impl Diagram<'_, '_> {
         }
         for i in 0..of.past * m {
             // z p - (what came a sample later) = 0
-            let mut row = Row::new();
-            row.insert(past + i, later.clone());
-            let minus = Fraction::number(&-Q::one());
-            feed_aged(self, &mut row, &minus, (i / m) as i64, i % m)?;
+            let mut row = Row::from([(past + i, later.clone())]);
+            self.feed_aged(&mut row, &Fraction::number(&-Q::one()), ((i / m) as i64, i % m), &aged)?;
             self.rows.push(row);
         }
         for (i, output) in outputs.enumerate() {
             // y - C x - sum direct D u = 0
-            let mut row = Row::new();
-            row.insert(output, Fraction::number(&Q::one()));
-            for j in 0..n {
-                self.add(&mut row, states + j, c[i][j].clone().negated())?;
+            let mut row = Row::from([(output, Fraction::number(&Q::one()))]);
+            for (j, c) in c[i].iter().enumerate() {
+                self.add(&mut row, states + j, c.clone().negated())?;
             }
             for enters in of.enters.iter().filter(|enters| !enters.direct.is_zero()) {
                 for &j in enters.inputs.iter().filter(|&&j| !d[i][j].numerator.is_zero()) {
                     let factor = d[i][j].times(&Fraction::number(&-enters.direct.clone()), clock)?;
-                    feed_aged(self, &mut row, &factor, enters.age, j)?;
+                    self.feed_aged(&mut row, &factor, (enters.age, j), &aged)?;
                 }
             }
             self.rows.push(row);
         }
         Ok(())
     }
+
+    /// Adds a multiple of an input of some age.
+    fn feed_aged(&mut self, row: &mut Row, factor: &Fraction, (age, j): (i64, usize), of: &Aged) -> Result<(), String> {
+        match age {
+            -1 => self.feed(row, &factor.times(&of.later, self.scope.clock)?, &of.inputs[j]),
+            0 => self.feed(row, factor, &of.inputs[j]),
+            k => self.add(row, of.past + (k as usize - 1) * of.inputs.len() + j, factor.clone()),
+        }
+    }
+}
+
+/// Inputs at a sample, and what stands for a sample later; from an unknown on there are the inputs of the samples before.
+struct Aged {
+    inputs: Vec<Row>,
+    later: Fraction,
+    past: usize,
+}
+
+/// Refuses an input that steps at a sample, if an output steps with it.
+fn is_smooth([_, b, c, d]: &Matrices, input: usize, clock: &Clock) -> Result<(), String> {
+    for (row, direct) in c.iter().zip(d) {
+        let mut step = Fraction::number(&Q::zero());
+        for (c, b) in row.iter().zip(b) {
+            step = step.plus(&c.times(&b[input], clock)?, clock)?;
+        }
+        if !step.numerator.is_zero() || !direct[input].numerator.is_zero() {
+            return Err("a sample stands on an edge of a pulse".into());
+        }
+    }
+    Ok(())
+}
+
+/// The pulses of inputs with their numbers.
+fn numbered_pulses(
+    pulses: &Pulses<Fraction>,
+    number: impl Fn(&Fraction) -> Result<Q, String>,
+) -> Result<Pulses<Q>, String> {
+    let pulse = |pulse: &Option<Pulse<Fraction>>| {
+        let Some(Pulse { duty, edges }) = pulse else { return Ok(None) };
+        let duty = number(duty)?;
+        if duty <= Q::zero() || duty >= Q::one() {
+            return Err("the duty ratio of a modulator is not between 0 and 1".to_owned());
+        }
+        Ok(Some(Pulse { duty, edges: edges.iter().map(&number).collect::<Result<_, _>>()? }))
+    };
+    pulses.iter().map(pulse).collect()
 }
 
 fn method(how: &Toml) -> Result<&str, String> {

@@ -163,7 +163,7 @@ impl Diagram<'_, '_> {
                 let place = places[*unknown][(later % steps) as usize].ok_or("internal: a state has no unknown")?;
                 let turns = Multi::variable(0).power((later / steps) as u32, self.scope.clock)?;
                 let numerator = c.times(&turns, self.scope.clock)?;
-                let term = Fraction { numerator, denominator: Multi::one(), scalar: f.scalar.clone() };
+                let term = Fraction::over(numerator, f.scalar.clone());
                 let sum = match out.remove(&place) {
                     Some(known) => known.plus(&term, self.scope.clock)?,
                     None => term,

@@ -14,7 +14,7 @@ use crate::{Proved, Rejection, is_discrete};
 pub use judge::{ForAllJudge, Part};
 use num_traits::{One, Zero};
 pub(crate) use requirement::Requirement;
-pub(crate) use sentence::{at_values, wishes};
+pub(crate) use sentence::wishes;
 pub(crate) use walk::{axis, deeper, halves, line};
 
 /// So many names at most: axes, those for all, and the own ones of a requirement.

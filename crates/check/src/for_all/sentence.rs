@@ -4,12 +4,7 @@ use super::{Loops, Requirement, Told};
 use crate::map_boxes::{Walked, percent};
 use crate::number::Q;
 use crate::verdict;
-use crate::words::{exact, inward};
-
-/// `a = 1, b = 2`.
-pub(crate) fn at_values<'v>(values: impl Iterator<Item = (&'v String, &'v Q)>) -> String {
-    values.map(|(name, q)| format!("{name} = {}", exact(q))).collect::<Vec<_>>().join(", ")
-}
+use crate::words::{self, exact, inward};
 
 /// A phrase for each requirement.
 pub(crate) fn wishes(of: &Loops) -> Vec<String> {
@@ -33,7 +28,7 @@ impl Loops {
             ranges.map(|(name, [low, high])| format!("{name} from {} to {}", exact(low), exact(high))).collect();
         let every = if every.is_empty() { String::new() } else { format!("or all {}", every.join(" and ")) };
         let fixed = inner().filter(|(_, [low, high])| low == high).map(|(name, [low, _])| (name, low));
-        let values = at_values(fixed.chain(self.set.iter().map(|(name, q)| (name, q))));
+        let values = words::values(fixed.chain(self.set.iter().map(|(name, q)| (name, q))));
         let with_values = if values.is_empty() { String::new() } else { format!(", with {values}") };
         let yes = good(", with ");
         if axes.is_empty() {
@@ -86,7 +81,7 @@ impl Loops {
             }
         };
         if let Some(beyond) = &told.beyond {
-            let at = at_values(self.names.iter().zip(&beyond.point));
+            let at = words::values(self.names.iter().zip(&beyond.point));
             out += &if at.is_empty() { " It is not.".to_owned() } else { format!(" At {at}, it is not.") };
         }
         out

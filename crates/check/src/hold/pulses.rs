@@ -4,11 +4,11 @@
 //! `w T exp((1 - f) A T) B`, where `w` is its share of the edges: the derivative of `x(T)` by the place of the edge.
 
 use super::{Enters, Entries, Held, Hold, MovingHold, Numbers, Response, common_over, response, samples_of, scaled};
+use crate::blocks::Values;
 use crate::clock::Clock;
 use crate::moving::Moving;
 use crate::multivariate::{Fraction, Multi};
 use crate::number::Q;
-use crate::symbols::Table;
 use num_traits::{One, Zero};
 
 /// The pulse of an input: its duty ratio, and where its edges stand, in sample times.
@@ -31,8 +31,7 @@ pub(super) fn with_pulses(
     of: Option<Held>,
     a: &Numbers,
     hold: &Hold,
-    table: &Table,
-    first: usize,
+    values: &Values<'_>,
     clock: &Clock,
 ) -> Result<Held, String> {
     let (mut parts, mut enters, mut past, mut divisors) = (Vec::new(), Vec::new(), 0, Vec::new());
@@ -43,7 +42,7 @@ pub(super) fn with_pulses(
     }
     let mut flow = |share: Q| -> Result<(Entries, Multi), String> {
         let Response { parts: [state, ..], over } =
-            response(a, hold, &(share * &hold.time), table, first, &mut divisors, clock)?;
+            response(a, hold, &(share * &hold.time), values, &mut divisors, clock)?;
         Ok((state, over))
     };
     if parts.is_empty() {

@@ -14,14 +14,14 @@ use crate::multivariate::Multi;
 use crate::number::Q;
 use crate::over_box::{OverBox, common_factor, in_region, over_box};
 use crate::over_symbols::primitive;
-use crate::statement::{Extent, axes, bound, count, fixed_extent, list, object, polynomials, values};
+use crate::statement::{Domain, Extent, axes, count, fixed_extent, interval, list, object, polynomials, values};
 use crate::symbols::Table;
-use crate::words::{exact, outward};
-use crate::{Proved, Rejection, Step, is_discrete, verdict};
+use crate::words::{exact, outward, with_values};
+use crate::{Proved, Rejection, Step, is_discrete, is_same_time, verdict};
 use isolation::Place;
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use strips::{Curve, Domain, Strips, covered, in_y, walls};
+use strips::{Curve, Strips, covered, in_y, walls};
 
 struct Statement {
     discrete: bool,
@@ -49,7 +49,14 @@ impl Statement {
             };
             cells.push(list(region, "a region")?.iter().map(cell).collect::<Result<Vec<_>, _>>()?);
         }
-        Ok(Statement { discrete, names, set: values(set)?, extent, domain: [ends(x)?, ends(y)?], regions: cells })
+        Ok(Statement {
+            discrete,
+            names,
+            set: values(set)?,
+            extent,
+            domain: [interval(x)?, interval(y)?],
+            regions: cells,
+        })
     }
 
     fn in_words(&self, places: &[Place]) -> String {
@@ -63,9 +70,7 @@ impl Statement {
                 (Some(l), Some(u)) => write!(out, "{and}{name} in ({}, {})", exact(l), exact(u)),
             };
         }
-        for (i, (name, value)) in self.set.iter().enumerate() {
-            let _ = write!(out, "{}{name} = {}", if i == 0 { ", with " } else { ", " }, exact(value));
-        }
+        out.push_str(&with_values(&self.set));
         let within = verdict::within(&self.extent, self.discrete);
         if self.regions.is_empty() {
             let _ = write!(out, ", the loop is stable{within} nowhere off its boundary curves.");
@@ -98,25 +103,13 @@ impl Statement {
     }
 }
 
-/// An open interval that is not empty.
-fn ends(json: &Json) -> Result<Domain, String> {
-    let [lower, upper] = object(json, "'domain'", ["lower", "upper"], &[])?;
-    let (lower, upper) = (bound(lower, "'lower'")?, bound(upper, "'upper'")?);
-    match (&lower, &upper) {
-        (Some(l), Some(u)) if l >= u => Err("the domain is empty".to_owned()),
-        _ => Ok((lower, upper)),
-    }
-}
-
 pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -> Result<Proved, Rejection> {
     let keys = ["schema", "statement", "characteristic", "boundary", "factors", "x_factors", "strips", "joins"];
     let [_, _, characteristic, boundary, factors, x_factors, strips, joins] =
         Step::Format.of(object(json, "the certificate", keys, &["model"]))?;
     let s = Step::Statement.of(Statement::read(statement))?;
     let own = Step::Model.of(over_box(model, &s.names, &s.set, &Table::empty(), clock))?;
-    if own.discrete != s.discrete {
-        return Err(Rejection { step: Step::Model, reason: "the model's time is not that of the statement".into() });
-    }
+    Step::Model.of(is_same_time(own.discrete, s.discrete))?;
     let read = |json: &Json, _: &str| polynomial(json, s.names.len());
     let given = Step::Characteristic.of(polynomials(characteristic, "'characteristic'", read))?;
     let common = Step::Characteristic.of(common(&given, &own, &s, clock))?;

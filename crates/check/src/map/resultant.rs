@@ -2,9 +2,10 @@
 
 use super::bounds::Frame;
 use super::residues::Modulus;
+use crate::characteristic::primitive;
 use crate::clock::Clock;
 use crate::number::Z;
-use crate::univariate::{Uni, gcd_of};
+use crate::univariate::Uni;
 use num_traits::{One, Signed, Zero};
 
 /// Resultants of a higher degree are refused.
@@ -23,7 +24,7 @@ const ZEROS: usize = 3;
 /// modulo one number at as many integers as `R` has coefficients, where no leading coefficient vanishes. So `R = c W` modulo
 /// the product of all moduli, with `c` known by its residues, and in integers where that product is above the sum of what `R` and `c W` can be.
 pub(super) fn is_product(f: &[Uni], g: &[Uni], factors: &[Uni], clock: &Clock) -> Result<bool, String> {
-    let pair = Pair { f: primitive(f, clock)?, g: primitive(g, clock)? };
+    let pair = Pair { f: primitive(f.to_vec(), clock)?, g: primitive(g.to_vec(), clock)? };
     count_frame(&pair, clock)?;
     let Some(frame) = Frame::of(&pair.f, &pair.g, clock)? else { return Ok(false) };
     if frame.lowest + frame.count > MAX_DEGREE {
@@ -32,30 +33,8 @@ pub(super) fn is_product(f: &[Uni], g: &[Uni], factors: &[Uni], clock: &Clock) -
     if frame.bits > MAX_BITS {
         return Err("a resultant is too long".into());
     }
-    let mut next = 1 << 60;
-    let mut following = || -> Result<Modulus, String> {
-        let modulus = Modulus::below(next).ok_or("a resultant is too long")?;
-        next = modulus.value;
-        Ok(modulus)
-    };
-    let mut zeros = 0;
-    let powers = loop {
-        let modulus = following()?;
-        let image = Image::of(&pair, factors, &modulus);
-        let Some(image) = image else { continue };
-        let Some(residues) = image.coefficients(&frame, clock)? else { continue };
-        if residues.is_empty() {
-            zeros += 1;
-            if zeros == ZEROS {
-                return Ok(false);
-            }
-            continue;
-        }
-        match image.powers(residues, clock)? {
-            Some(powers) => break powers,
-            None => return Ok(false),
-        }
-    };
+    let mut moduli = Moduli { next: 1 << 60 };
+    let Some(powers) = powers_of(&pair, factors, &frame, &mut moduli, clock)? else { return Ok(false) };
     let product = Product::of(factors, powers);
     // Of both a multiple of the same power of `x`, and of no higher degree, there are as many coefficients as values.
     if product.order(factors) < frame.lowest || product.degree(factors) >= frame.lowest + frame.count {
@@ -64,9 +43,8 @@ pub(super) fn is_product(f: &[Uni], g: &[Uni], factors: &[Uni], clock: &Clock) -
     let largest = Z::one() << frame.bits;
     let mut quotient = Residues::default();
     loop {
-        let modulus = following()?;
-        let image = Image::of(&pair, factors, &modulus);
-        let Some(image) = image else { continue };
+        let modulus = moduli.following()?;
+        let Some(image) = Image::of(&pair, factors, &modulus) else { continue };
         let residue = match image.ratio(&product, &frame, clock)? {
             Ratio::Unknown => continue,
             Ratio::None => return Ok(false),
@@ -87,13 +65,38 @@ pub(super) fn is_product(f: &[Uni], g: &[Uni], factors: &[Uni], clock: &Clock) -
     }
 }
 
-/// Without an integer that divides all coefficients.
-fn primitive(p: &[Uni], clock: &Clock) -> Result<Vec<Uni>, String> {
-    let content = gcd_of(p.iter().flat_map(|c| &c.0), clock)?;
-    if content.is_zero() || content.is_one() {
-        return Ok(p.to_vec());
+/// Moduli, descending.
+struct Moduli {
+    next: u64,
+}
+
+impl Moduli {
+    fn following(&mut self) -> Result<Modulus, String> {
+        let modulus = Modulus::below(self.next).ok_or("a resultant is too long")?;
+        self.next = modulus.value;
+        Ok(modulus)
     }
-    Ok(p.iter().map(|c| Uni(c.0.iter().map(|c| c / &content).collect())).collect())
+}
+
+/// How often each factor divides the resultant, looked up modulo one number; `None` where they do not make it up, or where it counts as zero.
+fn powers_of(
+    pair: &Pair,
+    factors: &[Uni],
+    frame: &Frame,
+    moduli: &mut Moduli,
+    clock: &Clock,
+) -> Result<Option<Vec<usize>>, String> {
+    let mut zeros = 0;
+    while zeros < ZEROS {
+        let modulus = moduli.following()?;
+        let Some(image) = Image::of(pair, factors, &modulus) else { continue };
+        match image.coefficients(frame, clock)? {
+            Some(residues) if residues.is_empty() => zeros += 1,
+            Some(residues) => return image.powers(residues, clock),
+            None => {}
+        }
+    }
+    Ok(None)
 }
 
 /// The work of the bounds of a resultant: rows times columns, and a square for each entry.

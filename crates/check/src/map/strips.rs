@@ -10,12 +10,9 @@ use crate::multivariate::Multi;
 use crate::number::{Q, Z};
 use crate::over_box::FIRST;
 use crate::roots::{is_hurwitz, is_schur};
-use crate::statement::{count, list, number, object};
+use crate::statement::{Domain, count, list, number, object};
 use crate::univariate::Uni;
 use num_traits::One;
-
-/// The ends of an interval; `None` where it does not end.
-pub(super) type Domain = (Option<Q>, Option<Q>);
 
 /// A curve: its polynomial's coefficients in `y` from the constant term up, polynomials in `x`.
 pub(super) type Curve = Vec<Uni>;

@@ -17,7 +17,7 @@ use crate::over_symbols::primitive;
 use crate::statement::Extent;
 use crate::taylor::{Precision, Taylor};
 use headings::{Headings, Piece, push_clear, roots_to_the_right};
-use local::{FREQUENCY_BITS, Local, Part};
+use local::{FREQUENCY_BITS, Local, Part, Stretch};
 use num_traits::{Signed, Zero};
 use std::ops::{Range, RangeInclusive};
 pub(crate) use terms::is_long;
@@ -387,7 +387,7 @@ impl Walk<'_> {
         let vectors = 2 + self.votes[0].len();
         let operations = 250 + 15 * vectors * (self.judge.order + 1) * self.parts.len();
         self.clock.spend(operations, bits as u64, FREQUENCY_BITS as u64)?;
-        Ok(Local::new(self.parts, middle, half, &self.judge.turns, bits))
+        Ok(Local::new(self.parts, &Stretch { middle, half, turns: &self.judge.turns, bits }))
     }
 
     fn axis(&self) -> Option<usize> {

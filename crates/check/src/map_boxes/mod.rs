@@ -14,7 +14,7 @@ use crate::multivariate::Multi;
 use crate::number::Q;
 use crate::over_box::FIRST;
 use crate::statement::{Extent, axes, count, fixed_extent, list, number, object, text, values};
-use crate::words::{exact, inward};
+use crate::words::{inward, with_values};
 use crate::{Proved, Rejection, Step, is_discrete, verdict};
 pub(crate) use delayed::is_long;
 pub use judge::BoxJudge;
@@ -103,10 +103,9 @@ impl Statement {
             let [low, high] = inward(low, high);
             let _ = write!(out, "{}{name} from {low} to {high}", if i == 0 { "" } else { " and " });
         }
-        let one = self.is_line().then(|| (&names[1], &window[1][0]));
-        for (i, (name, value)) in one.into_iter().chain(set.iter().map(|(name, q)| (name, q))).enumerate() {
-            let _ = write!(out, "{}{name} = {}", if i == 0 { ", with " } else { ", " }, exact(value));
-        }
+        let one = self.is_line().then(|| (names[1].clone(), window[1][0].clone()));
+        let set: Vec<(String, Q)> = one.into_iter().chain(set.iter().cloned()).collect();
+        out.push_str(&with_values(&set));
         let within = verdict::within(extent, *discrete);
         if self.is_line() {
             let name = &names[0];
@@ -235,16 +234,14 @@ impl BoxJudge {
         for letter in self.statement().tree.chars() {
             Step::Line.of(self.clock().tick())?;
             let Some((mut cell, depth)) = stack.pop() else {
-                return Err(Rejection { step: Step::Line, reason: "something follows the tree".into() });
+                return Step::Line.fails("something follows the tree");
             };
             let share = || Q::new_raw(One::one(), num_bigint::BigInt::one() << depth);
             match letter {
-                'y' if is_line => {
-                    return Err(Rejection { step: Step::Line, reason: "a side without a width is halved".into() });
-                }
+                'y' if is_line => return Step::Line.fails("a side without a width is halved"),
                 'x' | 'y' => {
                     if depth >= MAX_DEPTH {
-                        return Err(Rejection { step: Step::Line, reason: "the tree is too deep".into() });
+                        return Step::Line.fails("the tree is too deep");
                     }
                     let [low, high] = Step::Line.of(self.halved(&mut cell, usize::from(letter == 'y')))?;
                     stack.extend([(high, depth + 1), (low, depth + 1)]);
@@ -259,15 +256,9 @@ impl BoxJudge {
                     }
                 }
                 '?' => walked.shares[2] += share(),
-                other => {
-                    let reason = format!("'{}' is no part of a tree", other.escape_debug());
-                    return Err(Rejection { step: Step::Line, reason });
-                }
+                other => return Step::Line.fails(format!("'{}' is no part of a tree", other.escape_debug())),
             }
         }
-        if stack.is_empty() {
-            return Ok(walked);
-        }
-        Err(Rejection { step: Step::Line, reason: "the tree ends too early".into() })
+        if stack.is_empty() { Ok(walked) } else { Step::Line.fails("the tree ends too early") }
     }
 }

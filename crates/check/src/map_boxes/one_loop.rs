@@ -8,7 +8,7 @@ use crate::clock::Clock;
 use crate::model::{Boxed, Functions};
 use crate::number::{Q, Z};
 use crate::over_box::{By, FIRST, with_sources};
-use crate::{Rejection, Step, toml};
+use crate::{Rejection, Step, is_same_time, toml};
 use std::fmt;
 
 /// A loop over a window.
@@ -74,15 +74,12 @@ impl OneLoop {
             false => By::Expansion,
         };
         if of.factor.as_ref().is_some_and(|f| f.family.is_complex()) && matches!(by, By::Enclosures { .. }) {
-            let reason = "a requirement of a loop with several rates has no certificate, but for a gain margin".into();
-            return Err(Rejection { step: Step::Model, reason });
+            let reason = "a requirement of a loop with several rates has no certificate, but for a gain margin";
+            return Step::Model.fails(reason);
         }
         let asked = Boxed { names: &of.names, set: &of.set, factor: of.factor.as_ref() };
         let (own, sources) = Step::Model.of(with_sources(model, asked, Functions::Moving, by, clock))?;
-        if own.discrete != of.discrete {
-            let reason = "the model's time is not that of the statement".into();
-            return Err(Rejection { step: Step::Model, reason });
-        }
+        Step::Model.of(is_same_time(own.discrete, of.discrete))?;
         let below = if sources.have_dead_time() { FIRST + of.window.len() } else { usize::MAX };
         let own = match by {
             By::Expansion => Step::Model.of(clock.reading(|| own.without_common(below, clock)))?,

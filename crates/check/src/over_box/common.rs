@@ -27,7 +27,7 @@ impl OverBox {
         }
         let both = self.coefficients.iter_mut().chain(self.imaginary.iter_mut().flatten());
         for c in both.filter(|c| !c.is_zero()) {
-            *c = c.divided(&common, clock)?.ok_or("internal: a gcd does not divide")?;
+            *c = c.quotient(&common, clock)?;
         }
         // The last divisor has a meaning of its own.
         self.divisors.insert(0, vec![common]);

@@ -49,8 +49,7 @@ impl TuneJudge {
     pub(super) fn of(model: &str, statement: Statement, parts: &Parts, clock: Clock) -> Result<Self, Rejection> {
         let of = ForAllJudge::of(model, statement.asked.clone(), parts, clock)?;
         if of.of_number(0).is_enclosed && matches!(statement.objective, Objective::Level(Level::Region(_))) {
-            let reason = "the radius of a loop of several rates has no certificate".into();
-            return Err(Rejection { step: Step::Model, reason });
+            return Step::Model.fails("the radius of a loop of several rates has no certificate");
         }
         Ok(TuneJudge { statement, of })
     }

@@ -191,7 +191,7 @@ impl TuneJudge {
             match letters.next().ok_or_else(|| line("the tree ends too early"))? {
                 'o' => {
                     if !Step::Stable.of(of.objective.is_worse(&cell, loops.clock()))? {
-                        return Err(Rejection { step: Step::Stable, reason: "a leaf 'o' is not shown".into() });
+                        return Step::Stable.fails("a leaf 'o' is not shown");
                     }
                 }
                 '-' => loops.refutation(&cell, of.refutable(), &mut letters)?,
@@ -224,10 +224,7 @@ impl TuneJudge {
         if let Objective::Formula { formula, .. } = &self.statement().objective
             && formula.at(&found.point).is_none()
         {
-            return Err(Rejection {
-                step: Step::Stable,
-                reason: "what is to be best is undefined where gains are found".into(),
-            });
+            return Step::Stable.fails("what is to be best is undefined where gains are found");
         }
         let point: Vec<[Q; 2]> = found.point.iter().map(|x| [x.clone(), x.clone()]).collect();
         let mut letters = found.proof.chars();

@@ -2,11 +2,11 @@
 
 use super::objective::{Level, Polynomial};
 use super::{Objective, Statement};
-use crate::for_all::{at_values, wishes};
+use crate::for_all::wishes;
 use crate::number::Q;
 use crate::statement::Extent;
 use crate::verdict;
-use crate::words::exact;
+use crate::words::{self, exact};
 use num_traits::{One, Signed};
 
 impl Statement {
@@ -22,7 +22,7 @@ impl Statement {
             }
             Objective::None | Objective::Level(_) => String::new(),
         };
-        let set = at_values(of.set.iter().map(|(name, q)| (name, q)));
+        let set = words::values(of.set.iter().map(|(name, q)| (name, q)));
         let set = if set.is_empty() { set } else { format!(", with {set}") };
         let within = verdict::within(&of.each[0].extent, of.discrete);
         let mut wishes = wishes(of);
@@ -37,7 +37,7 @@ impl Statement {
 
     fn found_in_words(&self) -> String {
         let Some(found) = &self.found else { return String::new() };
-        let at = at_values(self.asked.names.iter().zip(&found.point));
+        let at = words::values(self.asked.names.iter().zip(&found.point));
         match (&self.objective, &found.level) {
             (Objective::Formula { formula, .. }, _) => {
                 let value = formula.at(&found.point).map_or_else(String::new, |value| exact(&value));

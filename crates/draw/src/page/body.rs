@@ -48,24 +48,8 @@ pub fn body_page(
         [] => "Every other quantity has its value in the model.".to_owned(),
         set => format!("With {}.", named_values(set)),
     };
-    let (first, legend) = (first_shown(answer), common_legend(contents));
-    let (mut pictures, mut known) = (String::new(), Vec::new());
-    for (k, (slice, contents)) in slices.iter().zip(contents).enumerate() {
-        let name = slice_name(answer, &slice.value);
-        let (inside, data) = match (contents, &slice.map) {
-            (Some(contents), Ok(map)) => {
-                let figures = sizes.map(|(width, height)| contents.draw_under(width, height, &legend));
-                (drawn(&figures, k), slice_data(&name, map, contents, &figures, budget)?)
-            }
-            (_, Err(stopped)) => {
-                (format!("<p>{}</p>", escaped(&format!("{name} is not decided: {stopped}"))), Value::Null)
-            }
-            (None, Ok(_)) => panic!("a slice that is decided has its contents"),
-        };
-        let hidden = if k == first { "" } else { " hidden" };
-        pictures.push_str(&format!("<div class=\"slice\"{hidden}>{inside}</div>\n"));
-        known.push(data);
-    }
+    let first = first_shown(answer);
+    let (pictures, known) = drawn_slices(answer, contents, (sizes, first), budget)?;
     let shown: Vec<String> = slices.iter().map(|slice| slice_name(answer, &slice.value)).collect();
     let axes = known.iter().find_map(|slice| slice.get("axes")).cloned();
     let data = json!({
@@ -105,6 +89,34 @@ pub fn body_page(
         certain = certain(slices.iter().filter_map(|slice| slice.map.as_ref().ok())),
     );
     Ok(document(&title, &format!("{}{SLICES_STYLE}", style()), &body, true))
+}
+
+/// The pictures of all slices, of which one is shown, and what the script needs of each.
+fn drawn_slices(
+    answer: &Answer<Body>,
+    contents: &[Option<MapContents<'_>>],
+    (sizes, first): ([(f64, f64); 2], usize),
+    budget: &Budget,
+) -> Result<(String, Vec<Value>), Error> {
+    let legend = common_legend(contents);
+    let (mut pictures, mut known) = (String::new(), Vec::new());
+    for (k, (slice, contents)) in answer.value().slices.iter().zip(contents).enumerate() {
+        let name = slice_name(answer, &slice.value);
+        let (inside, data) = match (contents, &slice.map) {
+            (Some(contents), Ok(map)) => {
+                let figures = sizes.map(|(width, height)| contents.draw_under(width, height, &legend));
+                (drawn(&figures, k), slice_data(&name, map, contents, &figures, budget)?)
+            }
+            (_, Err(stopped)) => {
+                (format!("<p>{}</p>", escaped(&format!("{name} is not decided: {stopped}"))), Value::Null)
+            }
+            (None, Ok(_)) => panic!("a slice that is decided has its contents"),
+        };
+        let hidden = if k == first { "" } else { " hidden" };
+        pictures.push_str(&format!("<div class=\"slice\"{hidden}>{inside}</div>\n"));
+        known.push(data);
+    }
+    Ok((pictures, known))
 }
 
 /// The picture of a slice for wide and for narrow screens, with names of its own in the page.

@@ -67,34 +67,13 @@ pub(super) fn section(
     if is_required {
         html.push_str(&paragraph("These are of stability; nothing certifies what <code>[require]</code> asks for."));
     }
-    let check = request.check;
-    let mut lines = Vec::new();
-    let mut head = vec!["certificate", "size"];
-    head.extend(check.is_some().then_some("the independent check says"));
-    let mut table = Table::new("Certificates of this report's answers", &head);
-    let mut add = |what: String, file: String, line: String, text: Part<(String, Option<String>)>| {
-        let mut row = vec![what];
-        match text {
-            Err(missing) => row.extend([missing.sentence(), String::new()]),
-            Ok((text, share)) => {
-                lines.extend([line, commands.verify(&file)]);
-                let share = share.map(|share| format!("; {share}")).unwrap_or_default();
-                row.push(format!("{} bytes{share}", text.len()));
-                row.extend(check.map(|check| match check(&text) {
-                    Ok(()) => "accepted".to_owned(),
-                    Err(why) => format!("not accepted: {why}"),
-                }));
-            }
-        }
-        row.truncate(head.len());
-        table.rows.push(row);
-    };
+    let mut listed = Listed::new(commands, request);
     if let Ok(answer) = verdict {
         let text = parts
             .part("certificate of the verdict", Work::Units(WORK), |budget| Ok((answer.certificate(budget)?, None)));
         let file = "verdict.json".to_owned();
         let line = commands.line("verdict", &[alone(is_required), &["--certificate", &file]].concat());
-        add("the verdict".to_owned(), file, line, text);
+        listed.add("the verdict".to_owned(), file, line, text);
     }
     let share = Work::Units(WORK / limits.len().max(1) as u64);
     for one in limits {
@@ -106,16 +85,60 @@ pub(super) fn section(
         let file = format!("{}.json", one.name);
         let options = ["--param", &one.name, "--certificate", &file];
         let line = commands.line("intervals", &[alone(is_required), &options].concat());
-        add(format!("all limits of {}", one.name), file, line, text);
+        listed.add(format!("all limits of {}", one.name), file, line, text);
     }
-    if !table.rows.is_empty() {
-        html.push_str(&table.html());
+    html + &listed.html()
+}
+
+/// The text of a certificate, and how much it speaks of where that is not all.
+type Certificate = (String, Option<String>);
+
+/// A table of certificates, and the lines that write and check them.
+struct Listed<'a> {
+    commands: &'a Commands<'a>,
+    request: &'a ReportRequest<'a>,
+    table: Table,
+    lines: Vec<String>,
+}
+
+impl<'a> Listed<'a> {
+    fn new(commands: &'a Commands<'a>, request: &'a ReportRequest<'a>) -> Self {
+        let mut head = vec!["certificate", "size"];
+        head.extend(request.check.is_some().then_some("the independent check says"));
+        let table = Table::new("Certificates of this report's answers", &head);
+        Listed { commands, request, table, lines: Vec::new() }
     }
-    if !lines.is_empty() {
-        let shown: Vec<String> = lines.iter().map(|line| escaped(line)).collect();
-        html.push_str(&format!("<pre>{}</pre>\n", shown.join("\n")));
+
+    fn add(&mut self, what: String, file: String, line: String, text: Part<Certificate>) {
+        let mut row = vec![what];
+        match text {
+            Err(missing) => {
+                row.extend([missing.sentence()].into_iter().chain(self.request.check.map(|_| String::new())))
+            }
+            Ok((text, share)) => {
+                self.lines.extend([line, self.commands.verify(&file)]);
+                let share = share.map(|share| format!("; {share}")).unwrap_or_default();
+                row.push(format!("{} bytes{share}", text.len()));
+                row.extend(self.request.check.map(|check| match check(&text) {
+                    Ok(()) => "accepted".to_owned(),
+                    Err(why) => format!("not accepted: {why}"),
+                }));
+            }
+        }
+        self.table.rows.push(row);
     }
-    html
+
+    fn html(&self) -> String {
+        let mut html = String::new();
+        if !self.table.rows.is_empty() {
+            html.push_str(&self.table.html());
+        }
+        if !self.lines.is_empty() {
+            let shown: Vec<String> = self.lines.iter().map(|line| escaped(line)).collect();
+            html.push_str(&format!("<pre>{}</pre>\n", shown.join("\n")));
+        }
+        html
+    }
 }
 
 #[cfg(test)]

@@ -29,11 +29,6 @@ impl Exponential {
         Exponential { matrix, norm }
     }
 
-    /// `A`.
-    pub fn matrix(&self) -> &DMatrix<f64> {
-        &self.matrix
-    }
-
     /// The state after `t >= 0`, starting at `x`, under the constant drive `b`.
     ///
     /// The series of the matrix exponential is summed until its terms no longer change the sum, in

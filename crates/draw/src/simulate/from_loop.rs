@@ -181,33 +181,7 @@ impl SwitchedModel {
             let message = format!("the switched simulation has no dead time for '{}'", late.name);
             return Err(simulation_error(message).into());
         }
-        let value = |e: &Expression| model.value(e, problem.set(), budget);
-        let (mut period, mut sources): (Option<Rational>, Vec<Pwm>) = (None, Vec::new());
-        for block in &parts.sources {
-            let Some(pwm) = &block.pwm else { continue };
-            let this = value(&pwm.period)?;
-            if period.as_ref().is_some_and(|p| *p != this) {
-                return Err(simulation_error("all modulators need the same period").into());
-            }
-            period = Some(this);
-            let amplitude = value(&pwm.amplitude)?;
-            if amplitude.is_zero() {
-                return Err(simulation_error(format!("the pulses of '{}' have no height", block.name)).into());
-            }
-            sources.push(Pwm {
-                name: block.outputs[0].name.clone(),
-                amplitude: amplitude.to_f64_approximate(),
-                carrier: value(&pwm.carrier)?.to_f64_approximate(),
-                pulse: parts.pulse(&block.outputs[0].name, pulse)?,
-            });
-        }
-        let period = period.ok_or_else(|| Error::from(simulation_error("no block has a 'pwm' entry")))?;
-        let sample_time = |e| model.value(e, problem.set(), budget);
-        if let Some(time) = model.sample_time_expression().map(sample_time).transpose()?
-            && time != period
-        {
-            return Err(simulation_error("the modulators' period is not the sample time").into());
-        }
+        let (period, sources) = parts.modulators(problem, pulse, budget)?;
         let (r, m) = (diagram.inputs.len(), sources.len());
         let part = |diagram: Diagram, time: Time| {
             let part = model.with_diagram(diagram, time);
@@ -217,7 +191,6 @@ impl SwitchedModel {
         };
         let (plant, in_plant) = part(parts.plant(diagram), Time::Continuous)?;
         let (sampled, in_sampled) = part(parts.controller(diagram), Time::Discrete)?;
-        let signals = plant.outputs.len();
         let [a, e, c, d] = [&plant.a, &plant.e, &plant.c, &plant.d].map(|m| rounded(m, &in_plant));
         let (a, e, c, d) = (a?, e?, c?, d?);
         let held = e.ncols() - r - m;
@@ -226,19 +199,7 @@ impl SwitchedModel {
                 and must not pass a modulator's pulses on at once";
             return Err(simulation_error(message).into());
         }
-        let [f, g, h, k] = [&sampled.a, &sampled.e, &sampled.c, &sampled.d].map(|m| rounded(m, &in_sampled));
-        let (f, g, h, k) = (f?, g?, h?, k?);
-        // Inputs of the sampled part: external, the continuous signals.
-        let (gy, ky) = (g.columns(r, signals), k.columns(r, signals));
-        let direct = d.columns(0, r);
-        let controller = Controller {
-            from_plant: gy * &c,
-            from_input: g.columns(0, r) + gy * direct,
-            direct_plant: ky * &c,
-            direct_input: k.columns(0, r) + ky * direct,
-            transition: f,
-            output: h,
-        };
+        let controller = controller(&sampled, &in_sampled, &c, &d.columns(0, r).into_owned())?;
         let mut plant_states = plant.states.clone();
         for (row, name) in plant.outputs.iter().enumerate() {
             if let Some(j) = unit_position(c.row(row).iter().copied()) {
@@ -266,7 +227,66 @@ impl SwitchedModel {
     }
 }
 
+/// The sampled part: `direct` is what passes from the external inputs to the continuous signals at once.
+fn controller(
+    sampled: &ClosedLoop,
+    symbols: &[f64],
+    c: &DMatrix<f64>,
+    direct: &DMatrix<f64>,
+) -> Result<Controller, Error> {
+    let [f, g, h, k] = [&sampled.a, &sampled.e, &sampled.c, &sampled.d].map(|m| rounded(m, symbols));
+    let (f, g, h, k) = (f?, g?, h?, k?);
+    // Inputs of the sampled part: external, the continuous signals.
+    let (r, signals) = (direct.ncols(), c.nrows());
+    let (gy, ky) = (g.columns(r, signals), k.columns(r, signals));
+    Ok(Controller {
+        from_plant: gy * c,
+        from_input: g.columns(0, r) + gy * direct,
+        direct_plant: ky * c,
+        direct_input: k.columns(0, r) + ky * direct,
+        transition: f,
+        output: h,
+    })
+}
+
 impl<'m> Parts<'m> {
+    /// The period of all modulators, which is the sample time, and what they do.
+    fn modulators(
+        &self,
+        problem: &Problem,
+        pulse: Option<Pulse>,
+        budget: &Budget,
+    ) -> Result<(Rational, Vec<Pwm>), Error> {
+        let model = problem.model();
+        let value = |e: &Expression| model.value(e, problem.set(), budget);
+        let (mut period, mut sources): (Option<Rational>, Vec<Pwm>) = (None, Vec::new());
+        for block in &self.sources {
+            let Some(pwm) = &block.pwm else { continue };
+            let this = value(&pwm.period)?;
+            if period.as_ref().is_some_and(|p| *p != this) {
+                return Err(simulation_error("all modulators need the same period").into());
+            }
+            period = Some(this);
+            let amplitude = value(&pwm.amplitude)?;
+            if amplitude.is_zero() {
+                return Err(simulation_error(format!("the pulses of '{}' have no height", block.name)).into());
+            }
+            sources.push(Pwm {
+                name: block.outputs[0].name.clone(),
+                amplitude: amplitude.to_f64_approximate(),
+                carrier: value(&pwm.carrier)?.to_f64_approximate(),
+                pulse: self.pulse(&block.outputs[0].name, pulse)?,
+            });
+        }
+        let period = period.ok_or_else(|| Error::from(simulation_error("no block has a 'pwm' entry")))?;
+        if let Some(time) = model.sample_time_expression().map(value).transpose()?
+            && time != period
+        {
+            return Err(simulation_error("the modulators' period is not the sample time").into());
+        }
+        Ok((period, sources))
+    }
+
     fn of(diagram: &'m Diagram) -> Result<Self, Diagnostics> {
         let mut parts = Parts { sources: Vec::new(), continuous: Vec::new(), sampled: Vec::new() };
         for block in &diagram.blocks {

@@ -171,11 +171,11 @@ impl Family {
             let found = match &self.constants {
                 None => {
                     let plain = |p: &MultiPoly| p.to_univariate(0).expect("one variable is left");
-                    quotients(&Integers, &plain(&above), &plain(&below), end, &self.value, self.shape, budget)?
+                    self.quotients(&Integers, &plain(&above), &plain(&below), end, budget)?
                 }
                 Some(constants) => {
                     let over = |p: &MultiPoly| p.as_poly_in(0).map(|c| c.map_variables(|i| i.saturating_sub(2)));
-                    quotients(constants, &over(&above), &over(&below), end, &self.value, self.shape, budget)?
+                    self.quotients(constants, &over(&above), &over(&below), end, budget)?
                 }
             };
             if found.is_some() {
@@ -184,27 +184,26 @@ impl Family {
         }
         Ok(None)
     }
-}
 
-/// `above/below` at a limit, and the same times the name's value over the limit; `None` where `below` is zero there.
-fn quotients<G: Ground>(
-    ground: &G,
-    above: &Poly<G::Number>,
-    below: &Poly<G::Number>,
-    end: &End,
-    value: &Rational,
-    shape: Shape,
-    budget: &Budget,
-) -> Result<Option<(Real, Option<Real>)>, Exhausted> {
-    let place = Place::Inside(end.value.clone());
-    let at = |a: &Poly<G::Number>, b: &Poly<G::Number>| -> Result<Option<Real>, Exhausted> {
-        let found: Option<Value> = ground.value(a, b, &place, shape.into(), budget)?;
-        found.map(|found| found.number(budget)).transpose()
-    };
-    let Some(derivative) = at(above, below)? else { return Ok(None) };
-    let number = |n: Integer| G::Number::from_integer(&n);
-    let scaled = above.scaled(&number(value.numerator()));
-    let by_limit = below.shifted_up(1).scaled(&number(value.denominator()));
-    let relative = if end.value.sign().is_eq() { None } else { at(&scaled, &by_limit)? };
-    Ok(Some((derivative, relative)))
+    /// `above/below` at a limit, and the same times the name's value over the limit; `None` where `below` is zero there.
+    fn quotients<G: Ground>(
+        &self,
+        ground: &G,
+        above: &Poly<G::Number>,
+        below: &Poly<G::Number>,
+        end: &End,
+        budget: &Budget,
+    ) -> Result<Option<(Real, Option<Real>)>, Exhausted> {
+        let place = Place::Inside(end.value.clone());
+        let at = |a: &Poly<G::Number>, b: &Poly<G::Number>| -> Result<Option<Real>, Exhausted> {
+            let found: Option<Value> = ground.value(a, b, &place, self.shape.into(), budget)?;
+            found.map(|found| found.number(budget)).transpose()
+        };
+        let Some(derivative) = at(above, below)? else { return Ok(None) };
+        let number = |n: Integer| G::Number::from_integer(&n);
+        let scaled = above.scaled(&number(self.value.numerator()));
+        let by_limit = below.shifted_up(1).scaled(&number(self.value.denominator()));
+        let relative = if end.value.sign().is_eq() { None } else { at(&scaled, &by_limit)? };
+        Ok(Some((derivative, relative)))
+    }
 }

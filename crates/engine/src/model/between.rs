@@ -1,12 +1,12 @@
 //! The closed loop between two signals.
 
-use super::closed_loop::{Answer, ClosedLoop};
+use super::closed_loop::ClosedLoop;
 use super::definition::Model;
+use super::evaluated::Answer;
 use super::open_loop::Opened;
 use crate::coverage::refusals::COMPLEX;
 use crate::error::{Code, Diagnostic, Error};
 use jurist_algebra::limits::Budget;
-use jurist_algebra::matrix::RationalMatrix;
 
 /// An input and an output of the closed loop.
 ///
@@ -56,9 +56,9 @@ impl Model {
         let (i, j) = system.ports(&between.input, &between.output)?;
         let n = system.a.rows();
         let system = ClosedLoop {
-            e: RationalMatrix::from_fn(n, 1, |k, _| system.e[(k, j)].clone()),
-            c: RationalMatrix::from_fn(1, n, |_, k| system.c[(i, k)].clone()),
-            d: RationalMatrix::from_fn(1, 1, |_, _| system.d[(i, j)].clone()),
+            e: system.e.block(0..n, j..j + 1),
+            c: system.c.block(i..i + 1, 0..n),
+            d: system.d.block(i..i + 1, j..j + 1),
             inputs: vec![between.input.clone()],
             outputs: vec![between.output.clone()],
             ..system

@@ -1,11 +1,12 @@
 //! Computes the characteristic polynomial of a loop whose coefficients may be complex, and refuses the questions that the program cannot answer for
 //! such loops.
 
-use super::closed_loop::{Answer, ClosedLoop, Evaluated, add_pole, merged, poles_in, substituted};
+use super::closed_loop::ClosedLoop;
 use super::complex::{ComplexPolynomial, parts_of};
 use super::definition::Model;
-use super::evaluate::symbolic::Values;
+use super::evaluate::values::Values;
 use super::evaluate::zpoly::ZPoly;
+use super::evaluated::{Answer, Evaluated, add_pole, merged, poles_in, substituted};
 use super::symbols::Symbols;
 use super::text::UNIT;
 use crate::coverage::Asked;
@@ -81,14 +82,12 @@ impl ClosedLoop {
         let n = a.rows();
         let (below, _) = self.complex_coefficients(&a, budget)?;
         // Powers of the imaginary unit are put in, so that entries stay small.
-        let short = |f: RationalFunction| Some(parts_of(&f, Some(unit))?.joined(unit));
-        let entry = |r: usize, k: usize| short(&a[(r, k)] - &(&e[(r, input)] * &c[(output, k)]));
-        let entries = (0..n * n).map(|at| entry(at / n, at % n)).collect::<Option<Vec<_>>>();
-        let entries = entries.ok_or_else(|| Error::Undefined("division by zero".into()))?;
-        let changed = RationalMatrix::from_fn(n, n, |r, k| entries[r * n + k].clone());
+        let undefined = || Error::Undefined("division by zero".into());
+        let parts = |f: &RationalFunction| parts_of(f, Some(unit)).ok_or_else(undefined);
+        let changed = RationalMatrix::from_fn(n, n, |r, k| &a[(r, k)] - &(&e[(r, input)] * &c[(output, k)]));
+        let changed = changed.try_map(|f| Ok::<_, Error>(parts(f)?.joined(unit)))?;
         let (other, _) = self.complex_coefficients(&changed, budget)?;
-        let direct =
-            parts_of(&d[(output, input)], Some(unit)).ok_or_else(|| Error::Undefined("division by zero".into()))?;
+        let direct = parts(&d[(output, input)])?;
         Ok([below.clone(), other.minus(&below).plus_multiple(&direct, &below)])
     }
 

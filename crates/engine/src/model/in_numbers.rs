@@ -1,10 +1,11 @@
 //! Closed loops of which only numbers are asked for.
 
-use super::closed_loop::{ClosedLoop, Evaluated, substituted};
+use super::closed_loop::ClosedLoop;
 use super::connect::samples::{Samples, samples};
 use super::connect::state_space::Connecting;
 use super::definition::Model;
-use super::evaluate::symbolic::Values;
+use super::evaluate::values::Values;
+use super::evaluated::{Evaluated, substituted};
 use super::steady::no_duty;
 use super::symbols::Symbols;
 use crate::error::Error;

@@ -17,6 +17,7 @@ mod connect;
 mod definition;
 mod discretization;
 mod evaluate;
+mod evaluated;
 pub mod examples;
 mod expectation;
 mod free;
@@ -39,7 +40,7 @@ mod written;
 pub use between::Between;
 pub(crate) use between::no_transfer_of_several_rates;
 pub use builder::{BlockBuilder, ModelBuilder, ParameterBuilder};
-pub use closed_loop::{ClosedLoop, Evaluated, TransferFunction};
+pub use closed_loop::{ClosedLoop, TransferFunction};
 pub use complex::ComplexPolynomial;
 pub(crate) use connect::samples::{Samples, SamplesPart, in_powers, rank_bound};
 pub use definition::{
@@ -47,6 +48,7 @@ pub use definition::{
     Pwm, Rate, RequirementText, Simulation, Time,
 };
 pub use discretization::{Edges, Method};
+pub use evaluated::Evaluated;
 pub use expectation::{Claim, ClaimKind, Expectation};
 pub(crate) use in_numbers::InNumbers;
 pub use loop_line::LoopLine;

@@ -1,10 +1,11 @@
 //! The loop cut open at one scalar signal.
 
 use super::between::Between;
-use super::closed_loop::{Answer, ClosedLoop};
-use super::connect::state_space::product;
-use super::definition::{Block, Diagram, Form, Model};
-use super::evaluate::symbolic::{DiscretizationValues, PortValues, Row, Values};
+use super::closed_loop::ClosedLoop;
+use super::connect::matrices::product;
+use super::definition::{Block, Diagram, Form, Model, Parameter};
+use super::evaluate::values::{DiscretizationValues, PortValues, Row, Values};
+use super::evaluated::Answer;
 use super::symbols::Symbols;
 use super::text::names::{did_you_mean, list, shorten};
 use crate::error::{Code, Diagnostic, Diagnostics, Error};
@@ -135,36 +136,26 @@ impl Model {
             }),
             (_, None) => match self.parameters() {
                 [only] => Ok(Cut::Gain(only.name.clone())),
-                parameters => {
-                    let error = Diagnostic::error(Code::Cut, "it has to be said which parameter is the loop's gain");
-                    let names = list(parameters.iter().take(8).map(|p| p.name.as_str()));
-                    let help = match names.is_empty() {
-                        true => "the model has no parameter that is a gain: write one into it, as K in 's^2 + s + K', or give an open loop \
-                                 with its denominator, such as 'K/(s*(s + 1))'"
-                            .to_owned(),
-                        false => format!("--at one of {names}"),
-                    };
-                    Err(refused(error.help(help)))
-                }
+                parameters => Err(refused(not_said_which(parameters))),
             },
-            (form, Some(name)) => {
-                let mut error = Diagnostic::error(
-                    Code::UnknownSignal,
-                    format!("the loop has no signal '{}' to cut", shorten(name)),
-                );
-                let parameters = self.parameters().iter().map(|p| p.name.as_str());
-                error.help = match form {
-                    Form::Blocks(diagram) => {
-                        let blocks = diagram.blocks.iter().map(|b| b.name.as_str());
-                        let names = diagram.driven().map(|(s, _)| s.name.as_str()).chain(blocks);
-                        did_you_mean(name, names.chain(parameters)).or_else(|| Some(candidates(diagram)))
-                    }
-                    _ => did_you_mean(name, parameters.clone())
-                        .or_else(|| Some(format!("--at one of the parameters {}", list(parameters.take(8))))),
-                };
-                Err(refused(error))
-            }
+            (_, Some(name)) => Err(refused(self.nothing_to_cut(name))),
         }
+    }
+
+    fn nothing_to_cut(&self, name: &str) -> Diagnostic {
+        let message = format!("the loop has no signal '{}' to cut", shorten(name));
+        let mut error = Diagnostic::error(Code::UnknownSignal, message);
+        let parameters = self.parameters().iter().map(|p| p.name.as_str());
+        error.help = match &self.form {
+            Form::Blocks(diagram) => {
+                let blocks = diagram.blocks.iter().map(|b| b.name.as_str());
+                let names = diagram.driven().map(|(s, _)| s.name.as_str()).chain(blocks);
+                did_you_mean(name, names.chain(parameters)).or_else(|| Some(candidates(diagram)))
+            }
+            _ => did_you_mean(name, parameters.clone())
+                .or_else(|| Some(format!("--at one of the parameters {}", list(parameters.take(8))))),
+        };
+        error
     }
 
     /// A place to begin at where [`Model::cut`] wants a name: the input of the only block on a loop that compares with the first external
@@ -430,6 +421,19 @@ fn only_error(diagram: &Diagram) -> Option<Cut> {
     let compares = |b: &&&Block| b.inputs[0].names().iter().any(|n| external(&&**n));
     let block = scalar.iter().find(compares).or_else(|| scalar.first())?;
     Some(Cut::Input(block.name.clone()))
+}
+
+fn not_said_which(parameters: &[Parameter]) -> Diagnostic {
+    let names = list(parameters.iter().take(8).map(|p| p.name.as_str()));
+    let help = match names.is_empty() {
+        true => {
+            "the model has no parameter that is a gain: write one into it, as K in 's^2 + s + K', or give an open loop \
+                 with its denominator, such as 'K/(s*(s + 1))'"
+                .to_owned()
+        }
+        false => format!("--at one of {names}"),
+    };
+    Diagnostic::error(Code::Cut, "it has to be said which parameter is the loop's gain").help(help)
 }
 
 /// The places where something comes back.

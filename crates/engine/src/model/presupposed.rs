@@ -1,9 +1,9 @@
 //! What a model presupposes of its parameters beside divisors that are not zero: sample times are positive, frequencies below
 //! half the sampling rate, duty ratios between 0 and 1.
 
-use super::closed_loop::substituted;
 use super::definition::{Form, Model};
 use super::evaluate::walk::Failure;
+use super::evaluated::substituted;
 use super::steady::no_duty;
 use super::symbols::Symbols;
 use crate::error::{Code, Diagnostic, Span};

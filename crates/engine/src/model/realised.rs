@@ -1,9 +1,10 @@
 //! The blocks of a diagram where numbers are all that is asked for, each as a system of its own.
 
-use super::closed_loop::substituted;
-use super::connect::state_space::{Connecting, System, part, realised};
+use super::connect::realise::realised;
+use super::connect::state_space::{Connecting, System, part};
 use super::definition::Model;
-use super::evaluate::symbolic::Values;
+use super::evaluate::values::Values;
+use super::evaluated::substituted;
 use super::symbols::Symbols;
 use crate::error::Error;
 use jurist_algebra::limits::Budget;

@@ -3,10 +3,10 @@
 //! The equation is that of [`Orbit`]. Its left side falls in the duty ratio wherever its slope is shown to be negative, so that there is one
 //! solution; it is between 0 and 1 if the mean over a period is.
 
-use super::closed_loop::Answer;
 use super::connect::orbit::{Orbit, orbit};
 use super::connect::state_space::{Connecting, NotConnected};
 use super::definition::Model;
+use super::evaluated::Answer;
 use super::symbols::{Symbols, beside, quotient_at};
 use super::text::names::{list, shorten};
 use crate::error::{Code, Diagnostic, Diagnostics, Error};
@@ -148,7 +148,7 @@ impl Model {
             answer.symbols = RefCell::new(answer.symbols.into_inner().keeping_flows());
         }
         let Answer { mut wiring, mut values, images, symbols, .. } = answer;
-        let set = |f: &RationalFunction| super::closed_loop::substituted(f, &images);
+        let set = |f: &RationalFunction| super::evaluated::substituted(f, &images);
         let how = Connecting { set: &set, symbols: Some(&symbols), start: None, budget };
         let found = budget.enter(|| orbit(self, &mut wiring, &mut values, &how))?;
         let found = found.map_err(|why: NotConnected| self.not_connected(why))?;

@@ -44,15 +44,6 @@ impl Target {
     /// All languages.
     pub const ALL: [Target; 3] = [Target::C, Target::StructuredText, Target::Rust];
 
-    /// The language in words.
-    pub fn words(self) -> &'static str {
-        match self {
-            Target::C => "C99",
-            Target::StructuredText => "structured text (IEC 61131-3)",
-            Target::Rust => "Rust",
-        }
-    }
-
     /// What names of its files end in.
     pub fn extension(self) -> &'static str {
         match self {

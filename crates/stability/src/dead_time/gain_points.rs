@@ -116,23 +116,12 @@ pub(super) fn crossings_of_gain(
         // Im(A conj B) vanishes identically: the parameter is real on the whole axis.
         return Err(NotSolved::Coincidence);
     }
-    let mut points = Vec::new();
     let Forms { content, finite, other } = budget.enter(|| axis.forms())?;
     let fixed = algebraic_frequencies(&content, budget)?;
-    for omega in fixed.iter().cloned() {
-        match axis.fixed_frequency(&omega, budget)? {
-            Fixture::Never => return Ok(Err(Never::FixedRoot)),
-            Fixture::NoGain => {}
-            Fixture::Zero(change) if range.contains(&Rational::ZERO) => points.push(GainPoint {
-                value: Rational::ZERO.into(),
-                happening: Happening::Pair(Real::from(omega)),
-                change: Some(change),
-                inverse: None,
-            }),
-            Fixture::Zero(_) => {}
-            Fixture::Unknown => return Err(NotSolved::Coincidence),
-        }
-    }
+    let points = match at_fixed_frequencies(&axis, &fixed, range, budget)? {
+        Ok(points) => points,
+        Err(never) => return Ok(Err(never)),
+    };
     let axis = Arc::new(axis);
     let Some(form) = finite else { return Ok(Ok((points, Beyond::default()))) };
     let other = other.map(Jet::new);
@@ -140,15 +129,11 @@ pub(super) fn crossings_of_gain(
     if let (Some(low), Some(high)) = (&range.lower, &range.upper)
         && let Some(limit) = gain.frequency_bound(&low.abs().max(high.abs()))
     {
-        walk.up_to(&limit)?;
-        let points = within(walk.points, range, &Beyond::default(), budget)?;
-        return Ok(Ok((points, Beyond::default())));
+        return walk.all_within(&limit, range, Beyond::default());
     }
     let weights = vec![Rational::ONE; gain.a.len()];
     if let Some(limit) = frequency_bound_over(&gain.coefficients(), &weights, range, budget)? {
-        walk.up_to(&limit)?;
-        let points = within(walk.points, range, &Beyond::default(), budget)?;
-        return Ok(Ok((points, Beyond::default())));
+        return walk.all_within(&limit, range, Beyond::default());
     }
     let Some(turns) = gain.single_delay() else { return Err(NotSolved::Unbounded) };
     let Some(growing) = gain.growing_beyond(turns) else { return Err(NotSolved::Neutral) };
@@ -156,10 +141,7 @@ pub(super) fn crossings_of_gain(
         None => (growing, None),
         Some(Neutral { approached: false, limit, largest }) => {
             // Beyond the limit no value below the largest one puts a root on the axis.
-            walk.up_to(&limit)?;
-            let inner = range_within(range, &largest);
-            let points = within(walk.points, &inner, &Beyond::default(), budget)?;
-            return Ok(Ok((points, Beyond::default())));
+            return walk.all_within(&limit, &range_within(range, &largest), Beyond::default());
         }
         Some(Neutral { limit, largest, .. }) => (growing.max(limit), Some(largest)),
     };
@@ -178,9 +160,32 @@ pub(super) fn crossings_of_gain(
         let greatest = ends.chain(own).max().unwrap_or(Rational::ZERO);
         Ok::<_, Exhausted>(gain.frequency_bound(&greatest))
     })?;
-    walk.up_to(&limit)?;
-    let points = within(walk.points, &inner, &beyond, budget)?;
-    Ok(Ok((points, beyond)))
+    walk.all_within(&limit, &inner, beyond)
+}
+
+/// The values for which a pair is on the axis at a frequency where `Im(A conj B)` vanishes: only 0.
+fn at_fixed_frequencies(
+    axis: &Axis,
+    fixed: &[RealAlgebraic],
+    range: &Range,
+    budget: &Budget,
+) -> Result<Result<Vec<GainPoint>, Never>, NotSolved> {
+    let mut points = Vec::new();
+    for omega in fixed.iter().cloned() {
+        match axis.fixed_frequency(&omega, budget)? {
+            Fixture::Never => return Ok(Err(Never::FixedRoot)),
+            Fixture::NoGain => {}
+            Fixture::Zero(change) if range.contains(&Rational::ZERO) => points.push(GainPoint {
+                value: Rational::ZERO.into(),
+                happening: Happening::Pair(Real::from(omega)),
+                change: Some(change),
+                inverse: None,
+            }),
+            Fixture::Zero(_) => {}
+            Fixture::Unknown => return Err(NotSolved::Coincidence),
+        }
+    }
+    Ok(Ok(points))
 }
 
 /// The part of a range between two numbers of opposite sign.
@@ -250,6 +255,12 @@ impl Walk<'_> {
             });
         }
         Ok(())
+    }
+
+    /// The values up to a frequency that are in a range and not beyond.
+    fn all_within(mut self, limit: &Rational, range: &Range, beyond: Beyond) -> Result<Found, NotSolved> {
+        self.up_to(limit)?;
+        Ok(Ok((within(self.points, range, &beyond, self.budget)?, beyond)))
     }
 
     /// The first values beyond a frequency, on either side where the range has no end of its own there, that are larger than

@@ -177,22 +177,6 @@ impl PlanePolynomial {
         AtPoint::Defined { count, infinite: self.formal_degree - count.total() }
     }
 
-    /// The exact root count at a point of any loop.
-    ///
-    /// Cost: of a loop without symbols that of a root count; else that of
-    /// [`SymbolicPolynomial::at`](crate::SymbolicPolynomial::at).
-    ///
-    /// # Errors
-    /// [`Exhausted`] when the budget runs out, and where the sign of a constant is not found.
-    pub fn count_at(&self, x: &Rational, y: &Rational, region: Shape, budget: &Budget) -> Result<AtPoint, Exhausted> {
-        Ok(self.ground.counts(self, x, std::slice::from_ref(y), region, budget)?.swap_remove(0))
-    }
-
-    /// The polynomial at a point, up to a factor.
-    pub fn specialised(&self, point: &[Rational; 2]) -> UniPoly {
-        UniPoly::from_rational_poly(&self.polynomial.map(|p| p.eval(point))).1
-    }
-
     /// The polynomial in `y` alone at a rational `x`; `None` when the loop is undefined for every `y`.
     pub fn at_x(&self, x: &Rational) -> Option<ParametricPolynomial> {
         let side = |p: &MultiPoly| p.substitute(X, x).0.to_univariate(Y).expect("x is set");

@@ -150,7 +150,7 @@ pub(super) fn place_in_exchanged(
     let mut y = strips[strip].cells[cell].sample.clone();
     loop {
         budget.check()?;
-        if let Some(place) = locate(ground, swapped_curves, exchanged, &y, x, &domain[0], budget)? {
+        if let Some(place) = locate(ground, swapped_curves, exchanged, [&y, x], &domain[0], budget)? {
             return Ok(place);
         }
         y = RealInterval { lower: Some(Real::from(y)), upper: ceiling.clone() }.sample(budget)?;
@@ -318,8 +318,7 @@ pub(super) fn locate(
     ground: &dyn Ground,
     curves: &[Curve],
     strips: &[Strip],
-    x: &Rational,
-    y: &Rational,
+    [x, y]: [&Rational; 2],
     y_domain: &Range,
     budget: &Budget,
 ) -> Result<Option<(usize, usize)>, Exhausted> {

@@ -70,83 +70,103 @@ fn glued(
     let is_wall = |curve: &&Curve| !across || curve.causes.iter().next().is_some() || curve.polynomial.degree_in(Y) > 0;
     let kept: Vec<Curve> = curves.iter().filter(is_wall).cloned().collect();
     let curves = kept.as_slice();
-    let stable: Vec<(usize, usize)> = strips
-        .iter()
-        .enumerate()
-        .flat_map(|(s, strip)| strip.cells.iter().enumerate().filter(|c| c.1.stable).map(move |(c, _)| (s, c)))
-        .collect();
-    let mut parent: Vec<usize> = (0..stable.len()).collect();
-    if across {
-        for i in 1..stable.len() {
-            let (below, above) = (stable[i - 1], stable[i]);
-            if below.0 == above.0 && below.1 + 1 == above.1 {
-                parent[i] = parent[i - 1];
-            }
-        }
-    }
-    let index = |cell: (usize, usize)| stable.binary_search(&cell).ok();
+    let mut regions = Regions::of(strips, across);
     let mut joins = Vec::new();
     for (s, pair) in strips.windows(2).enumerate() {
         let wall = pair[0].x.upper.as_ref().expect("a wall between strips is finite");
         // Clear heights so far, and the pairs of which it is not known whether the wall connects them.
         let mut heights: BTreeSet<(usize, usize)> = BTreeSet::new();
-        let open = |parent: &[usize], heights: &BTreeSet<(usize, usize)>| -> Vec<(usize, usize)> {
-            let side = |strip: usize| stable.iter().enumerate().filter(move |c| c.1.0 == strip).map(|c| (c.0, c.1.1));
-            let pairs = side(s).flat_map(|a| side(s + 1).map(move |b| (a, b)));
-            let apart = pairs.filter(|(a, b)| root(parent, a.0) != root(parent, b.0)).map(|(a, b)| (a.1, b.1));
-            apart.filter(|pair| !heights.iter().any(|height| separates(*height, *pair))).collect()
-        };
-        let mut join = |parent: &mut Vec<usize>, ((left, right), [x, other, y]): ((usize, usize), [Rational; 3])| {
-            if let (Some(a), Some(b)) = (index((s, left)), index((s + 1, right))) {
-                let (a, b) = (root(parent, a), root(parent, b));
-                if a != b {
-                    parent[a.max(b)] = a.min(b);
-                    joins.push(Join { strip: s, x: [x, other], y });
-                }
+        let mut join = |regions: &mut Regions, ((left, right), [x, other, y]): ((usize, usize), [Rational; 3])| {
+            if regions.join((s, left), (s + 1, right)) {
+                joins.push(Join { strip: s, x: [x, other], y });
             }
         };
         let search = Wall { ground, curves, strips: pair, value: wall, y_domain };
         for bits in [8, 16, 32] {
-            let pairs = open(&parent, &heights);
+            let pairs = regions.apart(s, &heights);
             if pairs.is_empty() {
                 break;
             }
             for link in search.nearby_links(bits, &pairs, budget)? {
                 heights.insert(link.0);
-                join(&mut parent, link);
+                join(&mut regions, link);
             }
         }
-        let pairs = open(&parent, &heights);
+        let pairs = regions.apart(s, &heights);
         if !pairs.is_empty() {
             for link in ground.links(&search, &pairs, budget)? {
-                join(&mut parent, link);
+                join(&mut regions, link);
             }
         }
     }
-    let mut groups = Groups::new();
-    let mut number = vec![usize::MAX; stable.len()];
-    for (i, &cell) in stable.iter().enumerate() {
-        let r = root(&parent, i);
-        if number[r] == usize::MAX {
-            number[r] = groups.len();
-            groups.push(Vec::new());
+    Ok((regions.groups(), joins))
+}
+
+/// Stable cells, of which some are known to be parts of one region.
+struct Regions {
+    cells: Vec<(usize, usize)>,
+    /// For each cell another one of its region, or itself.
+    parent: Vec<usize>,
+}
+
+impl Regions {
+    /// Each cell for itself; neighbours in a strip together where `across` is asked for.
+    fn of(strips: &[Strip], across: bool) -> Self {
+        let of_strip = |(s, strip): (usize, &Strip)| {
+            let stable = strip.cells.iter().enumerate().filter(|c| c.1.stable).map(|(c, _)| (s, c));
+            stable.collect::<Vec<_>>()
+        };
+        let cells: Vec<(usize, usize)> = strips.iter().enumerate().flat_map(of_strip).collect();
+        let mut parent: Vec<usize> = (0..cells.len()).collect();
+        for i in (1..cells.len()).filter(|_| across) {
+            let (below, above) = (cells[i - 1], cells[i]);
+            if below.0 == above.0 && below.1 + 1 == above.1 {
+                parent[i] = parent[i - 1];
+            }
         }
-        groups[number[r]].push(cell);
+        Regions { cells, parent }
     }
-    Ok((groups, joins))
+
+    fn root(&self, mut i: usize) -> usize {
+        while self.parent[i] != i {
+            i = self.parent[i];
+        }
+        i
+    }
+
+    /// Makes the regions of two cells one; `false` where they are that already, or a cell is not stable.
+    fn join(&mut self, left: (usize, usize), right: (usize, usize)) -> bool {
+        let [a, b] = [left, right].map(|cell| self.cells.binary_search(&cell).ok().map(|i| self.root(i)));
+        match a.zip(b).filter(|(a, b)| a != b) {
+            Some((a, b)) => {
+                self.parent[a.max(b)] = a.min(b);
+                true
+            }
+            None => false,
+        }
+    }
+
+    /// The pairs of cells beside the wall behind a strip of which it is not known whether they are connected; `heights` are clear ones.
+    fn apart(&self, strip: usize, heights: &BTreeSet<(usize, usize)>) -> Vec<(usize, usize)> {
+        let side = |strip: usize| self.cells.iter().enumerate().filter(move |c| c.1.0 == strip).map(|c| (c.0, c.1.1));
+        let pairs = side(strip).flat_map(|a| side(strip + 1).map(move |b| (a, b)));
+        let apart = pairs.filter(|(a, b)| self.root(a.0) != self.root(b.0)).map(|(a, b)| (a.1, b.1));
+        apart.filter(|pair| !heights.iter().any(|height| separates(*height, *pair))).collect()
+    }
+
+    fn groups(&self) -> Groups {
+        let mut groups: BTreeMap<usize, Vec<(usize, usize)>> = BTreeMap::new();
+        for (i, cell) in self.cells.iter().enumerate() {
+            groups.entry(self.root(i)).or_default().push(*cell);
+        }
+        groups.into_values().collect()
+    }
 }
 
 /// Whether a clear height in these cells on the left and on the right shows that a pair of cells does not touch at the wall: it is
 /// above the one and below the other, on the whole way to the wall.
 pub(super) fn separates(height: (usize, usize), pair: (usize, usize)) -> bool {
     (height.0 > pair.0 && height.1 < pair.1) || (height.0 < pair.0 && height.1 > pair.1)
-}
-
-fn root(parent: &[usize], mut i: usize) -> usize {
-    while parent[i] != i {
-        i = parent[i];
-    }
-    i
 }
 
 /// The cells that are joined, by their numbers in the two strips, and the segment: its ends and its height.

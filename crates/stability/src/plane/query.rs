@@ -35,7 +35,7 @@ impl StabilityMap {
         if !y_domain.contains(y) {
             return Ok(None);
         }
-        locate(&*self.ground, &self.curves, &self.strips, x, y, y_domain, budget)
+        locate(&*self.ground, &self.curves, &self.strips, [x, y], y_domain, budget)
     }
 
     /// The branches of all curves over a rational `x`, from below, with their values in the domain of `y`. Inside

@@ -38,9 +38,9 @@ const STEP: i64 = 8;
 
 /// Counts roots for all values of an interval at once.
 pub(super) struct Counter<'a> {
-    polynomial: &'a SymbolicPolynomial,
-    symbols: &'a MovingSymbols,
-    region: Shape,
+    pub polynomial: &'a SymbolicPolynomial,
+    pub symbols: &'a MovingSymbols,
+    pub region: Shape,
     /// The coefficients, and then what must not vanish.
     functions: Vec<MultiPoly>,
 }

@@ -8,7 +8,7 @@ use super::statements::{Conditions, Rule, Stated};
 use super::{SymbolicPolynomial, Table};
 use crate::interval_set::real_cells;
 use crate::precisions::SIGN_OF_DETERMINANT;
-use crate::{Cause, Range, Shape};
+use crate::{Cause, Range, RealInterval, Shape};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
 use jurist_algebra::poly::{Domain, MultiPoly, SquareFree, UniPoly};
@@ -331,27 +331,7 @@ pub(super) fn solved(
         let sign = |f: usize| sign_at(&functions[f], places[f].is_some(), &at, symbols, budget);
         signs.push((0..functions.len()).map(sign).collect::<Result<_, _>>()?);
     }
-    // The cells in which `holds` is true, those as one between which none of these functions vanishes.
-    let set = |of: &[usize], holds: &dyn Fn(&[Sign]) -> bool| -> RealIntervals {
-        let parts: Vec<usize> = of.iter().filter_map(|&f| places[f]).collect();
-        let is_never = parts.len() < of.len();
-        let mut intervals: Vec<[Option<Real>; 2]> = Vec::new();
-        let mut goes_on = false;
-        for (i, signs) in signs.iter().enumerate().filter(|_| !is_never) {
-            let is_cut = i > 0 && parts.iter().any(|&k| vanishing[i - 1][k]);
-            goes_on &= !is_cut;
-            if holds(signs) {
-                match intervals.last_mut().filter(|_| goes_on) {
-                    Some(last) => last[1] = cells[i].upper.clone(),
-                    None => intervals.push([cells[i].lower.clone(), cells[i].upper.clone()]),
-                }
-                goes_on = true;
-            } else {
-                goes_on = false;
-            }
-        }
-        RealIntervals { intervals }
-    };
+    let looked = Looked { cells, signs, vanishing, places };
     let holds = |rule: &Rule, signs: &[Sign]| {
         let negative = rule.product.iter().filter(|&&f| signs[f].is_lt()).count() % 2 == 1;
         negative == rule.is_negative
@@ -359,13 +339,46 @@ pub(super) fn solved(
     let solution = |stated: &Stated| {
         let rule = &stated.rule;
         let of: Vec<usize> = rule.product.iter().chain(&rule.other_than_zero).copied().collect();
-        set(&of, &|signs| holds(rule, signs))
+        looked.set(&of, &|signs| holds(rule, signs))
     };
     let solutions = conditions.stated.iter().map(solution).collect();
     let mut of: Vec<usize> = (functions.len()..all.len()).collect();
     of.extend(conditions.stated.iter().flat_map(|s| s.rule.product.iter().chain(&s.rule.other_than_zero)));
-    let intersection = set(&of, &|signs| conditions.stated.iter().all(|s| holds(&s.rule, signs)));
+    let intersection = looked.set(&of, &|signs| conditions.stated.iter().all(|s| holds(&s.rule, signs)));
     Ok(((solutions, intersection), degrees))
+}
+
+/// Cells of a range, the signs of functions in each, and which boundaries vanish between it and the next.
+struct Looked {
+    cells: Vec<RealInterval>,
+    signs: Vec<Vec<Sign>>,
+    vanishing: Vec<Vec<bool>>,
+    /// Which boundary a function is; `None` for one that is zero for every value.
+    places: Vec<Option<usize>>,
+}
+
+impl Looked {
+    /// The cells in which `holds` is true, those as one between which none of these functions vanishes.
+    fn set(&self, of: &[usize], holds: &dyn Fn(&[Sign]) -> bool) -> RealIntervals {
+        let parts: Vec<usize> = of.iter().filter_map(|&f| self.places[f]).collect();
+        let is_never = parts.len() < of.len();
+        let mut intervals: Vec<[Option<Real>; 2]> = Vec::new();
+        let mut goes_on = false;
+        for (i, signs) in self.signs.iter().enumerate().filter(|_| !is_never) {
+            let cell = &self.cells[i];
+            let is_cut = i > 0 && parts.iter().any(|&k| self.vanishing[i - 1][k]);
+            let holds = holds(signs);
+            goes_on &= !is_cut;
+            if holds {
+                match intervals.last_mut().filter(|_| goes_on) {
+                    Some(last) => last[1] = cell.upper.clone(),
+                    None => intervals.push([cell.lower.clone(), cell.upper.clone()]),
+                }
+            }
+            goes_on = holds;
+        }
+        RealIntervals { intervals }
+    }
 }
 
 /// The sign of a function that is not zero at a number, or zero everywhere.

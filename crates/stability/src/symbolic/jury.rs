@@ -205,16 +205,61 @@ impl SymbolicPolynomial {
         bits: u64,
     ) -> Option<EnclosedTable> {
         let n = self.formal_degree;
+        let denominator = symbols.enclose(&self.poles[0].map_variables(|i| i.saturating_sub(1)), bits);
+        let rows = self.enclosed_rows(symbols, zeros, &denominator, bits)?;
+        let power = Integer::from(10).pow(digits as u64 + 2);
+        let is_narrow = |b: &Ball| b.is_zero() || b.width_units() * &power <= b.least_magnitude_units();
+        let shown = |b: &Ball| is_narrow(b).then(|| shortened(b, digits).to_enclosure());
+        let mut conditions = Vec::new();
+        if n > 0 {
+            let lead = &rows[0][n];
+            let is_positive = lead.sign()?.is_gt();
+            for (value, end) in at_ends.iter().zip(["Q(1)".to_owned(), format!("(-1)^{n}*Q(-1)")]) {
+                let value = symbols.enclose(value, bits).div(&denominator)?;
+                let value = if end != "Q(1)" && n % 2 == 1 { value.neg() } else { value };
+                let (name, value) = if is_positive { (end, value) } else { (format!("a_{n}*{end}"), value.mul(lead)) };
+                let (name, comparison, holds) = (format!("{name} > 0"), Comparison::Greater, value.sign()?.is_gt());
+                let (left, right) = (shown(&value)?, shown(&Ball::zero(bits))?);
+                conditions.push(EnclosedCondition { name, comparison, left, right, row: None, holds });
+            }
+            for (i, row) in rows.iter().enumerate() {
+                let (first, last, letter) = (&row[0], &row[row.len() - 1], row_name(i));
+                let is_smaller = is_smaller(first, last)?;
+                let (name, comparison, holds) = match (i, is_positive) {
+                    (0, true) => (format!("|a_0| < a_{n}"), Comparison::SmallerAbsolute, is_smaller),
+                    (0, false) => (format!("|a_0| < |a_{n}|"), Comparison::SmallerAbsolute, is_smaller),
+                    _ => (format!("|{letter}_0| > |{letter}_{}|", n - i), Comparison::GreaterAbsolute, !is_smaller),
+                };
+                let (left, right) = (shown(first)?, shown(last)?);
+                conditions.push(EnclosedCondition { name, comparison, left, right, row: Some(i), holds });
+            }
+        }
+        let row = |(i, entries): (usize, &Vec<Ball>)| {
+            let divided_by = (n > UNDIVIDED_ORDER && i >= 3).then(|| format!("{}_0", row_name(i - 2)));
+            let entries = entries.iter().map(shown).collect::<Option<_>>()?;
+            Some(EnclosedRow { name: row_name(i), entries, divided_by })
+        };
+        let rows = rows.iter().enumerate().map(row).collect::<Option<_>>()?;
+        Some(EnclosedTable { rows, conditions })
+    }
+
+    /// The rows of Jury's table; entries that are zero are so.
+    fn enclosed_rows(
+        &self,
+        symbols: &Symbols,
+        zeros: &[Vec<bool>],
+        denominator: &Ball,
+        bits: u64,
+    ) -> Option<Vec<Vec<Ball>>> {
+        let n = self.formal_degree;
         let number = |p: &MultiPoly| symbols.enclose(&p.map_variables(|i| i.saturating_sub(1)), bits);
-        let denominator = number(&self.poles[0]);
-        let own = |p: &Ball| p.div(&denominator);
         let known = |row: Vec<Ball>, i: usize| -> Vec<Ball> {
             let is_zero = |k: usize| zeros.get(i).is_some_and(|row| row[k]);
             row.into_iter().enumerate().map(|(k, b)| if is_zero(k) { Ball::zero(bits) } else { b }).collect()
         };
-        let first = (0..=n).map(|k| own(&number(&self.polynomial.coeff(k)))).collect::<Option<Vec<Ball>>>()?;
-        let first = known(first, 0);
-        let mut rows = vec![first];
+        let first =
+            (0..=n).map(|k| number(&self.polynomial.coeff(k)).div(denominator)).collect::<Option<Vec<Ball>>>()?;
+        let mut rows = vec![known(first, 0)];
         while rows[rows.len() - 1].len() > 3 {
             let last = &rows[rows.len() - 1];
             let m = last.len() - 1;
@@ -228,55 +273,16 @@ impl SymbolicPolynomial {
             };
             rows.push(known(next, rows.len()));
         }
-        let mut conditions = Vec::new();
-        if n > 0 {
-            let lead = &rows[0][n];
-            let is_positive = lead.sign()?.is_gt();
-            let zero = Ball::zero(bits);
-            for (value, end) in at_ends.iter().zip(["Q(1)".to_owned(), format!("(-1)^{n}*Q(-1)")]) {
-                let value = own(&symbols.enclose(value, bits))?;
-                let value = if end != "Q(1)" && n % 2 == 1 { value.neg() } else { value };
-                let (name, value) = if is_positive { (end, value) } else { (format!("a_{n}*{end}"), value.mul(lead)) };
-                let holds = value.sign()?.is_gt();
-                conditions.push((format!("{name} > 0"), Comparison::Greater, value, zero.clone(), None, holds));
-            }
-            for (i, row) in rows.iter().enumerate() {
-                let (first, last, m) = (&row[0], &row[row.len() - 1], n - i);
-                let is_smaller = if first.magnitude_units() < last.least_magnitude_units() {
-                    true
-                } else if first.least_magnitude_units() > last.magnitude_units() {
-                    false
-                } else {
-                    return None;
-                };
-                let letter = row_name(i);
-                let (name, comparison, holds) = match (i, is_positive) {
-                    (0, true) => (format!("|a_0| < a_{n}"), Comparison::SmallerAbsolute, is_smaller),
-                    (0, false) => (format!("|a_0| < |a_{n}|"), Comparison::SmallerAbsolute, is_smaller),
-                    _ => (format!("|{letter}_0| > |{letter}_{m}|"), Comparison::GreaterAbsolute, !is_smaller),
-                };
-                conditions.push((name, comparison, first.clone(), last.clone(), Some(i), holds));
-            }
-        }
-        let power = Integer::from(10).pow(digits as u64 + 2);
-        let is_narrow = |b: &Ball| b.is_zero() || b.width_units() * &power <= b.least_magnitude_units();
-        let sides = conditions.iter().flat_map(|(_, _, left, right, ..)| [left, right]);
-        if !rows.iter().flatten().chain(sides).all(is_narrow) {
-            return None;
-        }
-        let shown = |b: &Ball| shortened(b, digits).to_enclosure();
-        let row = |(i, entries): (usize, &Vec<Ball>)| EnclosedRow {
-            name: row_name(i),
-            entries: entries.iter().map(shown).collect(),
-            divided_by: (n > UNDIVIDED_ORDER && i >= 3).then(|| format!("{}_0", row_name(i - 2))),
-        };
-        let condition =
-            |(name, comparison, left, right, row, holds): (String, Comparison, Ball, Ball, Option<usize>, bool)| {
-                EnclosedCondition { name, comparison, left: shown(&left), right: shown(&right), row, holds }
-            };
-        let rows = rows.iter().enumerate().map(row).collect();
-        Some(EnclosedTable { rows, conditions: conditions.into_iter().map(condition).collect() })
+        Some(rows)
     }
+}
+
+/// Whether a number has a smaller modulus than another; `None` where that is not certain.
+fn is_smaller(a: &Ball, b: &Ball) -> Option<bool> {
+    if a.magnitude_units() < b.least_magnitude_units() {
+        return Some(true);
+    }
+    (a.least_magnitude_units() > b.magnitude_units()).then_some(false)
 }
 
 /// The ball with no more bits than its digits need.

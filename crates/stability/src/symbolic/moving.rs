@@ -40,7 +40,7 @@ pub(super) fn moving_stable_set(
     };
     // What lies beyond a number at which functions are undefined is another question.
     let (part, beyond) = connected(symbols, &defined, &p.usual);
-    let reach = reach(p, symbols, &conditions, &part, region, &usual, budget)?;
+    let reach = reach(&counter, &conditions, &part, &usual, budget)?;
     let (boundaries, basis) = split(conditions, symbols, budget)?;
     let (boundaries, basis) = (&boundaries[..], &basis[..]);
     let looked = Looked { boundaries, basis, symbols, usual: &usual, is_scale: p.usual.is_zero(), budget };
@@ -110,14 +110,13 @@ fn connected(symbols: &MovingSymbols, range: &Range, usual: &Rational) -> (Range
 /// How far a parameter goes that is not bounded: to where nothing happens any more, or, by its reciprocal, all the way, or
 /// else to a large multiple of its usual value.
 fn reach(
-    p: &SymbolicPolynomial,
-    symbols: &Arc<MovingSymbols>,
+    of: &Counter<'_>,
     conditions: &[Condition],
     range: &Range,
-    region: Shape,
     usual: &Rational,
     budget: &Budget,
 ) -> Result<Reach, Exhausted> {
+    let (p, symbols, region) = (of.polynomial, of.symbols, of.region);
     let start = match &range.lower {
         Some(lower) if lower.is_zero() => Some(p.after_death(symbols, conditions, range.upper.as_ref(), budget)?),
         _ => None,

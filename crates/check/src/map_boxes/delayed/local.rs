@@ -123,96 +123,127 @@ fn times([re, im]: &Complex, [c, s]: &[Z; 2], bits: usize) -> Complex {
     [(re * c + im * s) >> bits, (im * c - re * s) >> bits]
 }
 
-/// The function about the middle of a stretch and of a box.
-pub(super) struct Local {
-    value: [i128; 2],
-    /// The changes by half of each side of the box, and by half of the stretch.
-    changes: Vec<[i128; 2]>,
-    rest: i128,
-    /// The derivative by the frequency, and how far it is off anywhere.
-    slope: [i128; 2],
-    slope_rest: i128,
-    /// How much of the rest is there because of each side of the box, for a choice and no proof.
-    blame: Vec<i128>,
+/// A stretch of the axis: half its length about a frequency, with turns of vectors of so many bits.
+pub(super) struct Stretch<'s> {
+    pub middle: &'s Z,
+    pub half: &'s Z,
+    pub turns: &'s Turns,
+    pub bits: usize,
 }
 
-impl Local {
-    /// On the stretch of half the length `half` about a frequency.
-    pub fn new(parts: &[Part], middle: &Z, half: &Z, turns: &Turns, bits: usize) -> Self {
-        let far = middle + half;
-        let one = Z::one() << bits;
-        // The frequency, rounded up to a whole number, and one.
-        let above: Z = (&far >> FREQUENCY_BITS) + 2_u32;
-        let by_half = |x: Z| up(x * half, FREQUENCY_BITS);
-        let parameters = parts.first().map_or(0, |part| part.about.len() - 1);
-        let nothing = || [Z::zero(), Z::zero()];
-        let (mut value, mut slope) = (nothing(), nothing());
-        let mut by_sides: Vec<Complex> = (0..parameters).map(|_| nothing()).collect();
-        let (mut rest, mut slope_rest, mut blame) = (Z::zero(), Z::zero(), vec![Z::zero(); parameters]);
-        for part in parts {
-            let p = on_axis(&part.about[0], middle);
-            let of_sides = part.about[1..].iter().map(|c| on_axis(c, middle));
-            let [re, im] = on_axis(&part.derivative, middle);
-            let d = [-im, re];
-            let [change, change_slope] = part.changes.each_ref().map(|c| at_most(c, &far));
-            let [first, second] = part.derivatives.each_ref().map(|c| at_most(c, &far));
-            // How far the polynomial and its derivative are off their values in the middle, and the former off its linear part.
-            let off = change + by_half(first);
-            let slope_off = &change_slope + by_half(second.clone());
-            let bent =
-                at_most(&part.rest, &far) + by_half(change_slope) + up(second * half * half, 2 * FREQUENCY_BITS + 1);
-            let Some(delay) = &part.delay else {
-                add(&mut value, p);
-                by_sides.iter_mut().zip(of_sides).for_each(|(sum, own)| add(sum, own));
-                add(&mut slope, d);
-                rest += bent;
-                slope_rest += slope_off;
-                continue;
-            };
-            let size = modulus(&p);
-            let longest: Z = &delay.floor + 1_u32;
-            // How far the angle is off that in the middle.
-            let angle = up(&far * &delay.spread, FREQUENCY_BITS) + by_half(longest.clone());
-            let turn = if angle < one { turns.of(&delay.middle, middle, FREQUENCY_BITS) } else { None };
-            let Some(turn) = turn else {
-                // Anything of this size.
-                let all = size + off;
-                for (sum, time) in blame.iter_mut().zip(&delay.changes) {
-                    let angle: Z = (&far * time.abs()) >> FREQUENCY_BITS;
-                    *sum += (&all * angle.min(one.clone())) >> bits;
-                }
-                slope_rest += modulus(&d) + slope_off + up((longest + &delay.spread) * &all, bits);
-                rest += all;
-                continue;
-            };
-            let changes = of_sides.zip(&delay.changes).map(|(mut own, time)| {
-                add(&mut own, turned_back(&p, &((middle * time) >> FREQUENCY_BITS), bits));
-                own
-            });
-            let mut d = d;
-            add(&mut d, turned_back(&p, &delay.floor, bits));
-            let (mut rounded, d_size) = (&size * &above * parameters.max(2), modulus(&d));
-            for (sum, own) in by_sides.iter_mut().zip(changes) {
-                rounded += modulus(&own);
-                add(sum, times(&own, &turn, bits));
-            }
-            add(&mut value, times(&p, &turn, bits));
-            add(&mut slope, times(&d, &turn, bits));
-            // exp(-i x) is off 1 - i x by at most x^2/2, and off 1 by at most x.
-            let square = by_half(delay.spread.clone()) + up(&angle * &angle, bits + 1);
-            rest += bent + up(&size * square + &off * &angle, bits) + (rounded >> (bits - 3)) + ROUNDED_VECTORS;
-            let slope_rounded: Z = ((&size + &d_size) >> (bits - 3)) + ROUNDED_VECTORS;
-            rest += by_half(slope_rounded.clone());
-            slope_rest +=
-                slope_off + up(longest * &off + &delay.spread * (size + off) + d_size * angle, bits) + slope_rounded;
+impl Stretch<'_> {
+    /// The highest frequency.
+    fn far(&self) -> Z {
+        self.middle + self.half
+    }
+
+    fn by_half(&self, x: Z) -> Z {
+        up(x * self.half, FREQUENCY_BITS)
+    }
+}
+
+/// The polynomial of a part about the middle of a stretch.
+struct About {
+    value: Complex,
+    of_sides: Vec<Complex>,
+    /// The derivative by the frequency.
+    slope: Complex,
+    /// How far the polynomial and its derivative are off their values in the middle, and the former off its linear part.
+    off: Z,
+    slope_off: Z,
+    bent: Z,
+}
+
+impl Part {
+    fn on(&self, on: &Stretch<'_>) -> About {
+        let (far, half) = (on.far(), on.half);
+        let [re, im] = on_axis(&self.derivative, on.middle);
+        let [change, change_slope] = self.changes.each_ref().map(|c| at_most(c, &far));
+        let [first, second] = self.derivatives.each_ref().map(|c| at_most(c, &far));
+        let curved = up(second.clone() * half * half, 2 * FREQUENCY_BITS + 1);
+        About {
+            value: on_axis(&self.about[0], on.middle),
+            of_sides: self.about[1..].iter().map(|c| on_axis(c, on.middle)).collect(),
+            slope: [-im, re],
+            off: change + on.by_half(first),
+            slope_off: &change_slope + on.by_half(second),
+            bent: at_most(&self.rest, &far) + on.by_half(change_slope) + curved,
         }
-        let by_omega = slope.each_ref().map(|x| (x * half) >> FREQUENCY_BITS);
-        let changes = by_sides.into_iter().chain([by_omega]).collect();
-        Local::short((value, changes, slope), rest, slope_rest, blame)
+    }
+}
+
+/// The sum of parts, as in [`Local`].
+#[derive(Default)]
+struct Sums {
+    value: Complex,
+    slope: Complex,
+    by_sides: Vec<Complex>,
+    rest: Z,
+    slope_rest: Z,
+    blame: Vec<Z>,
+}
+
+impl Sums {
+    fn add(&mut self, own: About) {
+        add(&mut self.value, own.value);
+        self.by_sides.iter_mut().zip(own.of_sides).for_each(|(sum, own)| add(sum, own));
+        add(&mut self.slope, own.slope);
+        self.rest += own.bent;
+        self.slope_rest += own.slope_off;
+    }
+
+    fn add_delayed(&mut self, own: About, delay: &Delay, on: &Stretch<'_>) {
+        let longest: Z = &delay.floor + 1_u32;
+        // How far the angle is off that in the middle.
+        let angle = up(on.far() * &delay.spread, FREQUENCY_BITS) + on.by_half(longest.clone());
+        let is_short = angle < Z::one() << on.bits;
+        match if is_short { on.turns.of(&delay.middle, on.middle, FREQUENCY_BITS) } else { None } {
+            Some(turn) => self.add_turned(own, delay, &turn, &angle, on),
+            None => self.add_unknown(&own, delay, &longest, on),
+        }
+    }
+
+    /// Anything of the size of a part.
+    fn add_unknown(&mut self, own: &About, delay: &Delay, longest: &Z, on: &Stretch<'_>) {
+        let (bits, far, one) = (on.bits, on.far(), Z::one() << on.bits);
+        let all = modulus(&own.value) + &own.off;
+        for (sum, time) in self.blame.iter_mut().zip(&delay.changes) {
+            let angle: Z = (&far * time.abs()) >> FREQUENCY_BITS;
+            *sum += (&all * angle.min(one.clone())) >> bits;
+        }
+        self.slope_rest += modulus(&own.slope) + &own.slope_off + up((longest + &delay.spread) * &all, bits);
+        self.rest += all;
+    }
+
+    fn add_turned(&mut self, own: About, delay: &Delay, turn: &Complex, angle: &Z, on: &Stretch<'_>) {
+        let About { value: p, of_sides, slope: mut d, off, slope_off, bent } = own;
+        let (bits, size) = (on.bits, modulus(&p));
+        add(&mut d, turned_back(&p, &delay.floor, bits));
+        // The frequency, rounded up to a whole number, and one.
+        let above: Z = (on.far() >> FREQUENCY_BITS) + 2_u32;
+        let (mut rounded, d_size) = (&size * above * self.by_sides.len().max(2), modulus(&d));
+        for ((sum, mut own), time) in self.by_sides.iter_mut().zip(of_sides).zip(&delay.changes) {
+            add(&mut own, turned_back(&p, &((on.middle * time) >> FREQUENCY_BITS), bits));
+            rounded += modulus(&own);
+            add(sum, times(&own, turn, bits));
+        }
+        add(&mut self.value, times(&p, turn, bits));
+        add(&mut self.slope, times(&d, turn, bits));
+        // exp(-i x) is off 1 - i x by at most x^2/2, and off 1 by at most x.
+        let square = on.by_half(delay.spread.clone()) + up(angle * angle, bits + 1);
+        self.rest += bent + up(&size * square + &off * angle, bits) + (rounded >> (bits - 3)) + ROUNDED_VECTORS;
+        let slope_rounded: Z = ((&size + &d_size) >> (bits - 3)) + ROUNDED_VECTORS;
+        self.rest += on.by_half(slope_rounded.clone());
+        let longest: Z = &delay.floor + 1_u32;
+        self.slope_rest +=
+            slope_off + up(longest * &off + &delay.spread * (size + off) + d_size * angle, bits) + slope_rounded;
     }
 
     /// With as many bits as are of use. The slope has a unit of its own.
-    fn short((value, changes, slope): (Complex, Vec<Complex>, Complex), rest: Z, slope_rest: Z, blame: Vec<Z>) -> Self {
+    fn short(self, half: &Z) -> Local {
+        let Sums { value, slope, by_sides, rest, slope_rest, blame } = self;
+        let by_omega = slope.each_ref().map(|x| (x * half) >> FREQUENCY_BITS);
+        let changes: Vec<Complex> = by_sides.into_iter().chain([by_omega]).collect();
         let down = |numbers: &[Complex], own: &Complex, rest: &Z| {
             let longest = numbers.iter().chain([own]).flatten().chain([rest]).map(Z::bits).max().unwrap_or(0);
             longest.saturating_sub(SHORT)
@@ -230,6 +261,35 @@ impl Local {
             slope_rest: floor(&slope_rest, own) + 4,
             blame: blame.iter().map(|x| floor(x, far)).collect(),
         }
+    }
+}
+
+/// The function about the middle of a stretch and of a box.
+pub(super) struct Local {
+    value: [i128; 2],
+    /// The changes by half of each side of the box, and by half of the stretch.
+    changes: Vec<[i128; 2]>,
+    rest: i128,
+    /// The derivative by the frequency, and how far it is off anywhere.
+    slope: [i128; 2],
+    slope_rest: i128,
+    /// How much of the rest is there because of each side of the box, for a choice and no proof.
+    blame: Vec<i128>,
+}
+
+impl Local {
+    pub fn new(parts: &[Part], on: &Stretch<'_>) -> Self {
+        let parameters = parts.first().map_or(0, |part| part.about.len() - 1);
+        let (by_sides, blame) = (vec![Complex::default(); parameters], vec![Z::zero(); parameters]);
+        let mut sums = Sums { by_sides, blame, ..Sums::default() };
+        for part in parts {
+            let own = part.on(on);
+            match &part.delay {
+                None => sums.add(own),
+                Some(delay) => sums.add_delayed(own, delay, on),
+            }
+        }
+        sums.short(on.half)
     }
 
     /// The first heading, a given one before all others, about which the function is in the half plane, at least a share `1/2^margin` of its
@@ -321,7 +381,8 @@ mod tests {
             let half = if is_point { 0 } else { random(longest) };
             let middle = half + random(600);
             let unit = |k: i64| (Z::from(k) << FREQUENCY_BITS) / 200;
-            let local = Local::new(&parts, &unit(middle), &unit(half), &turns, bits);
+            let on = Stretch { middle: &unit(middle), half: &unit(half), turns: &turns, bits };
+            let local = Local::new(&parts, &on);
             let value = |[t, u, v]: [f64; 3]| {
                 let (x, y) = ((cx as f64 + rx as f64 * u) / 50.0, (cy as f64 + ry as f64 * v) / 50.0);
                 let (w, tau) = ((middle as f64 + half as f64 * t) / 200.0, 1.0 + x / 2.0 - y / 4.0);

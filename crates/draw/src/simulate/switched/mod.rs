@@ -175,19 +175,9 @@ impl SwitchedModel {
         self.period
     }
 
-    /// The sources.
-    pub fn sources(&self) -> &[Pwm] {
-        &self.sources
-    }
-
     /// Names of the plant's states.
     pub fn plant_states(&self) -> &[String] {
         &self.plant_states
-    }
-
-    /// Names of the controllers' states.
-    pub fn controller_states(&self) -> &[String] {
-        &self.controller_states
     }
 
     /// Names of the inputs.

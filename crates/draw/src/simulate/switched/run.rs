@@ -4,6 +4,7 @@ use super::{SwitchedModel, SwitchedState};
 use crate::simulate::sampled::{Excitation, SAMPLES_BETWEEN_CHECKS};
 use crate::simulate::trace::Trace;
 use jurist_algebra::limits::{Budget, Exhausted};
+use nalgebra::DVector;
 
 /// What a run writes down.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,35 +71,9 @@ impl SwitchedModel {
                 inputs = excitation.inputs_at(n, self.inputs.len());
             }
             let output = self.controller_output(&state, &inputs);
-            let duty = self.duty(&state, &inputs);
             let outside = |(s, e): (&super::Pwm, &f64)| *e < 0.0 || *e > s.carrier;
             clamped += usize::from(self.sources.iter().zip(output.iter()).any(outside));
-            let values = |plant: &nalgebra::DVector<f64>, on: &[bool]| {
-                let mut row: Vec<f64> = plant.iter().copied().collect();
-                for (k, source) in self.sources.iter().enumerate() {
-                    row.extend([output[k], duty[k], if on[k] { source.amplitude } else { 0.0 }]);
-                }
-                row
-            };
-            let begin = n as f64 * self.period;
-            let mut plant = state.plant.clone();
-            let mut elapsed = 0.0;
-            for (k, stretch) in self.stretches(&duty).iter().enumerate() {
-                let drive = self.drive(&stretch.on, &inputs);
-                match record {
-                    Record::Samples if k == 0 => trace.push(begin, values(&plant, &stretch.on)),
-                    Record::Samples => {}
-                    Record::Waveform(inside) => {
-                        for j in 0..=inside + 1 {
-                            let part = stretch.length * j as f64 / (inside + 1) as f64;
-                            let there = self.flow.advance(&plant, &drive, part);
-                            trace.push(begin + elapsed + part, values(&there, &stretch.on));
-                        }
-                    }
-                }
-                plant = self.flow.advance(&plant, &drive, stretch.length);
-                elapsed += stretch.length;
-            }
+            let plant = self.through_period(n as f64 * self.period, &state, &inputs, record, &mut trace);
             let next = SwitchedState { plant, controller: self.next_controller(&state, &inputs) };
             if !next.is_finite() {
                 break;
@@ -106,5 +81,42 @@ impl SwitchedModel {
             state = next;
         }
         Ok(SwitchedRun { trace, end: state, clamped })
+    }
+
+    /// The plant at the end of a period, through which it is written down.
+    fn through_period(
+        &self,
+        begin: f64,
+        state: &SwitchedState,
+        inputs: &DVector<f64>,
+        record: Record,
+        trace: &mut Trace,
+    ) -> DVector<f64> {
+        let (output, duty) = (self.controller_output(state, inputs), self.duty(state, inputs));
+        let values = |plant: &DVector<f64>, on: &[bool]| {
+            let mut row: Vec<f64> = plant.iter().copied().collect();
+            for (k, source) in self.sources.iter().enumerate() {
+                row.extend([output[k], duty[k], if on[k] { source.amplitude } else { 0.0 }]);
+            }
+            row
+        };
+        let (mut plant, mut elapsed) = (state.plant.clone(), 0.0);
+        for (k, stretch) in self.stretches(&duty).iter().enumerate() {
+            let drive = self.drive(&stretch.on, inputs);
+            match record {
+                Record::Samples if k == 0 => trace.push(begin, values(&plant, &stretch.on)),
+                Record::Samples => {}
+                Record::Waveform(inside) => {
+                    for j in 0..=inside + 1 {
+                        let part = stretch.length * j as f64 / (inside + 1) as f64;
+                        let there = self.flow.advance(&plant, &drive, part);
+                        trace.push(begin + elapsed + part, values(&there, &stretch.on));
+                    }
+                }
+            }
+            plant = self.flow.advance(&plant, &drive, stretch.length);
+            elapsed += stretch.length;
+        }
+        plant
     }
 }

@@ -5,8 +5,8 @@
 mod polynomial;
 mod systems;
 
-use super::evaluate::symbolic::{BlockValues, DiscretizationValues, DynamicValues, PortValues, Row, Values, Wiring};
 use super::evaluate::transfer::Fraction;
+use super::evaluate::values::{BlockValues, DiscretizationValues, DynamicValues, PortValues, Row, Values, Wiring};
 use super::evaluate::zpoly::ZPoly;
 use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};

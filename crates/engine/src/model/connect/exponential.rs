@@ -6,7 +6,8 @@
 //! stay rational.
 
 use super::factor::factors;
-use super::state_space::{NotConnected, solve};
+use super::matrices::solve;
+use super::state_space::NotConnected;
 use crate::model::symbols::Symbols;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::RationalMatrix;

@@ -10,8 +10,8 @@ use crate::coverage::refusals::NO_FIXED_ORDER;
 use crate::error::{Code, Diagnostic, Span};
 use crate::model::complex::ports_as_written;
 use crate::model::discretization::Inputs;
-use crate::model::evaluate::symbolic::{BlockValues, Hold};
 use crate::model::evaluate::transfer::MAX_ORDER;
+use crate::model::evaluate::values::{BlockValues, Hold};
 use crate::model::presupposed::{Presupposed, Presupposition};
 use crate::model::symbols::Symbols;
 use crate::model::text::names::shorten;
@@ -89,15 +89,12 @@ impl Making<'_> {
     fn behind_hold(&mut self) -> Result<(RationalMatrix, Vec<Aged>), NotConnected> {
         let is_first_order = self.hold.inputs == Inputs::Straight;
         let delay = self.delay.clone();
-        let (samples, fraction) = samples(&delay, &self.time, self.hold, self.block, self.symbols)?;
+        let (samples, fraction) = self.samples(&delay)?;
         let zeros = if is_first_order { 2 } else { 1 };
         // Nobody asks for the modes of exponentials that stay whole.
         let stays_whole = self.symbols.keeps_flows();
         let modes = if stays_whole { None } else { Some(Modes::of(&self.s.a, zeros, self.budget)?) };
-        let mut respond = |share: &RationalFunction| {
-            let Making { s, hold, time, symbols, budget, .. } = self;
-            response(s, modes.as_ref(), &(&*time * share), hold, time, symbols, budget)
-        };
+        let mut respond = |share: &RationalFunction| self.response(modes.as_ref(), &(&self.time * share));
         let one = RationalFunction::one();
         // x+ = phi x + early u[k-m-1] + now u[k-m] + late u[k-m+1]
         let (phi, early, now, late) = if fraction.is_zero() {
@@ -154,35 +151,24 @@ impl Making<'_> {
     ) -> Result<(RationalMatrix, Vec<Aged>), NotConnected> {
         let is_held = |j: usize| self.hold.pulses[j].is_none();
         let (n, inputs) = (self.s.a.rows(), ports_as_written(self.block).0);
-        let (phi, mut all) = if (0..inputs).any(is_held) {
-            let (phi, mut aged) = self.behind_hold()?;
-            for part in &mut aged {
-                for j in (0..inputs).filter(|&j| !is_held(j)) {
-                    (0..n).for_each(|i| part.enters[(i, j)] = RationalFunction::zero());
-                    part.direct[j] = RationalFunction::zero();
-                }
-            }
-            (Some(phi), aged)
-        } else {
-            (None, Vec::new())
-        };
+        let of_held = if (0..inputs).any(is_held) { Some(self.behind_hold()?) } else { None };
         let modes = if self.symbols.keeps_flows() { None } else { Some(Modes::of(&self.s.a, 0, self.budget)?) };
-        let phi = match phi {
-            Some(phi) => phi,
-            None => self.flow(modes.as_ref(), &self.time.clone())?,
+        let (phi, mut all) = match of_held {
+            Some(of_held) => of_held,
+            None => (self.flow(modes.as_ref(), &self.time.clone())?, Vec::new()),
         };
+        for part in &mut all {
+            for j in (0..inputs).filter(|&j| !is_held(j)) {
+                (0..n).for_each(|i| part.enters[(i, j)] = RationalFunction::zero());
+                part.direct[j] = RationalFunction::zero();
+            }
+        }
         let one = RationalFunction::one();
         for (j, pulse) in self.hold.pulses.iter().enumerate() {
             let Some(pulse) = pulse else { continue };
-            let duty = substituted(&pulse.duty, set)?;
-            if let Some(duty) = duty.as_constant()
-                && !(duty > Rational::ZERO && duty < Rational::ONE)
-            {
-                return Err(undefined(format!("duty {duty} of '{}'", shorten(&self.block.name)), self.hold.span));
-            }
+            self.is_within_a_period(&substituted(&pulse.duty, set)?)?;
             let weight = RationalFunction::from(Rational::new(1.into(), (pulse.edges[0].len() as i64).into()));
-            let column = RationalMatrix::from_fn(n, 1, |i, _| self.s.b[(i, j)].clone());
-            let column = column.scaled(&(&self.time * &weight));
+            let column = self.s.b.block(0..n, j..j + 1).scaled(&(&self.time * &weight));
             let of_odd = if pulse.alternates { pulse.edges[1].as_slice() } else { &[] };
             let edges = pulse.edges[0].iter().map(|edge| (edge, 0)).chain(of_odd.iter().map(|edge| (edge, 1)));
             for (edge, commanded) in edges {
@@ -211,24 +197,90 @@ impl Making<'_> {
         Ok((phi, all))
     }
 
+    /// Refuses a duty ratio that is a number and not between 0 and 1.
+    fn is_within_a_period(&self, duty: &RationalFunction) -> Result<(), NotConnected> {
+        match duty.as_constant().filter(|duty| *duty <= Rational::ZERO || *duty >= Rational::ONE) {
+            Some(duty) => Err(undefined(format!("duty {duty} of '{}'", shorten(&self.block.name)), self.hold.span)),
+            None => Ok(()),
+        }
+    }
+
     /// How many whole samples an edge stands behind what commands it, and the fraction of one that is left; in a period it stands there.
     fn place(&mut self, edge: RationalFunction) -> Result<(usize, RationalFunction), NotConnected> {
         let whole =
             self.delay.checked_div(&self.time).and_then(|ratio| ratio.as_constant()).filter(Rational::is_integer);
         if let Some(whole) = whole.filter(|_| edge.as_constant().is_none()) {
             // As long as the duty ratio is between 0 and 1 it passes no sample.
-            let (samples, _) = samples(&(&self.time * &whole.into()), &self.time, self.hold, self.block, self.symbols)?;
+            let (samples, _) = self.samples(&(&self.time * &whole.into()))?;
             return Ok((samples, edge));
         }
         let place = &self.delay + &(&self.time * &edge);
-        samples(&place, &self.time, self.hold, self.block, self.symbols)
+        self.samples(&place)
+    }
+
+    /// Whole samples and the fraction of one in the dead time. Where that varies against the sample time, the whole samples are
+    /// those near the values that the symbols know of.
+    fn samples(&mut self, delay: &RationalFunction) -> Result<(usize, RationalFunction), NotConnected> {
+        let Making { hold, time, symbols, .. } = self;
+        let name = shorten(&self.block.name);
+        let ratio = delay.checked_div(time);
+        let near = ratio.as_ref().and_then(|ratio| match ratio.as_constant() {
+            Some(ratio) => Some(ratio),
+            None => symbols.near_value(ratio).or_else(|| symbols.whole_part(ratio)),
+        });
+        let (Some(ratio), Some(near)) = (ratio, near) else {
+            if hold.inputs == Inputs::Pulses {
+                let message =
+                    format!("an edge of the pulse of '{name}' may pass a sample: the loop has no fixed order");
+                let error = Diagnostic::error(Code::Function, message).at(hold.span, "edge and dead time vary");
+                let help = "set the duty ratio, or give a dead time of whole samples; 'intervals' may ask about either";
+                return Err(NotConnected::Refused(Box::new(error.help(help))));
+            }
+            let error = NO_FIXED_ORDER.diagnostic(&[("name", &name)]);
+            let error = error.at(hold.span, "the dead time varies against the sample time");
+            return Err(NotConnected::Refused(Box::new(error)));
+        };
+        if symbols.moves(&ratio) {
+            symbols.note_samples(&ratio);
+        }
+        let whole = near.floor();
+        let fraction = &ratio - &RationalFunction::from(Rational::from(whole.clone()));
+        match whole.to_i64().and_then(|m| usize::try_from(m).ok()).filter(|&m| m < MAX_ORDER) {
+            Some(samples) => Ok((samples, fraction)),
+            None => {
+                let message = format!("the dead time of '{name}' is more than {MAX_ORDER} samples");
+                Err(NotConnected::Refused(Box::new(refused(Code::Value, message, hold.span, "this hold"))))
+            }
+        }
+    }
+
+    /// The response over a span.
+    fn response(&mut self, modes: Option<&Modes>, span: &RationalFunction) -> Result<Response, NotConnected> {
+        let Making { s, hold, time, symbols, budget, .. } = self;
+        let (n, m) = (s.a.rows(), s.b.columns());
+        let is_first_order = hold.inputs == Inputs::Straight;
+        let size = n + m * if is_first_order { 2 } else { 1 };
+        let slope = time.recip().unwrap_or_default();
+        let matrix = RationalMatrix::from_fn(size, size, |i, j| match (i < n, j) {
+            (true, j) if j < n => s.a[(i, j)].clone(),
+            (true, j) if j < n + m => s.b[(i, j - n)].clone(),
+            // The input's own slope.
+            (false, j) if j >= n + m && i + m == j => slope.clone(),
+            _ => RationalFunction::zero(),
+        });
+        let whole = match modes {
+            Some(modes) => modes.exponential(&matrix, span, symbols, budget)?,
+            None => symbols.flow(&matrix, span),
+        };
+        let part = |from: usize, count: usize| RationalMatrix::from_fn(n, count, |i, j| whole[(i, from + j)].clone());
+        let slope = if is_first_order { part(n + m, m) } else { RationalMatrix::zeros(n, m) };
+        Ok(Response { state: part(0, n), input: part(n, m), slope })
     }
 
     /// Whether no output changes at an edge of an input: then a sample may stand on it.
     fn is_unseen(&self, j: usize) -> bool {
         let System { b, c, d, .. } = self.s;
-        let column = RationalMatrix::from_fn(b.rows(), 1, |i, _| b[(i, j)].clone());
-        product(c, &column).entries().iter().all(RationalFunction::is_zero)
+        product(c, &b.block(0..b.rows(), j..j + 1)).entries().iter().all(RationalFunction::is_zero)
             && (0..d.rows()).all(|i| d[(i, j)].is_zero())
     }
 
@@ -270,76 +322,6 @@ fn stand_in(s: System, hold: &Hold, delay: &RationalFunction) -> System {
         s.d.clone()
     };
     System { d, ..s }
-}
-
-/// Whole samples and the fraction of one in the dead time. Where that varies against the sample time, the whole samples are
-/// those near the values that the symbols know of.
-fn samples(
-    delay: &RationalFunction,
-    time: &RationalFunction,
-    hold: &Hold,
-    block: &BlockValues,
-    symbols: &mut Symbols,
-) -> Result<(usize, RationalFunction), NotConnected> {
-    let name = shorten(&block.name);
-    let ratio = delay.checked_div(time);
-    let near = ratio.as_ref().and_then(|ratio| match ratio.as_constant() {
-        Some(ratio) => Some(ratio),
-        None => symbols.near_value(ratio).or_else(|| symbols.whole_part(ratio)),
-    });
-    let (Some(ratio), Some(near)) = (ratio, near) else {
-        if hold.inputs == Inputs::Pulses {
-            let message = format!("an edge of the pulse of '{name}' may pass a sample: the loop has no fixed order");
-            let error = Diagnostic::error(Code::Function, message).at(hold.span, "edge and dead time vary");
-            let help = "set the duty ratio, or give a dead time of whole samples; 'intervals' may ask about either";
-            return Err(NotConnected::Refused(Box::new(error.help(help))));
-        }
-        let error = NO_FIXED_ORDER.diagnostic(&[("name", &name)]);
-        let error = error.at(hold.span, "the dead time varies against the sample time");
-        return Err(NotConnected::Refused(Box::new(error)));
-    };
-    if symbols.moves(&ratio) {
-        symbols.note_samples(&ratio);
-    }
-    let whole = near.floor();
-    let fraction = &ratio - &RationalFunction::from(Rational::from(whole.clone()));
-    match whole.to_i64().and_then(|m| usize::try_from(m).ok()).filter(|&m| m < MAX_ORDER) {
-        Some(samples) => Ok((samples, fraction)),
-        None => {
-            let message = format!("the dead time of '{name}' is more than {MAX_ORDER} samples");
-            Err(NotConnected::Refused(Box::new(refused(Code::Value, message, hold.span, "this hold"))))
-        }
-    }
-}
-
-/// The response over a span.
-fn response(
-    s: &System,
-    modes: Option<&Modes>,
-    span: &RationalFunction,
-    hold: &Hold,
-    step: &RationalFunction,
-    symbols: &mut Symbols,
-    budget: &Budget,
-) -> Result<Response, NotConnected> {
-    let (n, m) = (s.a.rows(), s.b.columns());
-    let is_first_order = hold.inputs == Inputs::Straight;
-    let size = n + m * if is_first_order { 2 } else { 1 };
-    let slope = step.recip().unwrap_or_default();
-    let matrix = RationalMatrix::from_fn(size, size, |i, j| match (i < n, j) {
-        (true, j) if j < n => s.a[(i, j)].clone(),
-        (true, j) if j < n + m => s.b[(i, j - n)].clone(),
-        // The input's own slope.
-        (false, j) if j >= n + m && i + m == j => slope.clone(),
-        _ => RationalFunction::zero(),
-    });
-    let whole = match modes {
-        Some(modes) => modes.exponential(&matrix, span, symbols, budget)?,
-        None => symbols.flow(&matrix, span),
-    };
-    let part = |from: usize, count: usize| RationalMatrix::from_fn(n, count, |i, j| whole[(i, from + j)].clone());
-    let slope = if is_first_order { part(n + m, m) } else { RationalMatrix::zeros(n, m) };
-    Ok(Response { state: part(0, n), input: part(n, m), slope })
 }
 
 /// `left * right`, also where one has no rows or columns.

@@ -3,8 +3,10 @@
 mod exponential;
 mod factor;
 mod hold;
+pub(in crate::model) mod matrices;
 mod modulators;
 pub(in crate::model) mod orbit;
 mod rates;
+pub(in crate::model) mod realise;
 pub(in crate::model) mod samples;
 pub(in crate::model) mod state_space;

@@ -2,7 +2,7 @@
 
 use super::state_space::{Connecting, NotConnected, substituted};
 use crate::error::{Code, Diagnostic};
-use crate::model::evaluate::symbolic::{BlockValues, DiscretizationValues, Row};
+use crate::model::evaluate::values::{BlockValues, DiscretizationValues, Row};
 use crate::model::text::names::shorten;
 use jurist_algebra::poly::RationalFunction;
 

@@ -5,12 +5,14 @@
 //! `h (S(D) - D S(1))` added to the plant's states in each period, has the same orbit. That loop is linear. At rest it commands
 //! `h D = u + r h (S(D) - D S(1))`: `u` is what it commands with nothing added, and the row `r` how the command at rest answers to what is added.
 
+use super::matrices::solve;
 use super::modulators::{drivers, periods_agree};
-use super::state_space::{Connecting, NotConnected, System, as_written, closed, realised, solve};
+use super::realise::{as_written, realised};
+use super::state_space::{Connecting, NotConnected, System, closed};
 use crate::error::{Code, Diagnostic, Span};
 use crate::model::definition::{Form, Model};
 use crate::model::discretization::{Edges, Inputs};
-use crate::model::evaluate::symbolic::{BlockValues, DiscretizationValues, Hold, Row, Values, Wiring};
+use crate::model::evaluate::values::{BlockValues, DiscretizationValues, Hold, Row, Values, Wiring};
 use crate::model::text::names::{list, shorten};
 use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::number::{Integer, Rational};
@@ -85,17 +87,8 @@ pub(in crate::model) fn orbit(
         let why = "has more than one orbit, or none: behind a hold the loop has a root at 1";
         refused(&blocks[place.block], &place, why)
     })?;
-    let inputs = &model.simulation().inputs;
-    let value = |k: usize| inputs.iter().find(|(name, _)| name.name == wiring.inputs[k]).map(|(_, value)| value);
-    let term = |k: usize| value(k).map(|value| &answers[k] * &value.clone().into());
-    let commanded = (0..external).filter_map(term).fold(RationalFunction::zero(), |sum, term| &sum + &term);
-    let without: Vec<&str> = (0..external)
-        .filter(|&k| value(k).is_none() && !answers[k].is_zero())
-        .map(|k| wiring.inputs[k].as_str())
-        .collect();
-    if commanded.is_zero() && !without.is_empty() {
-        return Err(nothing_commanded(&blocks[place.block], &place, &without));
-    }
+    let commanded = commanded(model, &wiring.inputs[..external], &answers)
+        .map_err(|without| nothing_commanded(&blocks[place.block], &place, &without))?;
     let mean = commanded.checked_div(&height).ok_or_else(|| {
         let message = format!("the pulses of '{}' have no height", shorten(&blocks[place.block].name));
         super::state_space::undefined(message, place.span)
@@ -111,6 +104,23 @@ pub(in crate::model) fn orbit(
         late,
         edges: place.edges,
     })
+}
+
+/// What inputs at rest command together; the names of those without a value that would command something, where nothing is commanded.
+fn commanded<'n>(
+    model: &Model,
+    names: &'n [String],
+    answers: &[RationalFunction],
+) -> Result<RationalFunction, Vec<&'n str>> {
+    let inputs = &model.simulation().inputs;
+    let (mut sum, mut without) = (RationalFunction::zero(), Vec::new());
+    for (own, answer) in names.iter().zip(answers).filter(|(_, answer)| !answer.is_zero()) {
+        match inputs.iter().find(|(name, _)| name.name == *own) {
+            Some((_, value)) => sum = &sum + &(answer * &value.clone().into()),
+            None => without.push(own.as_str()),
+        }
+    }
+    if sum.is_zero() && !without.is_empty() { Err(without) } else { Ok(sum) }
 }
 
 fn refused(block: &BlockValues, place: &Place, why: &str) -> NotConnected {

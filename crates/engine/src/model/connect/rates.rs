@@ -4,26 +4,132 @@
 //! each sample has a system of its own, and the product of their matrices is the loop from one hyperperiod to the next: its
 //! eigenvalues do not depend on where the hyperperiod begins, but for zeros [Kranc1957].
 
-use super::state_space::{NotConnected, System, product};
+use super::matrices::product;
+use super::state_space::{NotConnected, System};
 use crate::model::definition::Rate;
+use crate::model::evaluate::values::BlockValues;
 use crate::model::symbols::Symbols;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::poly::RationalFunction;
 use std::cell::RefCell;
 
-/// The systems of blocks at a sample, with the registers of slower blocks behind their states: those that are active compute, the others
-/// show what they hold.
-pub(super) fn at_sample(systems: &[Vec<System>], rates: &[Rate], sample: u64) -> Vec<System> {
-    let at = |(of_samples, rate): (&Vec<System>, &Rate)| {
-        let s = &of_samples[sample as usize % of_samples.len()];
-        match (rate.every, rate.is_active(sample)) {
-            (1, _) => s.clone(),
-            (_, true) => computing(s),
-            (_, false) => holding(s),
+/// The blocks of a loop over a hyperperiod.
+pub(super) struct Hyperperiod<'s> {
+    systems: &'s [Vec<System>],
+    rates: Vec<Rate>,
+    steps: u64,
+    /// The sample at which it begins.
+    start: u64,
+}
+
+/// Samples in a row in which the loop is the same.
+pub(super) struct Run {
+    /// The first one.
+    pub sample: u64,
+    /// How many these are.
+    pub length: u64,
+    /// Which blocks are active, and at last whether the sample is odd where that matters: systems are the same where these are.
+    pub active: Vec<bool>,
+}
+
+impl<'s> Hyperperiod<'s> {
+    /// It begins at a sample, or where most registers are overwritten at once.
+    pub fn new(systems: &'s [Vec<System>], blocks: &[BlockValues], steps: u64, start: Option<u64>) -> Self {
+        let rates: Vec<Rate> = blocks.iter().map(|block| block.rate).collect();
+        let overwritten = |k: u64| -> usize {
+            let slow = systems.iter().zip(&rates).filter(|(_, rate)| rate.every > 1 && rate.is_active(k));
+            slow.map(|(s, _)| s[0].d.rows()).sum()
+        };
+        let fewest_registers = || (0..steps).max_by_key(|&k| (overwritten(k), steps - k)).unwrap_or(0);
+        let start = start.unwrap_or_else(fewest_registers);
+        Hyperperiod { systems, rates, steps, start }
+    }
+
+    /// The systems of blocks at a sample, with the registers of slower blocks behind their states: those that are active compute, the others
+    /// show what they hold.
+    pub fn at_sample(&self, sample: u64) -> Vec<System> {
+        let at = |(of_samples, rate): (&Vec<System>, &Rate)| {
+            let s = &of_samples[sample as usize % of_samples.len()];
+            match (rate.every, rate.is_active(sample)) {
+                (1, _) => s.clone(),
+                (_, true) => computing(s),
+                (_, false) => holding(s),
+            }
+        };
+        self.systems.iter().zip(&self.rates).map(at).collect()
+    }
+
+    /// The loop from one hyperperiod to the next; `connect` makes one system of those of all blocks.
+    ///
+    /// Cost: products of matrices, as many as blocks change between being active and not, each with the logarithm of the samples between.
+    pub fn lifted(
+        &self,
+        symbols: Option<&RefCell<Symbols>>,
+        budget: &Budget,
+        mut connect: impl FnMut(&[System]) -> Result<System, NotConnected>,
+    ) -> Result<Lifted, NotConnected> {
+        let mut known: Vec<(Vec<bool>, System)> = Vec::new();
+        let (mut whole, mut first): (Option<System>, Option<System>) = (None, None);
+        for Run { sample, length, active } in self.runs() {
+            budget.check()?;
+            let system = match known.iter().find(|(pattern, _)| *pattern == active) {
+                Some((_, system)) => system.clone(),
+                None => {
+                    let system = shortened(connect(&self.at_sample(sample))?, symbols);
+                    known.push((active, system.clone()));
+                    system
+                }
+            };
+            first.get_or_insert_with(|| system.clone());
+            let run = power(&system, length, symbols, budget)?;
+            whole = Some(match whole {
+                None => run,
+                Some(before) => shortened(after(&run, &before), symbols),
+            });
         }
-    };
-    systems.iter().zip(rates).map(at).collect()
+        let (whole, first) = (whole.expect("a hyperperiod has a sample"), first.expect("a hyperperiod has a sample"));
+        let places = self.kept_places();
+        let kept: Vec<usize> = (0..places.len()).filter(|&k| places[k].is_some()).collect();
+        let n = kept.len();
+        let system = System {
+            a: whole.a.principal(&kept),
+            b: RationalMatrix::from_fn(n, whole.b.columns(), |i, j| whole.b[(kept[i], j)].clone()),
+            c: RationalMatrix::from_fn(first.c.rows(), n, |i, j| first.c[(i, kept[j])].clone()),
+            d: first.d,
+        };
+        let keeps_registers = |rate: &Rate| rate.every > 1 && !rate.is_active(self.start);
+        Ok(Lifted { system, keeps_registers: self.rates.iter().map(keeps_registers).collect() })
+    }
+
+    /// For each state of a sample, registers among them, which state of the hyperperiod it is; `None` for a register that the first sample
+    /// overwrites.
+    pub fn kept_places(&self) -> Vec<Option<usize>> {
+        let (mut places, mut next) = (Vec::new(), 0);
+        for (s, rate) in self.systems.iter().zip(&self.rates) {
+            let registers = if rate.every > 1 { s[0].d.rows() } else { 0 };
+            for k in 0..s[0].a.rows() + registers {
+                let is_state = k < s[0].a.rows() || !rate.is_active(self.start);
+                places.push(is_state.then_some(next));
+                next += usize::from(is_state);
+            }
+        }
+        places
+    }
+
+    /// The samples of the hyperperiod.
+    pub fn runs(&self) -> impl Iterator<Item = Run> {
+        let alternates = self.systems.iter().any(|of_samples| of_samples.len() > 1);
+        let (mut next, end) = (self.start, self.start + self.steps);
+        std::iter::from_fn(move || {
+            let sample = (next < end).then_some(next)?;
+            let length = if alternates { 1 } else { run_length(&self.rates, sample, end) };
+            next += length;
+            let parity = alternates && sample % 2 == 1;
+            let active = self.rates.iter().map(|rate| rate.is_active(sample)).chain([parity]).collect();
+            Some(Run { sample, length, active })
+        })
+    }
 }
 
 fn computing(s: &System) -> System {
@@ -60,97 +166,6 @@ pub(super) struct Lifted {
     pub system: System,
     /// For each block, whether its registers are among the states.
     pub keeps_registers: Vec<bool>,
-}
-
-/// The loop over a hyperperiod that begins at a sample, or where most registers are overwritten at once; `connect` makes one system of
-/// those of all blocks.
-///
-/// Cost: products of matrices, as many as blocks change between being active and not, each with the logarithm of the samples between.
-pub(super) fn lifted(
-    systems: &[Vec<System>],
-    rates: &[Rate],
-    steps: u64,
-    start: Option<u64>,
-    symbols: Option<&RefCell<Symbols>>,
-    budget: &Budget,
-    mut connect: impl FnMut(&[System]) -> Result<System, NotConnected>,
-) -> Result<Lifted, NotConnected> {
-    let start = start.unwrap_or_else(|| first_sample(systems, rates, steps));
-    let mut known: Vec<(Vec<bool>, System)> = Vec::new();
-    let (mut whole, mut first): (Option<System>, Option<System>) = (None, None);
-    for Run { sample, length, active } in runs(systems, rates, start, steps) {
-        budget.check()?;
-        let system = match known.iter().find(|(pattern, _)| *pattern == active) {
-            Some((_, system)) => system.clone(),
-            None => {
-                let system = shortened(connect(&at_sample(systems, rates, sample))?, symbols);
-                known.push((active, system.clone()));
-                system
-            }
-        };
-        first.get_or_insert_with(|| system.clone());
-        let run = power(&system, length, symbols, budget)?;
-        whole = Some(match whole {
-            None => run,
-            Some(before) => shortened(after(&run, &before), symbols),
-        });
-    }
-    let (whole, first) = (whole.expect("a hyperperiod has a sample"), first.expect("a hyperperiod has a sample"));
-    // Registers that the first sample overwrites are no states.
-    let keeps_registers: Vec<bool> = rates.iter().map(|rate| rate.every > 1 && !rate.is_active(start)).collect();
-    let mut kept = Vec::new();
-    let mut next = 0;
-    for ((s, rate), keeps) in systems.iter().zip(rates).zip(&keeps_registers) {
-        let (n, registers) = (s[0].a.rows(), if rate.every > 1 { s[0].d.rows() } else { 0 });
-        kept.extend(next..next + if *keeps { n + registers } else { n });
-        next += n + registers;
-    }
-    let n = kept.len();
-    let system = System {
-        a: RationalMatrix::from_fn(n, n, |i, j| whole.a[(kept[i], kept[j])].clone()),
-        b: RationalMatrix::from_fn(n, whole.b.columns(), |i, j| whole.b[(kept[i], j)].clone()),
-        c: RationalMatrix::from_fn(first.c.rows(), n, |i, j| first.c[(i, kept[j])].clone()),
-        d: first.d,
-    };
-    Ok(Lifted { system, keeps_registers })
-}
-
-/// The sample at which most registers are overwritten at once.
-pub(super) fn first_sample(systems: &[Vec<System>], rates: &[Rate], steps: u64) -> u64 {
-    let overwritten = |k: u64| -> usize {
-        let slow = systems.iter().zip(rates).filter(|(_, rate)| rate.every > 1 && rate.is_active(k));
-        slow.map(|(s, _)| s[0].d.rows()).sum()
-    };
-    (0..steps).max_by_key(|&k| (overwritten(k), steps - k)).unwrap_or(0)
-}
-
-/// Samples in a row in which the loop is the same.
-pub(super) struct Run {
-    /// The first one.
-    pub sample: u64,
-    /// How many these are.
-    pub length: u64,
-    /// Which blocks are active, and at last whether the sample is odd where that matters: systems are the same where these are.
-    pub active: Vec<bool>,
-}
-
-/// The samples of a hyperperiod from a sample on.
-pub(super) fn runs<'a>(
-    systems: &'a [Vec<System>],
-    rates: &'a [Rate],
-    start: u64,
-    steps: u64,
-) -> impl Iterator<Item = Run> + 'a {
-    let alternates = systems.iter().any(|of_samples| of_samples.len() > 1);
-    let mut next = start;
-    std::iter::from_fn(move || {
-        let sample = (next < start + steps).then_some(next)?;
-        let length = if alternates { 1 } else { run_length(rates, sample, start + steps) };
-        next += length;
-        let parity = alternates && sample % 2 == 1;
-        let active = rates.iter().map(|rate| rate.is_active(sample)).chain([parity]).collect();
-        Some(Run { sample, length, active })
-    })
 }
 
 /// For how many samples the same blocks are active, up to an end.

@@ -4,10 +4,11 @@
 //! has these matrices around a circle: `K` enters in rows that are as many as the ranks of all `B` together. That bounds the degree
 //! in `K`; no product of polynomials is made for it.
 
-use super::rates::{Run, at_sample, first_sample, runs};
-use super::state_space::{Connecting, NotConnected, System, closed, realised};
-use crate::model::definition::{Model, Rate};
-use crate::model::evaluate::symbolic::{Values, Wiring};
+use super::rates::{Hyperperiod, Run};
+use super::realise::realised;
+use super::state_space::{Connecting, NotConnected, closed};
+use crate::model::definition::Model;
+use crate::model::evaluate::values::{Values, Wiring};
 use crate::model::evaluate::work::count_work;
 use crate::model::symbols::{Symbols, beside};
 use jurist_algebra::matrix::RationalMatrix;
@@ -57,15 +58,13 @@ pub(in crate::model) fn samples(
     let (Values::Blocks { blocks, outputs }, Some(symbols)) = (values, how.symbols) else { return Ok(None) };
     let (mut poles, mut leading) = (Vec::new(), RationalFunction::one());
     let systems = realised(blocks, how, &mut poles, &mut leading)?;
-    let rates: Vec<Rate> = blocks.iter().map(|block| block.rate).collect();
-    let start = how.start.unwrap_or_else(|| first_sample(&systems, &rates, model.hyperperiod()));
+    let of = Hyperperiod::new(&systems, blocks, model.hyperperiod(), how.start);
     let (mut known, mut patterns, mut all) = (Vec::<Vec<bool>>::new(), Vec::new(), Vec::new());
-    for Run { sample, length, active } in runs(&systems, &rates, start, model.hyperperiod()) {
+    for Run { sample, length, active } in of.runs() {
         how.budget.check()?;
         let at = known.iter().position(|pattern| *pattern == active);
         if at.is_none() {
-            let at = at_sample(&systems, &rates, sample);
-            let (system, determinant) = closed(wiring, blocks, &at, outputs, how.set, how.budget)?;
+            let (system, determinant) = closed(wiring, blocks, &of.at_sample(sample), outputs, how.set, how.budget)?;
             poles.push(determinant.numerator().clone());
             let Some(split) = linear(&system.a) else { return Ok(None) };
             known.push(active);
@@ -77,7 +76,7 @@ pub(in crate::model) fn samples(
     let Some(symbols) = symbols.filter(|_| poles.iter().all(|pole: &MultiPoly| pole.degree_in(0) == 0)) else {
         return Ok(None);
     };
-    let parts = parts(&patterns, &all, &kept_places(&systems, &rates, start));
+    let parts = parts(&patterns, &all, &of.kept_places());
     Ok(Some(Samples { patterns, runs: all, parts, symbols }))
 }
 
@@ -157,21 +156,6 @@ fn rank(mut rows: Vec<Vec<RationalFunction>>, columns: usize) -> usize {
         found += 1;
     }
     found
-}
-
-/// For each state of a sample, registers among them, which state of the hyperperiod it is; `None` for a register that the first sample
-/// overwrites.
-fn kept_places(systems: &[Vec<System>], rates: &[Rate], start: u64) -> Vec<Option<usize>> {
-    let (mut places, mut next) = (Vec::new(), 0);
-    for (s, rate) in systems.iter().zip(rates) {
-        let registers = if rate.every > 1 { s[0].d.rows() } else { 0 };
-        for k in 0..s[0].a.rows() + registers {
-            let is_state = k < s[0].a.rows() || !rate.is_active(start);
-            places.push(is_state.then_some(next));
-            next += usize::from(is_state);
-        }
-    }
-    places
 }
 
 /// `p + q K` as `[p, q]` in the other variables; `None` for another function of `K`, which is the first variable.

@@ -1,27 +1,17 @@
-//! Blocks realised in state space, made discrete, and connected.
-//!
-//! The controllable canonical form of a numerator and a denominator keeps every mode, common
-//! factors included: its characteristic polynomial is the denominator.
+//! Systems in state space, and how they are connected to one.
 
-use super::hold::held;
+use super::matrices::{beside, block_diagonal, product, solve};
 use super::modulators::periods_agree;
-use super::rates::{Lifted, lifted};
+use super::rates::{Hyperperiod, Lifted};
+use super::realise::realised;
 use crate::error::{Code, Diagnostic, Span};
-use crate::model::complex::{Lift, lifted_system, names_of_parts, ports_as_written, realised_ratio, seen_from};
-use crate::model::definition::{Dynamics, Form, Model, Rate};
-use crate::model::discretization::Rule;
-use crate::model::evaluate::symbolic::{
-    BlockValues, DiscretizationValues, DynamicValues, Hold, PortValues, Row, Values, Wiring,
-};
+use crate::model::complex::names_of_parts;
+use crate::model::definition::{Dynamics, Form, Model};
+use crate::model::evaluate::values::{BlockValues, PortValues, Row, Values, Wiring};
 use crate::model::evaluate::walk::Failure;
-use crate::model::evaluate::work::count_work;
-use crate::model::evaluate::zpoly::ZPoly;
-use crate::model::presupposed::{Presupposed, Presupposition};
 use crate::model::symbols::Symbols;
-use crate::model::text::names::shorten;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::matrix::RationalMatrix;
-use jurist_algebra::number::Enclosure;
 use jurist_algebra::poly::{MultiPoly, RationalFunction};
 use std::cell::RefCell;
 
@@ -95,13 +85,11 @@ pub(super) fn substituted(
         .ok_or_else(|| undefined("division by zero at these values of the parameters".into(), Span::default()))
 }
 
-fn substituted_matrix(m: &RationalMatrix, substitution: &Substitution<'_>) -> Result<RationalMatrix, NotConnected> {
-    let mut entries = Vec::with_capacity(m.entries().len());
-    for f in m.entries() {
-        entries.push(substituted(f, substitution)?);
-    }
-    let columns = m.columns();
-    Ok(RationalMatrix::from_fn(m.rows(), columns, |i, j| entries[i * columns + j].clone()))
+pub(super) fn substituted_matrix(
+    m: &RationalMatrix,
+    substitution: &Substitution<'_>,
+) -> Result<RationalMatrix, NotConnected> {
+    m.try_map(|f| substituted(f, substitution))
 }
 
 /// Connects the parts of the model's form. `Characteristic` has no parts and gives order 0. A loop of several rates is that of a
@@ -134,7 +122,7 @@ pub(in crate::model) fn assemble(
         };
         // A matrix without rows does not know its columns.
         let b = if n == 0 { RationalMatrix::zeros(0, wiring.inputs.len()) } else { b };
-        let c = selection(&ports.outputs, n, substitution)?;
+        let c = part(&ports.outputs, 0, n, substitution)?;
         let d = RationalMatrix::zeros(c.rows(), b.columns());
         Ok(Assembled {
             system: System { a, b, c, d },
@@ -163,11 +151,6 @@ pub(in crate::model) fn assemble(
     }
 }
 
-/// The matrix of linear expressions in the first `n` signals.
-fn selection(rows: &[Row], n: usize, substitution: &Substitution<'_>) -> Result<RationalMatrix, NotConnected> {
-    part(rows, 0, n, substitution)
-}
-
 /// The matrix of the coefficients of signals `from .. from + n`.
 pub(in crate::model) fn part(
     rows: &[Row],
@@ -182,249 +165,6 @@ pub(in crate::model) fn part(
         }
     }
     Ok(out)
-}
-
-/// The controllable canonical form.
-fn realise(
-    numerator: &ZPoly,
-    denominator: &ZPoly,
-    block: &BlockValues,
-    set: &Substitution<'_>,
-    poles: &mut Vec<MultiPoly>,
-) -> Result<System, NotConnected> {
-    let n = denominator.degree();
-    let leading = substituted(&denominator.coefficient(n), set)?;
-    let Some(inverse) = leading.recip() else { return Err(loses_order(block)) };
-    poles.push(leading.numerator().clone());
-    let monic = |p: &ZPoly, k: usize| substituted(&p.coefficient(k), set).map(|c| &c * &inverse);
-    let direct = monic(numerator, n)?;
-    let mut a = RationalMatrix::zeros(n, n);
-    let mut b = RationalMatrix::zeros(n, 1);
-    let mut c = RationalMatrix::zeros(1, n);
-    for k in 0..n {
-        let d = monic(denominator, k)?;
-        c[(0, k)] = &monic(numerator, k)? - &(&direct * &d);
-        a[(n - 1, k)] = -&d;
-        if k + 1 < n {
-            a[(k, k + 1)] = RationalFunction::one();
-        }
-    }
-    if n > 0 {
-        b[(n - 1, 0)] = RationalFunction::one();
-    }
-    Ok(System { a, b, c, d: RationalMatrix::from_fn(1, 1, |_, _| direct.clone()) })
-}
-
-/// The same of a ratio with complex coefficients.
-fn complex_ratio(
-    numerator: &[ZPoly; 2],
-    denominator: &[ZPoly; 2],
-    block: &BlockValues,
-    set: &Substitution<'_>,
-    poles: &mut Vec<MultiPoly>,
-) -> Result<System, NotConnected> {
-    let n = denominator.iter().map(ZPoly::degree).max().unwrap_or(0);
-    let list = |p: &ZPoly| (0..=n).map(|k| substituted(&p.coefficient(k), set)).collect::<Result<Vec<_>, _>>();
-    let numerator = [list(&numerator[0])?, list(&numerator[1])?];
-    let denominator = [list(&denominator[0])?, list(&denominator[1])?];
-    let Some((system, square)) = realised_ratio(&numerator, &denominator) else { return Err(loses_order(block)) };
-    poles.push(square.numerator().clone());
-    Ok(system)
-}
-
-fn loses_order(block: &BlockValues) -> NotConnected {
-    let name = shorten(&block.name);
-    let message = format!("the leading coefficient of the denominator of '{name}' is zero: the block loses its order");
-    undefined(message, block.span)
-}
-
-/// Refuses an angle `w T` that is a number and not below pi.
-fn below_half_the_sampling_rate(angle: &RationalFunction, span: Span) -> Result<(), NotConnected> {
-    let Some(angle) = angle.as_constant() else { return Ok(()) };
-    // A rational number is no multiple of pi but 0.
-    let is_below =
-        (1..).map(|k| Enclosure::pi(64 * k)).find(|pi| !pi.contains(&angle)).is_some_and(|pi| angle < *pi.lower());
-    if is_below && !angle.is_negative() && !angle.is_zero() {
-        return Ok(());
-    }
-    let angle = Presupposition { of: Presupposed::Angle, function: angle.into(), span };
-    let error = if is_below { angle.not_positive() } else { angle.too_fast() };
-    Err(NotConnected::Refused(Box::new(error)))
-}
-
-/// The discrete system that the rule makes of a continuous one.
-fn discretised(
-    s: System,
-    rule: Rule,
-    value: &RationalFunction,
-    block: &BlockValues,
-    poles: &mut Vec<MultiPoly>,
-    budget: &Budget,
-) -> Result<System, NotConnected> {
-    if s.a.rows() == 0 {
-        return Ok(s);
-    }
-    rule(s, value, &mut |matrix: &RationalMatrix| {
-        let Some((inverse, determinant)) = solve(matrix, &RationalMatrix::identity(matrix.rows()), budget)? else {
-            let message = format!(
-                "the discretisation of '{}' divides by zero: the map meets a pole of the block",
-                shorten(&block.name)
-            );
-            return Err(undefined(message, block.span));
-        };
-        poles.push(determinant.numerator().clone());
-        Ok(inverse)
-    })
-}
-
-/// `M^-1 R` and `det M` by elimination over the field of rational functions; `None` when `M` is
-/// singular. Zero entries cost nothing, so a sparse diagram stays cheap.
-pub(in crate::model) fn solve(
-    m: &RationalMatrix,
-    right: &RationalMatrix,
-    budget: &Budget,
-) -> Result<Option<(RationalMatrix, RationalFunction)>, Exhausted> {
-    let n = m.rows();
-    let columns = right.columns();
-    let mut rows: Vec<Vec<RationalFunction>> = (0..n)
-        .map(|i| (0..n).map(|j| m[(i, j)].clone()).chain((0..columns).map(|j| right[(i, j)].clone())).collect())
-        .collect();
-    let mut determinant = RationalFunction::one();
-    for k in 0..n {
-        budget.check()?;
-        // The simplest pivot keeps the entries small.
-        let size = |f: &RationalFunction| f.numerator().terms().len() + f.denominator().terms().len();
-        let candidates = (k..n).filter(|&i| !rows[i][k].is_zero());
-        let Some(pivot) = candidates.min_by_key(|&i| size(&rows[i][k])) else { return Ok(None) };
-        if pivot != k {
-            rows.swap(pivot, k);
-            determinant = -determinant;
-        }
-        determinant = &determinant * &rows[k][k];
-        let Some(inverse) = rows[k][k].recip() else { return Ok(None) };
-        if !inverse.is_one() {
-            for f in rows[k].iter_mut().filter(|f| !f.is_zero()) {
-                count_work(f, &inverse);
-                *f = &*f * &inverse;
-            }
-        }
-        let pivot_row = rows[k].clone();
-        for (i, row) in rows.iter_mut().enumerate().filter(|(i, _)| *i != k) {
-            if row[k].is_zero() {
-                continue;
-            }
-            let factor = row[k].clone();
-            assert!(i != k);
-            for (f, p) in row.iter_mut().zip(&pivot_row).filter(|(_, p)| !p.is_zero()) {
-                count_work(&factor, p);
-                *f = &*f - &(&factor * p);
-            }
-        }
-    }
-    let solution = RationalMatrix::from_fn(n, columns, |i, j| rows[i][n + j].clone());
-    Ok(Some((solution, determinant)))
-}
-
-/// `left * right`, whose work is counted.
-pub(in crate::model) fn product(left: &RationalMatrix, right: &RationalMatrix) -> RationalMatrix {
-    for (i, k) in (0..left.rows()).flat_map(|i| (0..left.columns()).map(move |k| (i, k))) {
-        let a = &left[(i, k)];
-        if !a.is_zero() {
-            (0..right.columns()).map(|j| &right[(k, j)]).filter(|b| !b.is_zero()).for_each(|b| count_work(a, b));
-        }
-    }
-    left * right
-}
-
-fn block_diagonal(parts: &[&RationalMatrix]) -> RationalMatrix {
-    let rows = parts.iter().map(|m| m.rows()).sum();
-    let columns = parts.iter().map(|m| m.columns()).sum();
-    let mut out = RationalMatrix::zeros(rows, columns);
-    let (mut top, mut left) = (0, 0);
-    for m in parts {
-        for i in 0..m.rows() {
-            for j in 0..m.columns() {
-                out[(top + i, left + j)] = m[(i, j)].clone();
-            }
-        }
-        top += m.rows();
-        left += m.columns();
-    }
-    out
-}
-
-/// A block before it is made discrete.
-pub(super) fn as_written(
-    block: &BlockValues,
-    set: &Substitution<'_>,
-    poles: &mut Vec<MultiPoly>,
-) -> Result<System, NotConnected> {
-    match &block.dynamics {
-        DynamicValues::Ratio(ratio) => realise(&ratio.numerator, &ratio.denominator, block, set, poles),
-        DynamicValues::ComplexRatio { numerator, denominator } => {
-            complex_ratio(numerator, denominator, block, set, poles)
-        }
-        DynamicValues::StateSpace { a, b, c, d } => {
-            let set = |m| substituted_matrix(m, set);
-            Ok(System { a: set(a)?, b: set(b)?, c: set(c)?, d: set(d)? })
-        }
-    }
-}
-
-/// The blocks of a diagram, each as a system of its own: one for all samples, or one for the even and one for the odd ones.
-pub(in crate::model) fn realised(
-    blocks: &[BlockValues],
-    how: &Connecting<'_>,
-    poles: &mut Vec<MultiPoly>,
-    leading: &mut RationalFunction,
-) -> Result<Vec<Vec<System>>, NotConnected> {
-    let Connecting { set, symbols, budget, .. } = *how;
-    let mut systems = Vec::with_capacity(blocks.len());
-    for block in blocks {
-        budget.check()?;
-        if let DynamicValues::Ratio(ratio) = &block.dynamics {
-            *leading = &*leading * &substituted(&ratio.denominator.leading(), set)?;
-            if let Lift::AfterHold = block.lift {
-                *leading = &*leading * &substituted(&ratio.denominator.leading(), set)?;
-            }
-        }
-        let mut system = as_written(block, set, poles)?;
-        let mut of_samples: Vec<System> = Vec::new();
-        match &block.discretization {
-            None => {}
-            Some(DiscretizationValues::Rule { rule, value, prewarp }) => {
-                if let Some(prewarp) = prewarp {
-                    below_half_the_sampling_rate(&substituted(&prewarp.angle, set)?, prewarp.span)?;
-                }
-                system = discretised(system, *rule, &substituted(value, set)?, block, poles, budget)?;
-            }
-            Some(DiscretizationValues::Hold(hold)) => {
-                of_samples = held(system.clone(), hold, block, set, symbols, budget)?
-            }
-        }
-        if of_samples.is_empty() {
-            of_samples.push(system);
-        }
-        with_sizes(&mut of_samples, ports_as_written(block));
-        if let Lift::AfterHold = block.lift {
-            of_samples = of_samples.iter().map(lifted_system).collect();
-        }
-        if let Some(DiscretizationValues::Hold(Hold { frame: Some(frame), .. })) = &block.discretization {
-            let frame = frame.try_map(&|f| substituted(f, set))?;
-            of_samples = of_samples.into_iter().map(|system| seen_from(system, &frame)).collect();
-        }
-        with_sizes(&mut of_samples, (block.inputs.len(), block.outputs));
-        systems.push(of_samples);
-    }
-    Ok(systems)
-}
-
-/// Matrices without rows or columns do not remember their other size.
-fn with_sizes(systems: &mut [System], (inputs, outputs): (usize, usize)) {
-    for system in systems.iter_mut().filter(|system| system.a.rows() == 0) {
-        system.b = RationalMatrix::zeros(0, inputs);
-        system.c = RationalMatrix::zeros(outputs, 0);
-    }
 }
 
 fn connect(
@@ -443,20 +183,19 @@ fn connect(
         false => state_names(model, i, block, systems[i][0].a.rows()),
     };
     let mut states: Vec<Vec<String>> = blocks.iter().enumerate().map(named).collect();
-    let rates: Vec<Rate> = blocks.iter().map(|block| block.rate).collect();
     let mut closed = |systems: &[System]| -> Result<System, NotConnected> {
         let (system, determinant) = closed(wiring, blocks, systems, outputs, set, budget)?;
         poles.push(determinant.numerator().clone());
         leading = &leading * &determinant;
         Ok(system)
     };
-    let first = || systems.iter().map(|of_samples| of_samples[0].clone()).collect::<Vec<System>>();
     if model.hyperperiod() == 1 || symbols.is_none() {
-        let system = closed(&first())?;
+        let first: Vec<System> = systems.into_iter().map(|mut of_samples| of_samples.swap_remove(0)).collect();
+        let system = closed(&first)?;
         return Ok(Assembled { system, states: states.concat(), poles, leading });
     }
-    let Lifted { system, keeps_registers } =
-        lifted(&systems, &rates, model.hyperperiod(), start, symbols, budget, closed)?;
+    let of = Hyperperiod::new(&systems, blocks, model.hyperperiod(), start);
+    let Lifted { system, keeps_registers } = of.lifted(symbols, budget, closed)?;
     let Form::Blocks(diagram) = &model.form else { unreachable!("blocks are those of a diagram") };
     for ((states, block), _) in states.iter_mut().zip(&diagram.blocks).zip(keeps_registers).filter(|(_, keeps)| *keeps)
     {
@@ -488,8 +227,7 @@ pub(super) fn closed(
     let Some((u, determinant)) = solve(&left, &right, budget)? else {
         return Err(algebraic_loop(blocks, systems));
     };
-    let from_states = RationalMatrix::from_fn(rows.len(), n, |i, j| u[(i, j)].clone());
-    let from_inputs = RationalMatrix::from_fn(rows.len(), m.columns(), |i, j| u[(i, n + j)].clone());
+    let (from_states, from_inputs) = (u.block(0..rows.len(), 0..n), u.block(0..rows.len(), n..u.columns()));
     // All signals, the external ones last.
     let y_states = &c + &product(&d, &from_states);
     let y_inputs = product(&d, &from_inputs);
@@ -502,12 +240,6 @@ pub(super) fn closed(
         d: &product(&s, &y_inputs) + &direct,
     };
     Ok((system, determinant))
-}
-
-fn beside(left: &RationalMatrix, right: &RationalMatrix) -> RationalMatrix {
-    RationalMatrix::from_fn(left.rows(), left.columns() + right.columns(), |i, j| {
-        if j < left.columns() { left[(i, j)].clone() } else { right[(i, j - left.columns())].clone() }
-    })
 }
 
 /// States that are outputs have their names; others are numbered.

@@ -1,7 +1,8 @@
 //! The backward rule `s = (z - 1)/(T z)`.
 
 use super::{Kind, Method};
-use crate::model::connect::state_space::{System, product};
+use crate::model::connect::matrices::product;
+use crate::model::connect::state_space::System;
 use jurist_algebra::matrix::RationalMatrix;
 
 pub(super) const METHOD: Method = Method {

@@ -1,7 +1,8 @@
 //! Tustin's rule `s = c (z - 1)/(z + 1)`; `c` is `2/T`, a factor that is given, or the one that is exact at a frequency.
 
 use super::{Kind, Method};
-use crate::model::connect::state_space::{System, product};
+use crate::model::connect::matrices::product;
+use crate::model::connect::state_space::System;
 use jurist_algebra::matrix::RationalMatrix;
 
 pub(super) const METHOD: Method = Method {

@@ -4,9 +4,9 @@
 use super::scalar::{Scope, Variable};
 use super::zpoly::ZPoly;
 use crate::error::Error;
-use crate::model::closed_loop::substituted;
 use crate::model::complex::{Parts, has_unit, parts_of};
 use crate::model::definition::Model;
+use crate::model::evaluated::substituted;
 use crate::model::steady::no_duty;
 use crate::model::symbols::Symbols;
 use crate::model::text::Function;

@@ -3,164 +3,22 @@
 use super::linear::linear;
 use super::scalar::Scope;
 use super::transfer::{Fraction, MAX_ORDER, fraction, held_fraction, polynomial};
+use super::values::{
+    BlockValues, DiscretizationValues, DynamicValues, Hold, Modulator, PortValues, Prewarp, Pulse, Row, Values, Wiring,
+};
 use super::walk::{Failure, Meaning, division_by_zero};
 use super::zpoly::ZPoly;
 use crate::error::{Code, Diagnostic, Span};
-use crate::model::complex::{Frame, Lift, lifted, names_of_parts};
+use crate::model::complex::{Frame, Lift, lifted};
 use crate::model::definition::{
     Block, Discretization, Dynamics, Form, Matrix, Model, Output, Ports, Pulses, Rate, Time,
 };
-use crate::model::discretization::{Edges, Inputs, Kind, Rule};
+use crate::model::discretization::Kind;
 use crate::model::text::names::shorten;
 use crate::model::text::{Expression, Function};
 use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
-use std::collections::{BTreeMap, HashMap};
-
-/// The coefficients of a linear expression by signal.
-pub(in crate::model) type Row = BTreeMap<usize, RationalFunction>;
-
-/// The numbers of signals or states: those that are driven first, then the external ones.
-pub(in crate::model) struct Wiring<'m> {
-    pub numbers: HashMap<&'m str, usize>,
-    /// How many are driven.
-    pub driven: usize,
-    pub inputs: Vec<String>,
-    /// Whether each signal has become two, its real and its imaginary part.
-    pub is_complex: bool,
-}
-
-impl<'m> Wiring<'m> {
-    pub fn of(model: &'m Model) -> Self {
-        let own: Vec<&str> = match &model.form {
-            Form::Characteristic(_) => Vec::new(),
-            Form::Matrix { ports, .. } | Form::OutputFeedback { ports, .. } => {
-                ports.states.iter().map(|n| n.name.as_str()).collect()
-            }
-            Form::Blocks(diagram) => diagram.driven().map(|(n, _)| n.name.as_str()).collect(),
-        };
-        let inputs: Vec<&str> = model.inputs().iter().map(|n| n.name.as_str()).collect();
-        let mut numbers: HashMap<&str, usize> = own.iter().enumerate().map(|(i, n)| (*n, i)).collect();
-        if matches!(model.form, Form::Blocks(_)) {
-            numbers.extend(inputs.iter().enumerate().map(|(i, n)| (*n, own.len() + i)));
-        }
-        let inputs = inputs.into_iter().map(str::to_owned).collect();
-        Wiring { numbers, driven: own.len(), inputs, is_complex: false }
-    }
-
-    /// The names of a signal's parts: of a real one only its own.
-    pub fn parts_of(&self, name: &str) -> Vec<String> {
-        if self.is_complex { names_of_parts([name.to_owned()]) } else { vec![name.to_owned()] }
-    }
-}
-
-/// The values of everything in a model's form.
-pub(in crate::model) enum Values {
-    /// The real and the imaginary part.
-    Characteristic([ZPoly; 2]),
-    Matrix {
-        matrix: RationalMatrix,
-        ports: PortValues,
-    },
-    Feedback {
-        a: RationalMatrix,
-        b: RationalMatrix,
-        c: RationalMatrix,
-        k: RationalMatrix,
-        ports: PortValues,
-    },
-    Blocks {
-        blocks: Vec<BlockValues>,
-        outputs: Vec<Row>,
-    },
-}
-
-pub(in crate::model) struct PortValues {
-    pub input_matrix: Option<RationalMatrix>,
-    pub outputs: Vec<Row>,
-}
-
-pub(in crate::model) struct BlockValues {
-    pub name: String,
-    pub span: Span,
-    pub inputs: Vec<Row>,
-    pub outputs: usize,
-    pub rate: Rate,
-    /// When real and imaginary parts become signals of their own.
-    pub lift: Lift,
-    pub dynamics: DynamicValues,
-    pub discretization: Option<DiscretizationValues>,
-    /// What it says of its pulses, where it is a modulator.
-    pub modulator: Option<Modulator>,
-}
-
-/// What a block says of the pulses that it commands.
-pub(in crate::model) struct Modulator {
-    /// How high they are.
-    pub amplitude: RationalFunction,
-    /// How far one begins behind another.
-    pub period: RationalFunction,
-    /// Where the period stands.
-    pub span: Span,
-}
-
-/// How a continuous block is made discrete.
-pub(in crate::model) enum DiscretizationValues {
-    /// By a rule with the sample time, or Tustin's with its factor.
-    Rule { rule: Rule, value: RationalFunction, prewarp: Option<Prewarp> },
-    /// By what it does behind a hold.
-    Hold(Hold),
-}
-
-/// A bilinear map that is exact at one frequency.
-pub(in crate::model) struct Prewarp {
-    /// The angle `w T` of that frequency: below pi.
-    pub angle: RationalFunction,
-    pub span: Span,
-}
-
-/// A hold or a modulator.
-pub(in crate::model) struct Hold {
-    pub inputs: Inputs,
-    /// For each input the edges of its pulses; `None` for one that is held.
-    pub pulses: Vec<Option<Pulse>>,
-    pub time: RationalFunction,
-    /// Dead time of the inputs, in units of time.
-    pub delay: RationalFunction,
-    /// How the block is seen, where its input is held in another frame.
-    pub frame: Option<Box<Frame>>,
-    pub span: Span,
-}
-
-/// The pulse of an input.
-#[derive(Clone)]
-pub(in crate::model) struct Pulse {
-    pub duty: RationalFunction,
-    /// Where the edges stand that commands at even and at odd samples move, in sample times; each moves by the same share of a change of
-    /// the duty ratio.
-    pub edges: [Vec<RationalFunction>; 2],
-    /// Whether these are different.
-    pub alternates: bool,
-    /// Which edges these are and where that is asked for, where the duty ratio is that of the loop at rest.
-    pub steady: Option<(&'static Edges, Span)>,
-}
-
-pub(in crate::model) enum DynamicValues {
-    /// Numerator and denominator, of which the denominator's degree is the order.
-    Ratio(Fraction),
-    /// The same with complex coefficients, of which these are the real and the imaginary parts.
-    ComplexRatio {
-        numerator: [ZPoly; 2],
-        denominator: [ZPoly; 2],
-    },
-    StateSpace {
-        a: RationalMatrix,
-        b: RationalMatrix,
-        c: RationalMatrix,
-        d: RationalMatrix,
-    },
-}
 
 struct Evaluator<'e, 'a> {
     scope: &'e mut Scope<'a>,
@@ -375,8 +233,32 @@ impl Evaluator<'_, '_> {
 
     /// What a block does; behind a hold its dead time is added up beside it.
     fn dynamics(&mut self, block: &Block, variable: &str, dead_time: &mut RationalFunction) -> Option<DynamicValues> {
+        let (inputs, outputs) = (block.inputs.len(), block.outputs.len());
+        match &block.dynamics {
+            Dynamics::StateSpace { a, b, c, d } => {
+                let n = a.size().0;
+                let (a, b) = (self.matrix(a), self.matrix(b));
+                let c = c.as_ref().map_or_else(|| Some(RationalMatrix::identity(n)), |c| self.matrix(c));
+                let d = d.as_ref().map_or_else(|| Some(RationalMatrix::zeros(outputs, inputs)), |d| self.matrix(d));
+                Some(DynamicValues::StateSpace { a: a?, b: b?, c: c?, d: d? })
+            }
+            Dynamics::Static(d) => Some(DynamicValues::StateSpace {
+                d: self.matrix(d)?,
+                a: RationalMatrix::zeros(0, 0),
+                b: RationalMatrix::zeros(0, inputs),
+                c: RationalMatrix::zeros(outputs, 0),
+            }),
+            _ => {
+                let (ratio, span) = self.ratio(block, variable, dead_time)?;
+                self.proper(ratio, block, span).map(DynamicValues::Ratio)
+            }
+        }
+    }
+
+    /// Numerator and denominator of a block that is not in state space, and where they stand.
+    fn ratio(&mut self, block: &Block, variable: &str, dead_time: &mut RationalFunction) -> Option<(Fraction, Span)> {
         let is_held = block.discretization.as_ref().is_some_and(|d| d.method.is_hold());
-        let (ratio, span) = match &block.dynamics {
+        Some(match &block.dynamics {
             Dynamics::Transfer(e) if is_held => {
                 let value = held_fraction(e, self.scope);
                 let (ratio, delay) = self.keep(value)?;
@@ -398,7 +280,7 @@ impl Evaluator<'_, '_> {
                 let span = block.span;
                 (Fraction { numerator: numerator?, denominator: denominator? }, span)
             }
-            Dynamics::Gain(e) => (self.constant(e)?, e.span),
+            Dynamics::Gain(e) => (constant(self.scalar(e)?), e.span),
             Dynamics::Delay(e) => {
                 let samples = self.samples(e)?;
                 (Fraction { numerator: ZPoly::one(), denominator: ZPoly::power_of_variable(samples) }, block.span)
@@ -407,32 +289,14 @@ impl Evaluator<'_, '_> {
                 let time = self.real(e)?;
                 let value = self.scope.delay(time, e.span);
                 let value = self.keep(value)?;
-                (Fraction { numerator: ZPoly::constant(value), denominator: ZPoly::one() }, e.span)
+                (constant(value), e.span)
             }
-            Dynamics::StateSpace { a, b, c, d } => {
-                let (n, inputs, outputs) = (a.size().0, block.inputs.len(), block.outputs.len());
-                let (a, b) = (self.matrix(a), self.matrix(b));
-                let c = match c {
-                    Some(c) => self.matrix(c),
-                    None => Some(RationalMatrix::identity(n)),
-                };
-                let d = match d {
-                    Some(d) => self.matrix(d),
-                    None => Some(RationalMatrix::zeros(outputs, inputs)),
-                };
-                return Some(DynamicValues::StateSpace { a: a?, b: b?, c: c?, d: d? });
-            }
-            Dynamics::Static(d) => {
-                let (inputs, outputs) = (block.inputs.len(), block.outputs.len());
-                let d = self.matrix(d)?;
-                return Some(DynamicValues::StateSpace {
-                    a: RationalMatrix::zeros(0, 0),
-                    b: RationalMatrix::zeros(0, inputs),
-                    c: RationalMatrix::zeros(outputs, 0),
-                    d,
-                });
-            }
-        };
+            Dynamics::StateSpace { .. } | Dynamics::Static(_) => return None,
+        })
+    }
+
+    /// The ratio, where it is proper.
+    fn proper(&mut self, ratio: Fraction, block: &Block, span: Span) -> Option<Fraction> {
         let ratio = self.without_identities(ratio)?;
         if ratio.denominator.is_zero() {
             (self.report)(division_by_zero(span));
@@ -450,7 +314,7 @@ impl Evaluator<'_, '_> {
             );
             return None;
         }
-        Some(DynamicValues::Ratio(ratio))
+        Some(ratio)
     }
 
     /// A number of samples, on which the order of the loop depends.
@@ -476,11 +340,10 @@ impl Evaluator<'_, '_> {
         }
         samples
     }
+}
 
-    fn constant(&mut self, e: &Expression) -> Option<Fraction> {
-        let value = self.scalar(e)?;
-        Some(Fraction { numerator: ZPoly::constant(value), denominator: ZPoly::one() })
-    }
+fn constant(value: RationalFunction) -> Fraction {
+    Fraction { numerator: ZPoly::constant(value), denominator: ZPoly::one() }
 }
 
 /// Evaluates the form; `None` when something was reported. Where it is complex each signal becomes two.

@@ -1,18 +1,17 @@
 //! `[[block]]` entries.
 
 use super::discretize::discretize;
+use super::dynamics::dynamics;
 use super::keys;
 use super::pulses::fit;
 use super::rates::rate;
 use super::reader::{Meant, Reader, count};
 use crate::error::{Code, Diagnostic, Span};
-use crate::model::definition::{Block, Diagram, Dynamics, Pwm, Time};
+use crate::model::definition::{Block, Diagram, Discretization, Dynamics, Pwm, Time};
 use crate::model::text::Expression;
 use crate::model::text::names::shorten;
 use crate::model::text::toml_value::{Entry, Kind, Table, Value};
 use std::collections::HashMap;
-
-const DYNAMICS: [&str; 9] = ["transfer", "num", "den", "gain", "delay", "A", "B", "C", "D"];
 
 /// The diagram of `[loop]` and its blocks.
 pub(super) fn diagram(
@@ -55,6 +54,44 @@ fn distinct_names(items: &[Value], reader: &mut Reader) {
     }
 }
 
+/// What is known of a block while it is read.
+pub(super) struct BlockTable<'t> {
+    pub table: &'t Table,
+    pub name: String,
+    /// Where the table stands.
+    pub span: Span,
+    pub time: Time,
+    /// Whether it is continuous and made discrete.
+    pub is_discretised: bool,
+    meant: Meant,
+}
+
+impl BlockTable<'_> {
+    /// Whether a key was probably meant by a misspelt one.
+    pub fn may_have(&self, key: &str) -> bool {
+        self.meant.includes(key)
+    }
+
+    /// Reports that a key is missing.
+    fn missing(&self, key: &str, reader: &mut Reader) {
+        if !self.may_have(key) {
+            let error = Diagnostic::error(Code::Missing, format!("the block '{}' has no '{key}'", shorten(&self.name)));
+            reader.report(error.at(self.span, "this block"));
+        }
+    }
+
+    fn discretization(&self, sample_time: Option<&Expression>, reader: &mut Reader) -> Option<Discretization> {
+        let entry = self.table.entry("discretize")?;
+        if self.time == Time::Discrete {
+            return discretize(entry, sample_time, reader);
+        }
+        let error = Diagnostic::error(Code::Discretize, "a continuous loop has nothing to discretise");
+        let help = "a loop with a hold is sampled: time = \"discrete\" and a sample_time; else leave 'discretize' out";
+        reader.report(error.at(entry.key_span, "time = \"continuous\"").help(help));
+        None
+    }
+}
+
 fn block(value: &Value, time: Time, sample_time: Option<&Expression>, reader: &mut Reader) -> Option<Block> {
     let Kind::Table(table) = &value.kind else {
         reader.wrong_type(value, "a block", "a table");
@@ -62,173 +99,42 @@ fn block(value: &Value, time: Time, sample_time: Option<&Expression>, reader: &m
     };
     let meant = reader.unknown_keys(table, &keys::BLOCK, "a block");
     let name = reader.plain_string(table, "name").unwrap_or_else(|| "block".into());
-    let missing = |key: &str, reader: &mut Reader| {
-        if meant.includes(key) {
-            return;
-        }
-        let error = Diagnostic::error(Code::Missing, format!("the block '{}' has no '{key}'", shorten(&name)));
-        reader.report(error.at(value.span, "this block"));
-    };
     if table.iter().next().is_none() {
         let error = Diagnostic::error(Code::Missing, "the block is empty").at(value.span, "nothing follows");
         reader.report(error.help("give it 'input', 'output' and what it does, such as 'transfer'"));
         return None;
     }
-    let span = table.get("name").map_or(value.span, |v| v.span);
     let before = reader.errors();
-    let inputs = match table.get("input") {
-        Some(v) => Some(reader.expressions(v, "an input")),
-        None => {
-            missing("input", reader);
-            None
-        }
-    };
-    let outputs = match table.get("output") {
-        Some(v) => Some(reader.names(v, "a signal")),
-        None => {
-            missing("output", reader);
-            None
-        }
-    };
-    let continuous = table.entry("discretize").is_some();
-    let discretization = match table.entry("discretize") {
-        Some(entry) if time == Time::Continuous => {
-            let error = Diagnostic::error(Code::Discretize, "a continuous loop has nothing to discretise");
-            let help =
-                "a loop with a hold is sampled: time = \"discrete\" and a sample_time; else leave 'discretize' out";
-            reader.report(error.at(entry.key_span, "time = \"continuous\"").help(help));
-            None
-        }
-        entry => entry.and_then(|entry| discretize(entry, sample_time, reader)),
-    };
-    let dynamics = dynamics(table, &meant, value, &name, time, continuous, reader);
-    let (rate, own) = rate(table, &name, time, reader);
+    let is_discretised = table.entry("discretize").is_some();
+    let of = BlockTable { table, name, span: value.span, time, is_discretised, meant };
+    let inputs = table.get("input").map(|v| reader.expressions(v, "an input"));
+    if inputs.is_none() {
+        of.missing("input", reader);
+    }
+    let outputs = table.get("output").map(|v| reader.names(v, "a signal"));
+    if outputs.is_none() {
+        of.missing("output", reader);
+    }
+    let discretization = of.discretization(sample_time, reader);
+    let dynamics = dynamics(&of, reader);
+    let (rate, own) = rate(table, &of.name, time, reader);
     let pwm = table.entry("pwm").and_then(|entry| pwm(entry, reader));
     let (inputs, outputs, dynamics) = (inputs?, outputs?, dynamics?);
-    if reader.errors() > before || (continuous && discretization.is_none()) {
+    if reader.errors() > before || (is_discretised && discretization.is_none()) {
         return None;
     }
     if let Some(entry) = table.entry("discretize")
         && matches!(dynamics, Dynamics::Gain(_) | Dynamics::Static(_))
         && discretization.as_ref().is_none_or(|d| d.delay.is_none())
     {
-        let message = format!("the block '{}' has no states: there is nothing to discretise", shorten(&name));
+        let message = format!("the block '{}' has no states: there is nothing to discretise", shorten(&of.name));
         reader.unused(message, entry.key_span);
     }
+    let place = |key: &str| table.get(key).map_or(value.span, |v| v.span);
+    let (span, name) = (place("name"), of.name);
     let block = Block { name, span, inputs, outputs, dynamics, discretization, rate, sample_time: own, pwm };
-    let in_span = table.get("input").map_or(value.span, |v| v.span);
-    let out_span = table.get("output").map_or(value.span, |v| v.span);
     fit(&block, reader);
-    sizes(&block, in_span, out_span, reader).then_some(block)
-}
-
-fn dynamics(
-    table: &Table,
-    meant: &Meant,
-    value: &Value,
-    name: &str,
-    time: Time,
-    continuous: bool,
-    reader: &mut Reader,
-) -> Option<Dynamics> {
-    let given: Vec<&Entry> = table.iter().filter(|e| DYNAMICS.contains(&e.key.as_str())).collect();
-    let kind = |key: &str| match key {
-        "num" | "den" => "num/den",
-        "A" | "B" | "C" | "D" => "A, B, C, D",
-        "transfer" => "transfer",
-        "gain" => "gain",
-        _ => "delay",
-    };
-    let Some(first) = given.first() else {
-        if DYNAMICS.iter().any(|key| meant.includes(key)) {
-            return None;
-        }
-        let error =
-            Diagnostic::error(Code::Missing, format!("the block '{}' does not say what it does", shorten(name)));
-        reader.report(
-            error
-                .at(value.span, "this block")
-                .help("give 'transfer', 'num' and 'den', 'gain', 'delay', or 'A', 'B', 'C', 'D'"),
-        );
-        return None;
-    };
-    if let Some(second) = given.iter().find(|e| kind(&e.key) != kind(&first.key)) {
-        let message = format!(
-            "the block '{}' is given twice: by {} and by {}",
-            shorten(name),
-            kind(&first.key),
-            kind(&second.key)
-        );
-        let error = Diagnostic::error(Code::TwoForms, message).at(second.key_span, "given here again");
-        let is_delayed = [kind(&first.key), kind(&second.key)].contains(&"delay");
-        let help = match (is_delayed, time, continuous) {
-            (false, ..) => "keep one of them",
-            (_, Time::Continuous, _) => "dead time is a factor exp(-tau*s) of 'transfer', or a block of its own",
-            (_, _, true) => {
-                "dead time of a plant behind a hold is a factor exp(-tau*s) of 'transfer', or a key of 'discretize'"
-            }
-            _ => "a delay is a block of its own, or a division by z^n",
-        };
-        reader.report(error.also(first.key_span, "first given here").help(help));
-        return None;
-    }
-    let need = |key: &str, reader: &mut Reader| {
-        if table.get(key).is_none() && !meant.includes(key) {
-            let message = format!("the block '{}' has no '{key}'", shorten(name));
-            reader.report(
-                Diagnostic::error(Code::Missing, message).at(first.key_span, format!("this needs '{key}' as well")),
-            );
-        }
-    };
-    match kind(&first.key) {
-        "transfer" => reader.expression(&first.value, "'transfer'").map(Dynamics::Transfer),
-        "gain" => reader.expression(&first.value, "'gain'").map(Dynamics::Gain),
-        "delay" => {
-            let delay = reader.expression(&first.value, "'delay'")?;
-            if continuous {
-                let error =
-                    Diagnostic::error(Code::Value, "a delay has nothing to discretise").at(first.key_span, "a delay");
-                reader.report(error.help("dead time of a held block goes into its 'discretize': delay = \"..\""));
-                return None;
-            }
-            Some(if time == Time::Continuous { Dynamics::DeadTime(delay) } else { Dynamics::Delay(delay) })
-        }
-        "num/den" => {
-            need("num", reader);
-            need("den", reader);
-            let mut coefficients = |key: &str| -> Option<Vec<Expression>> {
-                let value = table.get(key)?;
-                if let Kind::String(text) = &value.kind
-                    && text.as_str().trim_start().starts_with('[')
-                {
-                    let error = Diagnostic::error(Code::Type, format!("'{key}' must be a list of coefficients"));
-                    let error = error.at(value.span, "this is a string");
-                    reader.report(error.help(format!("without the quotes, with commas: {key} = [1, \"-a\"]")));
-                    return None;
-                }
-                Some(reader.expressions(value, "a coefficient"))
-            };
-            let (numerator, denominator) = (coefficients("num"), coefficients("den"));
-            let (numerator, denominator) = (numerator?, denominator?);
-            for (list, key) in [(&numerator, "num"), (&denominator, "den")] {
-                if list.is_empty() {
-                    let error = Diagnostic::error(Code::Value, format!("'{key}' has no coefficients"));
-                    reader.report(error.at(table.get(key).map_or(value.span, |v| v.span), "empty"));
-                }
-            }
-            Some(Dynamics::Ratio { numerator, denominator })
-        }
-        _ => {
-            let mut matrix = |key: &str| table.get(key).and_then(|v| reader.matrix(v, &format!("the matrix {key}")));
-            let (a, b, c, d) = (matrix("A"), matrix("B"), matrix("C"), matrix("D"));
-            if table.get("A").is_none() && table.get("B").is_none() && table.get("C").is_none() {
-                return d.map(Dynamics::Static);
-            }
-            need("A", reader);
-            need("B", reader);
-            Some(Dynamics::StateSpace { a: a?, b: b?, c, d })
-        }
-    }
+    sizes(&block, place("input"), place("output"), reader).then_some(block)
 }
 
 /// Whether the numbers of inputs and outputs fit the dynamics.

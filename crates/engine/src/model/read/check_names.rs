@@ -4,7 +4,8 @@ use super::reader::Reader;
 use super::{ship, simulation, tune};
 use crate::error::{Code, Diagnostic, Span};
 use crate::model::definition::{
-    Block, Constant, Discretization, Dynamics, Form, Matrix, Model, Name, Output, Parameter, Ports, Position, Time,
+    Block, Constant, Diagram, Discretization, Dynamics, Form, Matrix, Model, Name, Output, Parameter, Ports, Position,
+    Time,
 };
 use crate::model::text::names::{did_you_mean, known_names, nearest_name, shorten};
 use crate::model::text::{Expression, Function, PI, UNIT, hint};
@@ -284,32 +285,7 @@ pub(super) fn names(model: &Model, form_is_broken: bool, reader: &mut Reader) {
             [a, b, c, k].into_iter().for_each(|m| names.matrix(m, &none));
             check_ports(&mut names, ports);
         }
-        Form::Blocks(diagram) => {
-            let mut places: HashMap<&str, (Span, &str)> = HashMap::new();
-            distinct(&mut names, &diagram.inputs, "input");
-            let mut once = HashSet::new();
-            let inputs = diagram.inputs.iter().filter(|n| once.insert(n.name.as_str()));
-            let external = inputs.map(|n| (n, "an external input"));
-            for (name, what) in external.chain(diagram.driven().map(|(n, _)| (n, "driven by a block"))) {
-                if what != "an external input" {
-                    own_name(&mut names, name);
-                }
-                if let Some((first, before)) = places.insert(&name.name, (name.span, what)) {
-                    let message = format!("the signal '{}' has two drivers", shorten(&name.name));
-                    let error = Diagnostic::error(Code::TwoDrivers, message).at(name.span, what).also(first, before);
-                    names.reader.report(error.help("add the two in a block's input: input = \"a + b\""));
-                }
-            }
-            let signals: HashSet<&str> = places.into_keys().collect();
-            for block in &diagram.blocks {
-                check_block(&mut names, block, &signals);
-            }
-            outputs(&mut names, &diagram.outputs, &signals);
-            for input in diagram.inputs.iter().filter(|n| !names.used.contains(n.name.as_str())) {
-                let message = format!("the external input '{}' enters nowhere", shorten(&input.name));
-                names.reader.unused(message, input.span);
-            }
-        }
+        Form::Blocks(diagram) => check_diagram(&mut names, diagram),
     }
     let Names { used, reader, .. } = names;
     simulation::check(model, reader);
@@ -320,6 +296,34 @@ pub(super) fn names(model: &Model, form_is_broken: bool, reader: &mut Reader) {
     for (name, span, what) in constants.chain(parameters).filter(|(name, ..)| !used.contains(name.as_str())) {
         let message = format!("the {what} '{}' is not used", shorten(name));
         reader.unused(message, span);
+    }
+}
+
+/// Each signal is driven once and every external input enters somewhere.
+fn check_diagram<'m>(names: &mut Names<'m, '_>, diagram: &'m Diagram) {
+    let mut places: HashMap<&str, (Span, &str)> = HashMap::new();
+    distinct(names, &diagram.inputs, "input");
+    let mut once = HashSet::new();
+    let inputs = diagram.inputs.iter().filter(|n| once.insert(n.name.as_str()));
+    let external = inputs.map(|n| (n, "an external input"));
+    for (name, what) in external.chain(diagram.driven().map(|(n, _)| (n, "driven by a block"))) {
+        if what != "an external input" {
+            own_name(names, name);
+        }
+        if let Some((first, before)) = places.insert(&name.name, (name.span, what)) {
+            let message = format!("the signal '{}' has two drivers", shorten(&name.name));
+            let error = Diagnostic::error(Code::TwoDrivers, message).at(name.span, what).also(first, before);
+            names.reader.report(error.help("add the two in a block's input: input = \"a + b\""));
+        }
+    }
+    let signals: HashSet<&str> = places.into_keys().collect();
+    for block in &diagram.blocks {
+        check_block(names, block, &signals);
+    }
+    outputs(names, &diagram.outputs, &signals);
+    for input in diagram.inputs.iter().filter(|n| !names.used.contains(n.name.as_str())) {
+        let message = format!("the external input '{}' enters nowhere", shorten(&input.name));
+        names.reader.unused(message, input.span);
     }
 }
 

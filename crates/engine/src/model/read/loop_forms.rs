@@ -24,19 +24,7 @@ pub(super) fn read_form(
         if meant.includes("loop") {
             return None;
         }
-        let mut error = Diagnostic::error(Code::Missing, "the model has no [loop]");
-        if let Some(block) = blocks {
-            error = error.at(block.key_span, "these blocks need a [loop] with inputs and outputs");
-        }
-        reader.report(error.help(match blocks {
-            Some(_) => {
-                "add [loop] with the external signals and those of interest: inputs = [\"r\"], outputs = [\"y\"]"
-            }
-            None => {
-                "add [loop] with 'inputs' and 'outputs' and a [[block]] for each block; or [loop] with 'characteristic', \
-                 with 'matrix', or with 'A', 'B', 'C', 'K'. 'jurist new' writes a model to begin with"
-            }
-        }));
+        reader.report(no_loop(blocks));
         return None;
     };
     let table = reader.table(entry)?;
@@ -80,6 +68,21 @@ pub(super) fn read_form(
             reader.report(error.also(*first, "first given here").help("keep exactly one form"));
             None
         }
+    }
+}
+
+fn no_loop(blocks: Option<&Entry>) -> Diagnostic {
+    let error = Diagnostic::error(Code::Missing, "the model has no [loop]");
+    match blocks {
+        Some(block) => {
+            let error = error.at(block.key_span, "these blocks need a [loop] with inputs and outputs");
+            error
+                .help("add [loop] with the external signals and those of interest: inputs = [\"r\"], outputs = [\"y\"]")
+        }
+        None => error.help(
+            "add [loop] with 'inputs' and 'outputs' and a [[block]] for each block; or [loop] with 'characteristic', \
+             with 'matrix', or with 'A', 'B', 'C', 'K'. 'jurist new' writes a model to begin with",
+        ),
     }
 }
 

@@ -8,6 +8,7 @@ mod check_rules;
 mod check_values;
 mod discretize;
 mod domain;
+mod dynamics;
 mod expect;
 mod keys;
 mod loop_forms;

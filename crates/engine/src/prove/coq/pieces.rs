@@ -172,49 +172,7 @@ impl Search<'_> {
         let mut at = from.clone();
         loop {
             self.budget.check()?;
-            let (condition, until) = {
-                let cells = self.negative();
-                let reaches = |high: Option<&RealAlgebraic>| match (high, &to) {
-                    (None, _) => true,
-                    (Some(x), Some(to)) => x.compare_rational(to).is_ge(),
-                    (Some(_), None) => false,
-                };
-                let starts_here = |low: Option<&RealAlgebraic>| match (low, &at) {
-                    (None, _) => true,
-                    (Some(x), Some(at)) => x.compare_rational(at).is_le(),
-                    (Some(_), None) => false,
-                };
-                let lasts = |high: Option<&RealAlgebraic>| match (high, &at) {
-                    (Some(x), Some(at)) => x.compare_rational(at).is_gt(),
-                    _ => true,
-                };
-                let here = cells.iter().filter(|c| starts_here(c.low) && lasts(c.high));
-                let Some(best) = here.max_by(|a, b| later(a.high, b.high)) else {
-                    return Err(refused("no single condition fails beside a value of the parameter", NARROW));
-                };
-                if reaches(best.high) {
-                    (best.condition, None)
-                } else {
-                    let high = best.high.expect("it ends before the goal");
-                    let onward = |c: &&Negative| {
-                        later(c.high, Some(high)).is_gt() && c.low.is_none_or(|x| x.compare(high) != Ordering::Greater)
-                    };
-                    let next = cells.iter().filter(onward).max_by(|a, b| {
-                        let open = |c: &Negative| c.low.is_none_or(|x| x.compare(high) == Ordering::Less);
-                        open(a).cmp(&open(b)).then_with(|| later(a.high, b.high))
-                    });
-                    let Some(next) = next else {
-                        return Err(refused("two conditions change places at one value of the parameter", NARROW));
-                    };
-                    let until = match next.low {
-                        Some(low) if low.compare(high) == Ordering::Equal => low.exact(),
-                        low => Some(decimal_inside(low, at.as_ref(), high)),
-                    };
-                    let until =
-                        until.ok_or_else(|| refused("two conditions change places at one irrational value", NARROW))?;
-                    (best.condition, Some(until))
-                }
-            };
+            let (condition, until) = self.failing(at.as_ref(), to.as_ref())?;
             let end = until.clone().or_else(|| to.clone());
             self.at = at;
             let c = self.conditions[condition].clone();
@@ -226,6 +184,50 @@ impl Search<'_> {
                     at = Some(until);
                 }
             }
+        }
+    }
+
+    /// A condition that fails from a value on as far as one does, and a value up to which it is looked at; none where it fails up to the goal.
+    fn failing(&self, at: Option<&Rational>, to: Option<&Rational>) -> Result<(usize, Option<Rational>), Error> {
+        let cells = self.negative();
+        let reaches = |high: Option<&RealAlgebraic>| match (high, to) {
+            (None, _) => true,
+            (Some(x), Some(to)) => x.compare_rational(to).is_ge(),
+            (Some(_), None) => false,
+        };
+        let starts_here = |low: Option<&RealAlgebraic>| match (low, at) {
+            (None, _) => true,
+            (Some(x), Some(at)) => x.compare_rational(at).is_le(),
+            (Some(_), None) => false,
+        };
+        let lasts = |high: Option<&RealAlgebraic>| match (high, at) {
+            (Some(x), Some(at)) => x.compare_rational(at).is_gt(),
+            _ => true,
+        };
+        let here = cells.iter().filter(|c| starts_here(c.low) && lasts(c.high));
+        let Some(best) = here.max_by(|a, b| later(a.high, b.high)) else {
+            return Err(refused("no single condition fails beside a value of the parameter", NARROW));
+        };
+        if reaches(best.high) {
+            Ok((best.condition, None))
+        } else {
+            let high = best.high.expect("it ends before the goal");
+            let onward = |c: &&Negative| {
+                later(c.high, Some(high)).is_gt() && c.low.is_none_or(|x| x.compare(high) != Ordering::Greater)
+            };
+            let next = cells.iter().filter(onward).max_by(|a, b| {
+                let open = |c: &Negative| c.low.is_none_or(|x| x.compare(high) == Ordering::Less);
+                open(a).cmp(&open(b)).then_with(|| later(a.high, b.high))
+            });
+            let Some(next) = next else {
+                return Err(refused("two conditions change places at one value of the parameter", NARROW));
+            };
+            let until = match next.low {
+                Some(low) if low.compare(high) == Ordering::Equal => low.exact(),
+                low => Some(decimal_inside(low, at, high)),
+            };
+            let until = until.ok_or_else(|| refused("two conditions change places at one irrational value", NARROW))?;
+            Ok((best.condition, Some(until)))
         }
     }
 
