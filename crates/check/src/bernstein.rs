@@ -213,10 +213,7 @@ impl Tensor {
                 term = raised(&term, &counts, axis, n == k + 1);
                 counts[axis] += 1;
             }
-            match sum.is_empty() {
-                true => sum = term,
-                false => sum.iter_mut().zip(term).for_each(|(s, t)| *s += t),
-            }
+            if sum.is_empty() { sum = term } else { sum.iter_mut().zip(term).for_each(|(s, t)| *s += t) }
         }
         Ok(sum.iter().all(|c| *c > off))
     }

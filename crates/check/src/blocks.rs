@@ -216,10 +216,11 @@ impl Diagram<'_, '_> {
     fn form(self) -> Result<Form, String> {
         let clock = self.scope.clock;
         let n = self.unknowns;
-        let mut out = Vec::with_capacity(n);
-        for row in &self.rows {
-            out.push(cleared(row.iter().filter(|(k, _)| **k < n).map(|(k, f)| (*k, f)).collect(), n, clock)?);
-        }
+        let out = self
+            .rows
+            .iter()
+            .map(|row| cleared(row.iter().filter(|(k, _)| **k < n).map(|(k, f)| (*k, f)).collect(), n, clock))
+            .collect::<Result<Vec<_>, _>>()?;
         if out.len() != n {
             return Err("the diagram has not as many equations as signals".into());
         }

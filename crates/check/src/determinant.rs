@@ -55,10 +55,8 @@ pub(super) fn determinant(m: &[Vec<Entry>], clock: &Clock) -> Result<Vec<Uni>, S
             by_power[k].push(c);
         }
     }
-    let mut out = Vec::with_capacity(z_bound + 1);
-    for values in &by_power {
-        out.push(Uni::new(interpolated(values, clock)?));
-    }
+    let uni = |values: &Vec<_>| interpolated(values, clock).map(Uni::new);
+    let mut out = by_power.iter().map(uni).collect::<Result<Vec<_>, _>>()?;
     while out.last().is_some_and(Uni::is_zero) {
         out.pop();
     }

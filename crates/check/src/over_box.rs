@@ -85,10 +85,11 @@ pub(super) fn with_sources(
     clock.reading(|| {
         let reader = Reader { values: &asked.values, unit: asked.unit, clock };
         let positive = boxed.factor.map(|f| f.family.positive(FIRST + boxed.names.len(), clock)).transpose()?;
-        let mut divisors = Vec::with_capacity(asked.divisors.len());
-        for divisor in &asked.divisors {
-            divisors.push(substituted(&divisor.coefficients(0), reader.values, clock)?);
-        }
+        let mut divisors = asked
+            .divisors
+            .iter()
+            .map(|divisor| substituted(&divisor.coefficients(0), reader.values, clock))
+            .collect::<Result<Vec<_>, _>>()?;
         let sources =
             asked.moving.map_or_else(|| Ok(Sources::default()), |moving| moving.with_values(reader.values, clock))?;
         let (coefficients, sources) = reader.coefficients(&asked.form, by, sources, &mut divisors)?;

@@ -136,10 +136,8 @@ pub fn classical_test(
         Shape::LeftHalfPlane => routh_inequalities(&base, n, scale, budget)?,
     };
     let mut conditions = Vec::with_capacity(inequalities.len());
-    let mut poles = Vec::new();
-    for pole in p.poles().iter().chain([p.denominator()]) {
-        poles.push(zeros_in(pole, range, budget)?);
-    }
+    let poles = p.poles().iter().chain([p.denominator()]);
+    let poles = poles.map(|pole| zeros_in(pole, range, budget)).collect::<Result<Vec<_>, _>>()?;
     let poles = merge_points(poles, budget)?;
     // A polynomial without conditions (order 0) is stable where it is not zero.
     let mut intersection: IntervalSet = if n == 0 {

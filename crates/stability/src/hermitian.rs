@@ -69,10 +69,8 @@ pub fn hermitian_test(
     budget: &Budget,
 ) -> Result<ClassicalTest, Exhausted> {
     let order = minors.len();
-    let mut poles = Vec::new();
-    for pole in p.poles().iter().chain([p.denominator()]) {
-        poles.push(zeros_in(pole, range, budget)?);
-    }
+    let poles = p.poles().iter().chain([p.denominator()]);
+    let poles = poles.map(|pole| zeros_in(pole, range, budget)).collect::<Result<Vec<_>, _>>()?;
     let mut intersection: IntervalSet = cells(range, &merge_points(poles, budget)?).into_iter().collect();
     let square = Rational::from(below.coeff(0).pow(2));
     let scale = Rational::ONE.checked_div(&square).filter(|_| below.is_constant()).unwrap_or(Rational::ONE);

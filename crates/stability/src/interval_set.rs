@@ -258,10 +258,7 @@ impl RealInterval {
 
 /// The open cells that points (ascending, distinct, inside the range) cut the range into.
 pub(crate) fn real_cells(range: &Range, points: &[Real]) -> Vec<RealInterval> {
-    match range.is_empty() {
-        true => Vec::new(),
-        false => RealInterval::from(range.clone()).cut(points),
-    }
+    if range.is_empty() { Vec::new() } else { RealInterval::from(range.clone()).cut(points) }
 }
 
 /// The same of algebraic points.

@@ -85,10 +85,7 @@ fn best_gain(lines: &Lines<'_>, is_greatest: bool) -> Result<Outcome, Error> {
                 Some(value) => lines.is_met(&[(lines.asked.gains[GAIN].name.clone(), value)], None)?,
                 None => is_closed(end),
             };
-            let binding = match is_bound {
-                true => vec![bound_of(&lines.asked.gains[GAIN].name)],
-                false => names(end),
-            };
+            let binding = if is_bound { vec![bound_of(&lines.asked.gains[GAIN].name)] } else { names(end) };
             (Best::Exact(end.value()), Place::Exact(end.value()), binding, Some(attained))
         }
     };

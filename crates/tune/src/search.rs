@@ -42,10 +42,7 @@ impl Search {
     /// A distance that is less than the whole one.
     fn within(&self, distance: Rational, whole: &Rational) -> Rational {
         let half = Rational::new(1.into(), 2.into());
-        let most = match self.is_without_end {
-            true => whole.clone(),
-            false => whole - tiny() * half,
-        };
+        let most = if self.is_without_end { whole.clone() } else { whole - tiny() * half };
         distance.min(most)
     }
 

@@ -69,10 +69,7 @@ fn scale_of(level: Level, value: &Enclosure, [low, high]: &[Rational; 2]) -> Opt
     const BITS: u64 = 64;
     let has = |scale: &Rational| {
         level.enclosure(&Enclosure::from_rational(scale.clone()), BITS).is_some_and(|asked| {
-            match level.is_greatest_best() {
-                true => asked.upper() <= value.lower(),
-                false => asked.lower() >= value.upper(),
-            }
+            if level.is_greatest_best() { asked.upper() <= value.lower() } else { asked.lower() >= value.upper() }
         })
     };
     let (worst, best) = if level.is_rising() { (low, high) } else { (high, low) };

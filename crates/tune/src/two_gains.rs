@@ -152,10 +152,7 @@ fn across(
     let end = interval.and_then(|interval| if is_greatest { interval.upper.as_ref() } else { interval.lower.as_ref() });
     let Some(end) = end else { return Ok((None, Vec::new())) };
     // Where stability alone is asked, no end is stable itself; else other values may have an end that is met.
-    let attained = match is_closed(end) {
-        true => Some(true),
-        false => lines.asked.requirements.list.is_empty().then_some(false),
-    };
+    let attained = if is_closed(end) { Some(true) } else { lines.asked.requirements.list.is_empty().then_some(false) };
     Ok((attained, names(end)))
 }
 

@@ -118,10 +118,7 @@ fn stable_set(problem: &Arc<Problem>, (model, name): (&Model, &str), options: &O
     if let Some(file) = options.coq.as_ref().filter(|_| WRITES) {
         write_answer(&answer.coq(&context.budget)?, Some(file))?;
     }
-    let table = match options.sensitivity {
-        true => Some(answer.sensitivities(&context.budget)?),
-        false => None,
-    };
+    let table = if options.sensitivity { Some(answer.sensitivities(&context.budget)?) } else { None };
     let text = || table.iter().fold(answer.text(digits), |text, table| text + &table.text(digits));
     let document = || table.iter().fold(answer.json(digits), |document, t| document.with_sensitivities(t, digits));
     context.answer(output, text, document)?;

@@ -89,8 +89,8 @@ pub(in crate::cli) fn assemble(variables: Variables, sample_time: Option<Time>) 
     refuse_other_systems(&variables)?;
     let a = state_matrix(&variables)?;
     let mut remarks = Vec::new();
-    let inputs = input_matrix(&variables, a.rows)?;
-    let c = output_matrix(&variables, a.rows)?;
+    let inputs = beside_states(&variables, "B", a.rows)?;
+    let c = beside_states(&variables, "C", a.rows)?;
     if c.is_none() && inputs.is_some() {
         remarks.push("the file has no C: the outputs are the states".to_owned());
     }
@@ -158,45 +158,33 @@ fn within(variable: &Variable, side: usize, what: &str) -> Result<(), Diagnostic
     Ok(())
 }
 
-/// The input matrix; none of a system without inputs.
-fn input_matrix(variables: &Variables, states: usize) -> Result<Option<Matrix>, Diagnostic> {
-    let Some(b) = variables.get("B") else { return Ok(None) };
-    let columns = match b.shape {
-        Shape::Matrix(rows, 0) if rows == states => return Ok(None),
-        Shape::Matrix(rows, columns) if rows == states => Some(columns),
-        _ if b.shape.is_empty() => {
-            let message = format!("B is empty ({}), but A is {states} by {states}", b.shape.shown());
-            return Err(b.wrong(message).help("leave B out of a system without inputs"));
+/// B, the input matrix, which has a row for each state, or C, the output matrix, which has a column for each; none where it is empty.
+fn beside_states(variables: &Variables, name: &str, states: usize) -> Result<Option<Matrix>, Diagnostic> {
+    let Some(found) = variables.get(name) else { return Ok(None) };
+    let is_input = name == "B";
+    let turned = |rows: usize, columns: usize| if is_input { (rows, columns) } else { (columns, rows) };
+    let side = match found.shape {
+        Shape::Matrix(rows, columns) if turned(rows, columns) == (states, 0) => return Ok(None),
+        Shape::Matrix(rows, columns) if turned(rows, columns).0 == states => Some(turned(rows, columns).1),
+        _ if found.shape.is_empty() => {
+            let message = format!("{name} is empty ({}), but A is {states} by {states}", found.shape.shown());
+            return Err(found.wrong(message).help(match is_input {
+                true => "leave B out of a system without inputs",
+                false => "leave C out where the outputs are the states",
+            }));
         }
-        _ => b.other_side(states),
+        _ => found.other_side(states),
     };
-    let fitting = columns.and_then(|columns| Some((columns, b.sized(states, columns)?)));
-    let Some((columns, matrix)) = fitting else {
-        let message = format!("B is {}, but A is {states} by {states}", b.shape.shown());
-        return Err(b.wrong(message).help("B has a row for each state"));
+    let sized = |side: usize| {
+        let (rows, columns) = turned(states, side);
+        Some((side, found.sized(rows, columns)?))
     };
-    within(b, columns, "inputs")?;
-    Ok(Some(matrix))
-}
-
-/// The output matrix; none where there are no outputs.
-fn output_matrix(variables: &Variables, states: usize) -> Result<Option<Matrix>, Diagnostic> {
-    let Some(c) = variables.get("C") else { return Ok(None) };
-    let rows = match c.shape {
-        Shape::Matrix(0, columns) if columns == states => return Ok(None),
-        Shape::Matrix(rows, columns) if columns == states => Some(rows),
-        _ if c.shape.is_empty() => {
-            let message = format!("C is empty ({}), but A is {states} by {states}", c.shape.shown());
-            return Err(c.wrong(message).help("leave C out where the outputs are the states"));
-        }
-        _ => c.other_side(states),
+    let Some((side, matrix)) = side.and_then(sized) else {
+        let message = format!("{name} is {}, but A is {states} by {states}", found.shape.shown());
+        let help = if is_input { "B has a row for each state" } else { "C has a column for each state" };
+        return Err(found.wrong(message).help(help));
     };
-    let fitting = rows.and_then(|rows| Some((rows, c.sized(rows, states)?)));
-    let Some((rows, matrix)) = fitting else {
-        let message = format!("C is {}, but A is {states} by {states}", c.shape.shown());
-        return Err(c.wrong(message).help("C has a column for each state"));
-    };
-    within(c, rows, "outputs")?;
+    within(found, side, if is_input { "inputs" } else { "outputs" })?;
     Ok(Some(matrix))
 }
 

@@ -122,9 +122,10 @@ impl Enclosing for SymbolicRoot {
                     working *= 2;
                     continue 'precision;
                 };
-                match (sign == Ordering::Greater) == rising {
-                    true => hi = at.upper(),
-                    false => lo = at.lower(),
+                if (sign == Ordering::Greater) == rising {
+                    hi = at.upper()
+                } else {
+                    lo = at.lower()
                 }
                 if &hi - &lo >= width {
                     working *= 2;

@@ -39,10 +39,7 @@ impl Rate {
             found.ok_or_else(|| format!("'{key}' is not a number of samples"))
         };
         let rate = Rate { every: get("every", 1)?, phase: get("phase", 0)? };
-        match rate.phase < rate.every {
-            true => Ok(rate),
-            false => Err("'phase' is not below 'every'".into()),
-        }
+        if rate.phase < rate.every { Ok(rate) } else { Err("'phase' is not below 'every'".into()) }
     }
 
     fn is_active(self, sample: u64) -> bool {

@@ -99,15 +99,10 @@ pub(super) fn response(
         powers.push(next);
     }
     // The basis over one denominator.
-    let mut basis = Vec::with_capacity(order);
-    for s in &solutions {
-        basis.push(s.value(span, values, divisors, clock)?);
-    }
+    let basis = solutions.iter().map(|s| s.value(span, values, divisors, clock)).collect::<Result<Vec<_>, _>>()?;
     let over = Multi::common_multiple(basis.iter().map(|b| &b.scalar), clock)?;
-    let mut tops = Vec::with_capacity(order);
-    for b in &basis {
-        tops.push(b.numerator.times(&over.quotient(&b.scalar, clock)?, clock)?);
-    }
+    let top = |b: &Fraction| b.numerator.times(&over.quotient(&b.scalar, clock)?, clock);
+    let tops = basis.iter().map(top).collect::<Result<Vec<_>, _>>()?;
     let z = first_rows(&weights, &powers, &hold.time, clock)?;
     let common = common_denominator(z.iter().flatten().flatten().flatten());
     let mut parts: [Entries; 3] = std::array::from_fn(|_| vec![vec![Multi::default(); n]; n]);

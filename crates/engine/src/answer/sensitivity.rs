@@ -135,10 +135,7 @@ impl Family {
         let Some(d) = algebra.polynomial().filter(|_| !symbols.is_moving() && symbols.delays().is_empty()) else {
             return Ok(None);
         };
-        let constants = match symbols.is_empty() {
-            true => None,
-            false => Some(Constants(Arc::new(fixed_symbols(symbols)?))),
-        };
+        let constants = if symbols.is_empty() { None } else { Some(Constants(Arc::new(fixed_symbols(symbols)?))) };
         let shape = problem.shape();
         budget.enter(|| {
             let (p, _) = d.cleared();

@@ -131,10 +131,7 @@ impl Model {
         budget: &Budget,
     ) -> Result<Meaning, Error> {
         let (number, unit) = kind.split(text);
-        let needed = match kind.needs_unit() {
-            true => "a number with its unit is needed",
-            false => "a number is needed",
-        };
+        let needed = if kind.needs_unit() { "a number with its unit is needed" } else { "a number is needed" };
         let expression = Expression::parse(number).map_err(|_| not_understood(kind.name, needed))?;
         let value = self.value(&expression, values, budget).map_err(|error| match error {
             Error::Undefined(_) => {

@@ -38,17 +38,13 @@ impl Problem {
             return self.without_region().required_in_boxes(from_ref(requirement), stable, at, budget);
         };
         let names = [parameter.name.clone()];
-        let mut loops = Vec::new();
-        for m in 1..=samples {
-            loops.push(self.symbolic_polynomial(&sampled.with_samples(&names, m), &sampled.opened.symbols)?);
-        }
+        let own = |m| self.symbolic_polynomial(&sampled.with_samples(&names, m), &sampled.opened.symbols);
+        let loops = (1..=samples).map(own).collect::<Result<Vec<_>, _>>()?;
         let mut found = RequiredSet { undecided: stable.undecided().to_vec(), ..RequiredSet::default() };
         for interval in stable.intervals() {
             let domain = Range::between(outward(&interval.lower, true), outward(&interval.upper, false));
-            let mut sets = Vec::new();
-            for p in &loops {
-                sets.push(symbolic_stable_set(p, &domain, Shape::UnitDisc, budget)?);
-            }
+            let set = |p| symbolic_stable_set(p, &domain, Shape::UnitDisc, budget);
+            let sets = loops.iter().map(set).collect::<Result<Vec<_>, _>>()?;
             stable_with_each(requirement, interval, &sets, &mut found, budget)?;
         }
         found.sort();

@@ -86,10 +86,8 @@ fn gain_crossings<G: Ground>(
 ) -> Result<Vec<GainCrossing>, Exhausted> {
     let (r, frequencies, ground) = (&parts.reduced, parts.frequencies(), &parts.ground);
     let zeros = ground.zeros(excess, &frequencies.inner(), budget)?;
-    let mut signs = Vec::with_capacity(zeros.len() + 1);
-    for sample in samples_between(&zeros, frequencies, budget)? {
-        signs.push(ground.sign_at(excess, &Real::from(sample), budget)?);
-    }
+    let sign = |sample| ground.sign_at(excess, &Real::from(sample), budget);
+    let signs = samples_between(&zeros, frequencies, budget)?.into_iter().map(sign).collect::<Result<Vec<_>, _>>()?;
     let signs = frequencies.ascending(signs);
     let mut found = Vec::new();
     let mut passed = 0;

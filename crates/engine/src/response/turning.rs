@@ -64,10 +64,9 @@ impl Turning {
         let sides = budget.enter(|| Sides::of([&r.twice_real, &r.imaginary], &r.denominator_squared))?;
         let all = sides.product();
         let zeros = if all.is_constant() { Vec::new() } else { ground.zeros(&all, &frequencies.inner(), budget)? };
-        let mut found = Vec::with_capacity(zeros.len() + 1);
-        for sample in samples_between(&zeros, frequencies, budget)? {
-            found.push(Cell::at(&sides, &Real::from(sample), ground, budget)?);
-        }
+        let cell = |sample| Cell::at(&sides, &Real::from(sample), ground, budget);
+        let samples = samples_between(&zeros, frequencies, budget)?;
+        let found = samples.into_iter().map(cell).collect::<Result<Vec<_>, _>>()?;
         let mut quarters = vec![0; found.len()];
         let integrators = integrators(parts);
         if frequencies.are_signed() {

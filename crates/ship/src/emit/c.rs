@@ -1,7 +1,7 @@
 //! C99.
 
 use super::numbers;
-use super::statements::{ARGUMENT, Code, Constant, Expression, Kind, Operator, WIDE};
+use super::statements::{ARGUMENT, Code, Constant, Expression, Kind, WIDE};
 use super::syntax::{Syntax, Written, assigned, expression, harmless, indented, statements};
 use jurist_algebra::number::{BinaryFormat, Integer, Rational};
 
@@ -124,10 +124,6 @@ fn block(lines: &[String]) -> Vec<String> {
 }
 
 impl Syntax for C {
-    fn width(&self, bits: u32) -> u32 {
-        [16, 32].into_iter().find(|width| bits <= *width).unwrap_or(64)
-    }
-
     fn kind(&self, kind: Kind) -> &'static str {
         match kind {
             Kind::Integer(16) => "int16_t",
@@ -161,21 +157,6 @@ impl Syntax for C {
 
     fn converted(&self, _: Kind, to: Kind, of: &Written) -> Written {
         Written::signed(format!("({}){}", self.kind(to), of.operand()))
-    }
-
-    fn operator(&self, operator: Operator) -> &'static str {
-        match operator {
-            Operator::Plus => "+",
-            Operator::Minus => "-",
-            Operator::Times => "*",
-            Operator::Over => "/",
-            Operator::Modulo => "%",
-            Operator::Less => "<",
-            Operator::Greater => ">",
-            Operator::Equal => "==",
-            Operator::Unequal => "!=",
-            Operator::And => "&&",
-        }
     }
 
     fn declared(&self, name: &str, kind: Kind, value: &[String]) -> Vec<String> {

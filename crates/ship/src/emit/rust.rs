@@ -1,7 +1,7 @@
 //! Rust, without the standard library.
 
 use super::numbers;
-use super::statements::{ARGUMENT, Code, Constant, Kind, Operator, WIDE};
+use super::statements::{ARGUMENT, Code, Constant, Kind, WIDE};
 use super::syntax::{Syntax, Written, assigned, harmless, indented, statements};
 use jurist_algebra::number::{BinaryFormat, Integer, Rational};
 
@@ -78,10 +78,6 @@ impl Rust {
 }
 
 impl Syntax for Rust {
-    fn width(&self, bits: u32) -> u32 {
-        [16, 32].into_iter().find(|width| bits <= *width).unwrap_or(64)
-    }
-
     fn kind(&self, kind: Kind) -> &'static str {
         match kind {
             Kind::Integer(16) => "i16",
@@ -119,21 +115,6 @@ impl Syntax for Rust {
                 Written::atom(format!("{kind}::from({})", of.text))
             }
             _ => Written::signed(format!("{} as {kind}", of.operand())),
-        }
-    }
-
-    fn operator(&self, operator: Operator) -> &'static str {
-        match operator {
-            Operator::Plus => "+",
-            Operator::Minus => "-",
-            Operator::Times => "*",
-            Operator::Over => "/",
-            Operator::Modulo => "%",
-            Operator::Less => "<",
-            Operator::Greater => ">",
-            Operator::Equal => "==",
-            Operator::Unequal => "!=",
-            Operator::And => "&&",
         }
     }
 

@@ -6,7 +6,9 @@ use jurist_algebra::number::{BinaryFormat, Integer, Rational};
 /// A language.
 pub(super) trait Syntax {
     /// Bits of the smallest type of integers that has so many.
-    fn width(&self, bits: u32) -> u32;
+    fn width(&self, bits: u32) -> u32 {
+        [16, 32].into_iter().find(|width| bits <= *width).unwrap_or(64)
+    }
 
     /// The name of a type.
     fn kind(&self, kind: Kind) -> &'static str;
@@ -31,7 +33,20 @@ pub(super) trait Syntax {
     /// A value that fits as one of another type: `of` binds as strongly as a sign.
     fn converted(&self, from: Kind, to: Kind, of: &Written) -> Written;
 
-    fn operator(&self, operator: Operator) -> &'static str;
+    fn operator(&self, operator: Operator) -> &'static str {
+        match operator {
+            Operator::Plus => "+",
+            Operator::Minus => "-",
+            Operator::Times => "*",
+            Operator::Over => "/",
+            Operator::Modulo => "%",
+            Operator::Less => "<",
+            Operator::Greater => ">",
+            Operator::Equal => "==",
+            Operator::Unequal => "!=",
+            Operator::And => "&&",
+        }
+    }
 
     /// A name for a value; the value has several lines where it is long.
     fn declared(&self, name: &str, kind: Kind, value: &[String]) -> Vec<String>;

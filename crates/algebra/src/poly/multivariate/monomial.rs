@@ -100,30 +100,27 @@ impl Monomial {
 
     /// The product; `None` when an exponent would leave the range of `u32`.
     pub fn checked_mul(&self, other: &Monomial) -> Option<Monomial> {
-        if let (Exponents::Short(a), Exponents::Short(b)) = (&self.0, &other.0) {
-            let mut sum = [0; INLINE];
-            for (s, (x, y)) in sum.iter_mut().zip(a.iter().zip(b)) {
-                *s = x.checked_add(*y)?;
-            }
-            return Some(Monomial(Exponents::Short(sum)));
-        }
-        let n = self.padded().len().max(other.padded().len());
-        let sum: Option<Vec<u32>> = (0..n).map(|i| self.exponent(i).checked_add(other.exponent(i))).collect();
-        Some(Monomial::new(&sum?))
+        self.zipped(other, u32::checked_add)
     }
 
     /// The quotient; `None` when `other` does not divide.
     pub fn checked_div(&self, other: &Monomial) -> Option<Monomial> {
+        self.zipped(other, u32::checked_sub)
+    }
+
+    /// The exponents of both taken together; `None` where two of them have no result.
+    #[inline]
+    fn zipped(&self, other: &Monomial, f: impl Fn(u32, u32) -> Option<u32>) -> Option<Monomial> {
         if let (Exponents::Short(a), Exponents::Short(b)) = (&self.0, &other.0) {
-            let mut difference = [0; INLINE];
-            for (d, (x, y)) in difference.iter_mut().zip(a.iter().zip(b)) {
-                *d = x.checked_sub(*y)?;
+            let mut out = [0; INLINE];
+            for (out, (x, y)) in out.iter_mut().zip(a.iter().zip(b)) {
+                *out = f(*x, *y)?;
             }
-            return Some(Monomial(Exponents::Short(difference)));
+            return Some(Monomial(Exponents::Short(out)));
         }
         let n = self.padded().len().max(other.padded().len());
-        let difference: Option<Vec<u32>> = (0..n).map(|i| self.exponent(i).checked_sub(other.exponent(i))).collect();
-        Some(Monomial::new(&difference?))
+        let out: Option<Vec<u32>> = (0..n).map(|i| f(self.exponent(i), other.exponent(i))).collect();
+        Some(Monomial::new(&out?))
     }
 
     /// The greatest monomial that divides both.

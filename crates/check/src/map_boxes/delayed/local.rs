@@ -172,21 +172,11 @@ impl Part {
     }
 }
 
-/// The sum of parts, as in [`Local`].
-#[derive(Default)]
-struct Sums {
-    value: Complex,
-    slope: Complex,
-    by_sides: Vec<Complex>,
-    rest: Z,
-    slope_rest: Z,
-    blame: Vec<Z>,
-}
-
-impl Sums {
+/// The sum of parts, without the change by half of the stretch.
+impl Local<Z> {
     fn add(&mut self, own: About) {
         add(&mut self.value, own.value);
-        self.by_sides.iter_mut().zip(own.of_sides).for_each(|(sum, own)| add(sum, own));
+        self.changes.iter_mut().zip(own.of_sides).for_each(|(sum, own)| add(sum, own));
         add(&mut self.slope, own.slope);
         self.rest += own.bent;
         self.slope_rest += own.slope_off;
@@ -221,8 +211,8 @@ impl Sums {
         add(&mut d, turned_back(&p, &delay.floor, bits));
         // The frequency, rounded up to a whole number, and one.
         let above: Z = (on.far() >> FREQUENCY_BITS) + 2_u32;
-        let (mut rounded, d_size) = (&size * above * self.by_sides.len().max(2), modulus(&d));
-        for ((sum, mut own), time) in self.by_sides.iter_mut().zip(of_sides).zip(&delay.changes) {
+        let (mut rounded, d_size) = (&size * above * self.changes.len().max(2), modulus(&d));
+        for ((sum, mut own), time) in self.changes.iter_mut().zip(of_sides).zip(&delay.changes) {
             add(&mut own, turned_back(&p, &((on.middle * time) >> FREQUENCY_BITS), bits));
             rounded += modulus(&own);
             add(sum, times(&own, turn, bits));
@@ -241,9 +231,8 @@ impl Sums {
 
     /// With as many bits as are of use. The slope has a unit of its own.
     fn short(self, half: &Z) -> Local {
-        let Sums { value, slope, by_sides, rest, slope_rest, blame } = self;
-        let by_omega = slope.each_ref().map(|x| (x * half) >> FREQUENCY_BITS);
-        let changes: Vec<Complex> = by_sides.into_iter().chain([by_omega]).collect();
+        let Local { value, slope, mut changes, rest, slope_rest, blame } = self;
+        changes.push(slope.each_ref().map(|x| (x * half) >> FREQUENCY_BITS));
         let down = |numbers: &[Complex], own: &Complex, rest: &Z| {
             let longest = numbers.iter().chain([own]).flatten().chain([rest]).map(Z::bits).max().unwrap_or(0);
             longest.saturating_sub(SHORT)
@@ -265,23 +254,24 @@ impl Sums {
 }
 
 /// The function about the middle of a stretch and of a box.
-pub(super) struct Local {
-    value: [i128; 2],
+#[derive(Default)]
+pub(super) struct Local<N = i128> {
+    value: [N; 2],
     /// The changes by half of each side of the box, and by half of the stretch.
-    changes: Vec<[i128; 2]>,
-    rest: i128,
+    changes: Vec<[N; 2]>,
+    rest: N,
     /// The derivative by the frequency, and how far it is off anywhere.
-    slope: [i128; 2],
-    slope_rest: i128,
+    slope: [N; 2],
+    slope_rest: N,
     /// How much of the rest is there because of each side of the box, for a choice and no proof.
-    blame: Vec<i128>,
+    blame: Vec<N>,
 }
 
 impl Local {
     pub fn new(parts: &[Part], on: &Stretch<'_>) -> Self {
         let parameters = parts.first().map_or(0, |part| part.about.len() - 1);
-        let (by_sides, blame) = (vec![Complex::default(); parameters], vec![Z::zero(); parameters]);
-        let mut sums = Sums { by_sides, blame, ..Sums::default() };
+        let (changes, blame) = (vec![Complex::default(); parameters], vec![Z::zero(); parameters]);
+        let mut sums = Local { changes, blame, ..Local::<Z>::default() };
         for part in parts {
             let own = part.on(on);
             match &part.delay {

@@ -55,10 +55,7 @@ impl Parts {
 
     /// The value itself.
     pub fn joined(&self, unit: usize) -> RationalFunction {
-        match self.im.is_zero() {
-            true => self.re.clone(),
-            false => &self.re + &(&RationalFunction::variable(unit) * &self.im),
-        }
+        if self.im.is_zero() { self.re.clone() } else { &self.re + &(&RationalFunction::variable(unit) * &self.im) }
     }
 
     /// Its parts as the columns of a real matrix: of `x + jy` the column is `[x, y]`, and that of `j (x + jy)` is `[-y, x]`.

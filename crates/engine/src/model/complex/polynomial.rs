@@ -58,10 +58,7 @@ impl ComplexPolynomial {
 
     /// The real polynomial that is asked: the polynomial itself where it is real; else that with the conjugate roots, beside it.
     pub(in crate::model) fn real_or_complex(self) -> (Vec<RationalFunction>, Option<ComplexPolynomial>) {
-        match self.is_real() {
-            true => (self.re, None),
-            false => (self.with_conjugate(), Some(self)),
-        }
+        if self.is_real() { (self.re, None) } else { (self.with_conjugate(), Some(self)) }
     }
 
     /// The polynomial without its greatest factor that has real coefficients; `None` where it has no such factor.

@@ -37,7 +37,7 @@ pub(super) fn read(root: &Table, reader: &mut Reader) -> Option<Shipping> {
     })
 }
 
-fn word(table: &Table, key: &str, reader: &mut Reader) -> Option<Name> {
+pub(super) fn word(table: &Table, key: &str, reader: &mut Reader) -> Option<Name> {
     let value = table.get(key)?;
     let text = reader.string(value, &format!("'{key}'"))?;
     Some(Name { name: text.as_str().to_owned(), span: value.span })

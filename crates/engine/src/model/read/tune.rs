@@ -3,7 +3,7 @@
 use super::keys;
 use super::model_file::section;
 use super::reader::Reader;
-use super::ship::flag;
+use super::ship::{flag, word};
 use crate::error::{Code, Diagnostic};
 use crate::model::definition::{Model, Name};
 use crate::model::text::names::{did_you_mean, known_names, shorten};
@@ -34,12 +34,6 @@ pub(super) fn read(root: &Table, reader: &mut Reader) -> Option<Tuning> {
         for_all: ranges.into_iter().flatten().filter_map(|entry| bound(entry, "the range", reader)).collect(),
         robust: flag(table, "robust", reader),
     })
-}
-
-fn word(table: &Table, key: &str, reader: &mut Reader) -> Option<Name> {
-    let value = table.get(key)?;
-    let text = reader.string(value, &format!("'{key}'"))?;
-    Some(Name { name: text.as_str().to_owned(), span: value.span })
 }
 
 fn free(table: &Table, reader: &mut Reader) -> Vec<Name> {
