@@ -1,5 +1,6 @@
 //! Analytic functions of several variables as polynomials with a bound of all that is left out.
 
+use super::flow::exponential_of;
 use super::implicit::{Approximate, implicit};
 use super::solutions::{Scaled, Summed, solutions_by_taylor};
 use super::{Ball, Elementary, Enclosed, exp};
@@ -385,6 +386,9 @@ impl Elementary for MultiTaylorModel {
     }
     fn solutions(&self, coefficients: &[MultiTaylorModel]) -> Vec<MultiTaylorModel> {
         solutions_by_taylor(coefficients, self)
+    }
+    fn exponential_of(n: usize, matrix: &[MultiTaylorModel]) -> Vec<MultiTaylorModel> {
+        exponential_of(n, matrix)
     }
     fn implicit(
         &self,
