@@ -8,6 +8,7 @@
 mod assembled;
 mod at_one;
 mod exact_zeros;
+mod in_boxes;
 mod nodes;
 mod origin;
 mod part;

@@ -79,7 +79,11 @@ impl MovingPolynomial {
         shape: Shape,
     ) -> MovingPolynomial {
         let polynomial = BoxPolynomial::over(d, d.variables.len(), shape);
-        let inside = symbols.parameters_inside(parameters);
+        let mut inside = symbols.parameters_inside(parameters);
+        if inside.is_empty() && parameters > 0 {
+            // Taylor models have a variable.
+            inside.push(0);
+        }
         let split = |p: &MultiPoly| {
             let mut parts: BTreeMap<Vec<u32>, Vec<(Vec<u32>, Integer)>> = BTreeMap::new();
             for (monomial, c) in p.terms() {
