@@ -52,10 +52,6 @@ impl BallMatrix {
 /// ```
 pub fn characteristic_polynomial<S: Enclosed>(n: usize, matrix: &[S]) -> Vec<S> {
     let at = |i: usize, j: usize| &matrix[i * n + j];
-    let sum = |like: &S, products: &mut dyn Iterator<Item = (&S, &S)>| {
-        let products = products.filter(|(a, b)| !a.is_nothing() && !b.is_nothing()).map(|(a, b)| a.times(b));
-        products.reduce(|s, t| s.plus(&t)).unwrap_or_else(|| like.nothing())
-    };
     // From the power below the leading one down, as the others.
     let mut polynomial: Vec<S> = Vec::new();
     for r in 0..n {
@@ -65,18 +61,13 @@ pub fn characteristic_polynomial<S: Enclosed>(n: usize, matrix: &[S]) -> Vec<S> 
         let mut steps = vec![zero.minus(at(r, r))];
         let mut column: Vec<S> = (0..r).map(|i| at(i, r).clone()).collect();
         for k in 0..r {
-            steps.push(zero.minus(&sum(&zero, &mut (0..r).map(|i| (at(r, i), &column[i])))));
+            steps.push(zero.minus(&zero.sum_of_products((0..r).map(|i| (at(r, i), &column[i])))));
             if k + 1 < r {
-                column = (0..r).map(|i| sum(&zero, &mut (0..r).map(|j| (at(i, j), &column[j])))).collect();
+                column = (0..r).map(|i| zero.sum_of_products((0..r).map(|j| (at(i, j), &column[j])))).collect();
             }
         }
         let next = |k: usize| {
-            let products = sum(
-                &zero,
-                &mut (0..k)
-                    .filter(|&i| k - 1 - i < polynomial.len() && i < steps.len())
-                    .map(|i| (&steps[i], &polynomial[k - 1 - i])),
-            );
+            let products = zero.sum_of_products((0..k).map(|i| (&steps[i], &polynomial[k - 1 - i])));
             let own = steps[k].plus(&products);
             if k < polynomial.len() { own.plus(&polynomial[k]) } else { own }
         };

@@ -99,9 +99,7 @@ pub(super) fn product<S: Enclosed>(n: usize, a: &[S], b: &[S]) -> Vec<S> {
     let entry = |k: usize| {
         let (i, j) = (k / n, k % n);
         checkpoint(n as u64);
-        let pairs = (0..n).map(|l| (&a[i * n + l], &b[l * n + j]));
-        let products = pairs.filter(|(a, b)| !a.is_nothing() && !b.is_nothing()).map(|(a, b)| a.times(b));
-        products.reduce(|s, t| s.plus(&t)).unwrap_or_else(|| a[0].nothing())
+        a[0].sum_of_products((0..n).map(|l| (&a[i * n + l], &b[l * n + j])))
     };
     (0..n * n).map(entry).collect()
 }

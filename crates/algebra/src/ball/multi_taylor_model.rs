@@ -119,6 +119,32 @@ impl MultiTaylorModel {
         &self.rest
     }
 
+    /// The same function on a part of the polydisc, where the coordinates are these lines within it.
+    ///
+    /// Cost: as many products with a line as there are coefficients.
+    pub fn on_part(&self, lines: &[MultiTaylorModel]) -> MultiTaylorModel {
+        let terms: Vec<(&[u32], &Integer)> = self.terms().filter(|(_, c)| !c.is_zero()).collect();
+        let mut out = self.horner(&terms, lines);
+        // What is left out is no larger in a part.
+        out.rest += &self.rest;
+        out
+    }
+
+    /// The sum of terms in the first so many lines.
+    fn horner(&self, terms: &[(&[u32], &Integer)], lines: &[MultiTaylorModel]) -> MultiTaylorModel {
+        let Some((last, others)) = lines.split_last() else {
+            let sum = terms.iter().fold(Integer::ZERO, |sum, (_, c)| sum + *c);
+            return self.constant(&Ball::from_units(sum.clone(), sum, self.bits));
+        };
+        let power = |e: &[u32]| e[others.len()];
+        let highest = terms.iter().map(|(e, _)| power(e)).max().unwrap_or(0);
+        (0..=highest).rev().fold(self.nothing(), |sum, k| {
+            let own: Vec<(&[u32], &Integer)> = terms.iter().filter(|(e, _)| power(e) == k).copied().collect();
+            let sum = if sum.is_nothing() { sum } else { sum.mul(last) };
+            if own.is_empty() { sum } else { sum.add(&self.horner(&own, others)) }
+        })
+    }
+
     fn with(&self, coefficients: Vec<Integer>, rest: Integer) -> MultiTaylorModel {
         MultiTaylorModel { monomials: Arc::clone(&self.monomials), bits: self.bits, coefficients, rest }
     }
@@ -168,35 +194,9 @@ impl MultiTaylorModel {
 
     /// The product: as many products of numbers as there are pairs of monomials whose product is not beyond the degree.
     pub fn mul(&self, other: &MultiTaylorModel) -> MultiTaylorModel {
-        let monomials = &self.monomials;
-        let mut out = vec![Integer::ZERO; self.coefficients.len()];
-        let filled = other.coefficients.iter().rposition(|c| !c.is_zero()).map_or(0, |i| i + 1);
-        for (a, places) in self.coefficients.iter().zip(&monomials.products).filter(|(a, _)| !a.is_zero()) {
-            checkpoint((4 * places.len().min(filled)) as u64);
-            for (b, &place) in other.coefficients[..filled].iter().zip(places) {
-                if !b.is_zero() {
-                    out[place as usize].add_mul_assign(a, b);
-                }
-            }
-        }
-        let out = out.into_iter().map(|c| c >> self.bits).collect();
-        let (a, b) = (self.sizes(), other.sizes());
-        let mut left_out = Integer::ZERO;
-        for (i, a) in a.iter().enumerate() {
-            for b in &b[monomials.degree + 1 - i.min(monomials.degree)..] {
-                if i > 0 {
-                    left_out.add_mul_assign(a, b);
-                }
-            }
-        }
-        if !other.rest.is_zero() {
-            left_out.add_mul_assign(&a.iter().fold(self.rest.clone(), |sum, a| sum + a), &other.rest);
-        }
-        if !self.rest.is_zero() {
-            left_out.add_mul_assign(&b.iter().fold(Integer::ZERO, |sum, b| sum + b), &self.rest);
-        }
-        let rest = up(left_out, self.bits) + self.roundings();
-        self.with(out, rest)
+        let mut sum = RawSum::of(self);
+        sum.add_product(self, other);
+        sum.model(self)
     }
 
     /// The quotient; `None` where the divisor may have a zero in the polydisc.
@@ -293,6 +293,50 @@ fn ratio_up(a: &Integer, b: &Integer, bits: u64) -> Integer {
     -(-(a << bits)).div_mod_floor(b).0
 }
 
+/// A sum of products with twice the bits after the point.
+struct RawSum {
+    coefficients: Vec<Integer>,
+    left_out: Integer,
+}
+
+impl RawSum {
+    fn of(like: &MultiTaylorModel) -> RawSum {
+        RawSum { coefficients: vec![Integer::ZERO; like.coefficients.len()], left_out: Integer::ZERO }
+    }
+
+    fn add_product(&mut self, one: &MultiTaylorModel, other: &MultiTaylorModel) {
+        let monomials = &one.monomials;
+        let filled = other.coefficients.iter().rposition(|c| !c.is_zero()).map_or(0, |i| i + 1);
+        for (a, places) in one.coefficients.iter().zip(&monomials.products).filter(|(a, _)| !a.is_zero()) {
+            checkpoint((4 * places.len().min(filled)) as u64);
+            for (b, &place) in other.coefficients[..filled].iter().zip(places) {
+                if !b.is_zero() {
+                    self.coefficients[place as usize].add_mul_assign(a, b);
+                }
+            }
+        }
+        let (a, b) = (one.sizes(), other.sizes());
+        for (i, a) in a.iter().enumerate() {
+            for b in &b[monomials.degree + 1 - i.min(monomials.degree)..] {
+                if i > 0 {
+                    self.left_out.add_mul_assign(a, b);
+                }
+            }
+        }
+        if !other.rest.is_zero() {
+            self.left_out.add_mul_assign(&a.iter().fold(one.rest.clone(), |sum, a| sum + a), &other.rest);
+        }
+        if !one.rest.is_zero() {
+            self.left_out.add_mul_assign(&b.iter().fold(Integer::ZERO, |sum, b| sum + b), &one.rest);
+        }
+    }
+
+    fn model(self, like: &MultiTaylorModel) -> MultiTaylorModel {
+        let coefficients = self.coefficients.into_iter().map(|c| c >> like.bits).collect();
+        like.with(coefficients, up(self.left_out, like.bits) + like.roundings())
+    }
+}
+
 impl Enclosed for MultiTaylorModel {
     fn nothing(&self) -> MultiTaylorModel {
         self.with(vec![Integer::ZERO; self.coefficients.len()], Integer::ZERO)
@@ -311,6 +355,13 @@ impl Enclosed for MultiTaylorModel {
     }
     fn is_nothing(&self) -> bool {
         self.rest.is_zero() && self.coefficients.iter().all(Integer::is_zero)
+    }
+    fn sum_of_products<'a>(&self, pairs: impl Iterator<Item = (&'a Self, &'a Self)>) -> MultiTaylorModel {
+        let mut sum: Option<RawSum> = None;
+        for (a, b) in pairs.filter(|(a, b)| !a.is_nothing() && !b.is_nothing()) {
+            sum.get_or_insert_with(|| RawSum::of(self)).add_product(a, b);
+        }
+        sum.map_or_else(|| self.nothing(), |sum| sum.model(self))
     }
     fn least(&self) -> Integer {
         let least = self.coefficients[0].abs() - self.around();

@@ -14,6 +14,9 @@ use std::sync::Arc;
 /// There are at most so many characteristic polynomials at values of the gains.
 const MOST_NODES: usize = 15;
 
+/// Exponentials of larger entries may have too many bits to be of use.
+const LARGEST: i64 = 1 << 13;
+
 /// What a variable of a [`MatrixFamily`] beyond its parameters stands for, in those before it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step {
@@ -110,7 +113,11 @@ impl MatrixFamily {
                     let n = self.flows[*of].rows();
                     if flows[*of].is_none() {
                         let entries = self.flows[*of].entries().iter().map(|f| quotient(f, known.values(), like));
-                        flows[*of] = Some(S::exponential_of(n, &entries.collect::<Option<Vec<S>>>()?));
+                        let entries = entries.collect::<Option<Vec<S>>>()?;
+                        if entries.iter().any(|e| e.range().magnitude_units() > (&Integer::from(LARGEST) << e.bits())) {
+                            return None;
+                        }
+                        flows[*of] = Some(S::exponential_of(n, &entries));
                     }
                     flows[*of].as_ref().map(|flow| flow[row * n + column].clone())?
                 }

@@ -50,6 +50,11 @@ impl ParametricSymbols {
         self.table.len()
     }
 
+    /// Whether some symbols are values of a family of matrices.
+    pub fn has_families(&self) -> bool {
+        self.table.iter().any(|(_, definition)| matches!(definition, Definition::Family(_)))
+    }
+
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.table.is_empty()

@@ -25,8 +25,10 @@ use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
 use part::Part;
+pub(super) use part::quotient;
 pub(crate) use quotient::EnclosedQuotient;
 use std::sync::Arc;
+pub(super) use steady_state::steady_state;
 
 /// Work that exact polynomials over the constants of a held loop may be before enclosures of coefficients are asked: less than a second.
 const WORK_BEFORE: u64 = 6_000_000;

@@ -30,6 +30,7 @@ mod separate;
 mod sides;
 mod tangent;
 mod tensor;
+mod tile;
 mod tree;
 mod volume;
 mod window;
