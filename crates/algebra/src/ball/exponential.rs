@@ -5,6 +5,9 @@ use crate::limits::checkpoint;
 use crate::matrix::Matrix;
 use crate::number::{Integer, Rational};
 
+/// Exponentials of matrices of a larger norm, in bits, may have too many bits to be of use.
+pub(super) const LARGEST_BITS: u64 = 13;
+
 /// A square matrix of balls, row by row.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BallMatrix {
@@ -48,6 +51,17 @@ impl BallMatrix {
     /// [`balancing_units`] of the entries.
     fn balancing_units(&self) -> Vec<i64> {
         balancing_units(self.size, &self.entry_sizes())
+    }
+
+    /// Whether the exponential has not too many bits to be of use.
+    pub(super) fn is_of_use(&self) -> bool {
+        let units = self.balancing_units();
+        let row = |i: usize| {
+            let size = |j: usize| self.at(i, j).shifted(units[j] - units[i]).magnitude_units();
+            (0..self.size).fold(Integer::ZERO, |sum, j| sum + size(j))
+        };
+        let norm = (0..self.size).map(row).max().unwrap_or(Integer::ZERO);
+        self.entries.first().is_none_or(|entry| norm.bit_length() <= entry.bits + LARGEST_BITS)
     }
 
     fn entry_sizes(&self) -> Vec<Option<i64>> {

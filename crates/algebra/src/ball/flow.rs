@@ -1,23 +1,23 @@
 //! Exponentials of matrices of functions.
 
 use super::Enclosed;
-use super::exponential::balancing_units;
+use super::exponential::{LARGEST_BITS, balancing_units};
 use super::solutions::Scaled;
 use crate::limits::checkpoint;
 use crate::number::Integer;
 
-/// The exponential of a matrix of so many rows, given row by row.
+/// The exponential of a matrix of so many rows, given row by row; `None` where it may have too many bits to be of use.
 ///
 /// The matrix is balanced and halved until its norm is at most 1/4; the powers of its series are made in groups
 /// ([PatersonStockmeyer1973](crate::bibliography#patersonstockmeyer1973)), and the result is squared again.
 ///
 /// Cost: some `2 sqrt(b/4) + h` products of matrices with `b` bits and `h` halvings.
-pub(super) fn exponential_of<S: Scaled>(n: usize, matrix: &[S]) -> Vec<S> {
-    let Some(first) = matrix.first() else { return Vec::new() };
+pub(super) fn exponential_of<S: Scaled>(n: usize, matrix: &[S]) -> Option<Vec<S>> {
+    let Some(first) = matrix.first() else { return Some(Vec::new()) };
     let bits = first.bits();
     let one = |like: &S| like.integer(&Integer::ONE);
     if matrix.iter().all(S::is_nothing) {
-        return (0..n * n).map(|k| if k / n == k % n { one(first) } else { first.nothing() }).collect();
+        return Some((0..n * n).map(|k| if k / n == k % n { one(first) } else { first.nothing() }).collect());
     }
     let sizes: Vec<Option<i64>> =
         matrix.iter().map(|s| (!s.is_nothing()).then(|| s.norm_units().bit_length() as i64)).collect();
@@ -28,6 +28,9 @@ pub(super) fn exponential_of<S: Scaled>(n: usize, matrix: &[S]) -> Vec<S> {
     let balanced: Vec<S> = matrix.iter().enumerate().map(|(k, s)| s.rescaled(more, in_units(1, k))).collect();
     let row = |i: usize| (0..n).fold(Integer::ZERO, |sum, j| sum + balanced[i * n + j].norm_units());
     let norm = (0..n).map(row).max().unwrap_or(Integer::ZERO);
+    if norm.bit_length() > more + LARGEST_BITS {
+        return None;
+    }
     // 2^halvings >= 4 norm.
     let halvings = (norm.bit_length() + 2).saturating_sub(more);
     let working = more + 2 * halvings + 16;
@@ -36,7 +39,7 @@ pub(super) fn exponential_of<S: Scaled>(n: usize, matrix: &[S]) -> Vec<S> {
     for _ in 0..halvings {
         out = product(n, &out, &out);
     }
-    out.iter().enumerate().map(|(k, s)| s.rescaled(bits, in_units(-1, k))).collect()
+    Some(out.iter().enumerate().map(|(k, s)| s.rescaled(bits, in_units(-1, k))).collect())
 }
 
 /// The exponential of a matrix of norm 1/4 at most.
@@ -129,7 +132,7 @@ mod tests {
             let [x, zero] = [ball(1, 4), ball(0, 1)];
             let model = &MultiTaylorModel::linear(&[(zero.clone(), x.clone())], 4)[0];
             let entry = |k: usize| model.mul(&model.constant(&ball(b[k], 8))).add(&model.constant(&ball(a[k] * unit(k), 8)));
-            let found = exponential_of(3, &(0..9).map(entry).collect::<Vec<_>>());
+            let found = exponential_of(3, &(0..9).map(entry).collect::<Vec<_>>()).unwrap();
             for at in [-4i64, -1, 0, 3, 4] {
                 let there = |i: usize, j: usize| ball(a[3 * i + j] * unit(3 * i + j), 8).add(&ball(b[3 * i + j], 8).mul(&ball(at, 16)));
                 let exact = exponential(&BallMatrix::from_fn(3, there));
@@ -141,7 +144,7 @@ mod tests {
                 }
             }
             let series = |k: usize| Series::linear(&ball(a[k] * unit(k), 8), &ball(b[k], 8), 3);
-            let found = exponential_of(3, &(0..9).map(series).collect::<Vec<_>>());
+            let found = exponential_of(3, &(0..9).map(series).collect::<Vec<_>>()).unwrap();
             let exact = exponential(&BallMatrix::from_fn(3, |i, j| ball(a[3 * i + j] * unit(3 * i + j), 8)));
             for (k, s) in found.iter().enumerate() {
                 prop_assert!(s.coefficients()[0].intersection(exact.at(k / 3, k % 3)).is_some());
@@ -153,9 +156,23 @@ mod tests {
     #[test]
     fn the_exponential_of_nothing_is_the_identity() {
         let zero = Series::constant(&ball(0, 1), 2);
-        let found = exponential_of(2, &vec![zero.clone(); 4]);
+        let found = exponential_of(2, &vec![zero.clone(); 4]).unwrap();
         let one = zero.integer(&Integer::ONE);
-        assert_eq!(found, [one.clone(), zero.clone(), zero, one]);
+        assert_eq!(found, [one.clone(), zero.clone(), zero.clone(), one]);
+        let large = |bits: u64| Series::constant(&Ball::from_integer(&Integer::from(2).pow(bits), BITS), 1);
+        // In other units 2^20 is short, beside 2^-20.
+        let short = Series::constant(&ball(1, 1 << 20), 1);
+        for of in [exponential_of::<Series>, Series::exponential_of] {
+            assert!(of(1, &[large(12)]).is_some() && of(1, &[large(14)]).is_none());
+            assert!(
+                of(
+                    2,
+                    &[zero.clone(), large(20), short.clone(), zero.clone()]
+                        .map(|s| Series::constant(&s.coefficients()[0], 1))
+                )
+                .is_some()
+            );
+        }
         let many: Vec<u64> = (1..=40).collect();
         let factorial = Integer::from(2).pow(BITS);
         let s = Series::constant(

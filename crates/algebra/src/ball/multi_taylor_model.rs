@@ -5,7 +5,7 @@ use super::implicit::{Approximate, implicit};
 use super::solutions::{Scaled, Summed, solutions_by_taylor};
 use super::{Ball, Elementary, Enclosed, exp};
 use crate::limits::checkpoint;
-use crate::number::Integer;
+use crate::number::{Integer, Rational};
 use std::sync::Arc;
 
 /// The monomials in some variables up to a total degree, by degree, and the places of their products.
@@ -119,30 +119,46 @@ impl MultiTaylorModel {
         &self.rest
     }
 
-    /// The same function on a part of the polydisc, where the coordinates are these lines within it.
+    /// The line that this is, of which nothing but rounding is left out: its middle and how far it goes around it; `None` of any other function.
+    pub fn as_line(&self) -> Option<(Rational, Rational)> {
+        let last = self.monomials.starts.get(2).copied().unwrap_or(self.coefficients.len());
+        let is_line = self.coefficients[last.min(self.coefficients.len())..].iter().all(Integer::is_zero);
+        let number = |units: &Integer| Rational::dyadic(units, self.bits);
+        is_line.then(|| (number(&self.coefficients[0]), number(&self.around())))
+    }
+
+    /// The same function of lines within the polydisc, which may be in other variables.
     ///
     /// Cost: as many products with a line as there are coefficients.
-    pub fn on_part(&self, lines: &[MultiTaylorModel]) -> MultiTaylorModel {
+    ///
+    /// # Panics
+    /// Unless there is a line for each variable, with the bits of this function.
+    pub fn along(&self, lines: &[MultiTaylorModel]) -> MultiTaylorModel {
         let terms: Vec<(&[u32], &Integer)> = self.terms().filter(|(_, c)| !c.is_zero()).collect();
-        let mut out = self.horner(&terms, lines);
-        // What is left out is no larger in a part.
+        let mut out = horner(&terms, lines, &lines[0]);
+        // What is left out is no larger there.
         out.rest += &self.rest;
         out
     }
 
-    /// The sum of terms in the first so many lines.
-    fn horner(&self, terms: &[(&[u32], &Integer)], lines: &[MultiTaylorModel]) -> MultiTaylorModel {
-        let Some((last, others)) = lines.split_last() else {
-            let sum = terms.iter().fold(Integer::ZERO, |sum, (_, c)| sum + *c);
-            return self.constant(&Ball::from_units(sum.clone(), sum, self.bits));
-        };
-        let power = |e: &[u32]| e[others.len()];
-        let highest = terms.iter().map(|(e, _)| power(e)).max().unwrap_or(0);
-        (0..=highest).rev().fold(self.nothing(), |sum, k| {
-            let own: Vec<(&[u32], &Integer)> = terms.iter().filter(|(e, _)| power(e) == k).copied().collect();
-            let sum = if sum.is_nothing() { sum } else { sum.mul(last) };
-            if own.is_empty() { sum } else { sum.add(&self.horner(&own, others)) }
-        })
+    /// With other bits after the point.
+    pub fn with_bits(&self, bits: u64) -> MultiTaylorModel {
+        self.rescaled(bits, 0)
+    }
+
+    /// The number of bits after the point.
+    pub fn value_bits(&self) -> u64 {
+        self.bits
+    }
+
+    /// The difference from a number.
+    pub fn less(&self, number: &Ball) -> MultiTaylorModel {
+        self.sub(&self.constant(number))
+    }
+
+    /// Times a power of two.
+    pub fn shifted(&self, exponent: i64) -> MultiTaylorModel {
+        self.rescaled(self.bits, exponent)
     }
 
     fn with(&self, coefficients: Vec<Integer>, rest: Integer) -> MultiTaylorModel {
@@ -293,6 +309,21 @@ fn ratio_up(a: &Integer, b: &Integer, bits: u64) -> Integer {
     -(-(a << bits)).div_mod_floor(b).0
 }
 
+/// The sum of terms in the first so many lines.
+fn horner(terms: &[(&[u32], &Integer)], lines: &[MultiTaylorModel], like: &MultiTaylorModel) -> MultiTaylorModel {
+    let Some((last, others)) = lines.split_last() else {
+        let sum = terms.iter().fold(Integer::ZERO, |sum, (_, c)| sum + *c);
+        return like.constant(&Ball::from_units(sum.clone(), sum, like.bits));
+    };
+    let power = |e: &[u32]| e[others.len()];
+    let highest = terms.iter().map(|(e, _)| power(e)).max().unwrap_or(0);
+    (0..=highest).rev().fold(like.nothing(), |sum, k| {
+        let own: Vec<(&[u32], &Integer)> = terms.iter().filter(|(e, _)| power(e) == k).copied().collect();
+        let sum = if sum.is_nothing() { sum } else { last.mul(&sum) };
+        if own.is_empty() { sum } else { sum.add(&horner(&own, others, like)) }
+    })
+}
+
 /// A sum of products with twice the bits after the point.
 struct RawSum {
     coefficients: Vec<Integer>,
@@ -438,7 +469,13 @@ impl Elementary for MultiTaylorModel {
     fn solutions(&self, coefficients: &[MultiTaylorModel]) -> Vec<MultiTaylorModel> {
         solutions_by_taylor(coefficients, self)
     }
-    fn exponential_of(n: usize, matrix: &[MultiTaylorModel]) -> Vec<MultiTaylorModel> {
+    fn as_models(list: &[MultiTaylorModel]) -> Option<&[MultiTaylorModel]> {
+        Some(list)
+    }
+    fn of_models(models: Vec<MultiTaylorModel>) -> Option<Vec<MultiTaylorModel>> {
+        Some(models)
+    }
+    fn exponential_of(n: usize, matrix: &[MultiTaylorModel]) -> Option<Vec<MultiTaylorModel>> {
         exponential_of(n, matrix)
     }
     fn implicit(

@@ -4,6 +4,7 @@
 //! Taylor models of its parameters, exponentials of matrices as a whole, and the coefficients follow by arithmetic: nothing is expanded.
 
 use super::Definition;
+use super::tiles::Tiles;
 use super::values::{Evaluation, quotient};
 use crate::ball::{Ball, Elementary, characteristic_polynomial};
 use crate::matrix::RationalMatrix;
@@ -13,9 +14,6 @@ use std::sync::Arc;
 
 /// There are at most so many characteristic polynomials at values of the gains.
 const MOST_NODES: usize = 15;
-
-/// Exponentials of larger entries may have too many bits to be of use.
-const LARGEST: i64 = 1 << 13;
 
 /// What a variable of a [`MatrixFamily`] beyond its parameters stands for, in those before it.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,6 +49,7 @@ pub struct MatrixFamily {
     monomials: Vec<Vec<u32>>,
     /// For each monomial the weight of the polynomial at each node: nodes are the exponents as numbers.
     weights: Vec<Vec<Rational>>,
+    tiles: Tiles,
 }
 
 /// The variables of a [`MatrixFamily`]: parameters, and what follows from them.
@@ -77,7 +76,17 @@ impl MatrixFamily {
         let monomials = monomials(slopes.len(), degree)?;
         let weights = weights(&monomials)?;
         let FamilyVariables { parameters, steps, flows } = variables;
-        Some(MatrixFamily { parameters, steps, flows, constant, slopes, beside, monomials, weights })
+        Some(MatrixFamily {
+            parameters,
+            steps,
+            flows,
+            constant,
+            slopes,
+            beside,
+            monomials,
+            weights,
+            tiles: Tiles::default(),
+        })
     }
 
     /// The order of the matrix.
@@ -100,6 +109,12 @@ impl MatrixFamily {
         self.monomials.len() * self.order() + self.beside.len()
     }
 
+    /// [`MatrixFamily::values`], of Taylor models over a part of a box that was looked at from those over the box.
+    pub(super) fn values_near<S: Elementary>(&self, parameters: &[S], like: &S) -> Option<Vec<S>> {
+        let found = S::as_models(parameters).and_then(|models| self.tiles.values(self, models));
+        found.and_then(S::of_models).or_else(|| self.values(parameters, like))
+    }
+
     /// All values: for each product of gains the coefficients of `1, w, .., w^(n-1)`, then the other functions. The coefficient of `w^n` is 1, and 0
     /// beside gains. `like` is a number of the kind of all values. `None` where something may not be defined.
     pub(super) fn values<S: Elementary>(&self, parameters: &[S], like: &S) -> Option<Vec<S>> {
@@ -114,10 +129,7 @@ impl MatrixFamily {
                     if flows[*of].is_none() {
                         let entries = self.flows[*of].entries().iter().map(|f| quotient(f, known.values(), like));
                         let entries = entries.collect::<Option<Vec<S>>>()?;
-                        if entries.iter().any(|e| e.range().magnitude_units() > (&Integer::from(LARGEST) << e.bits())) {
-                            return None;
-                        }
-                        flows[*of] = Some(S::exponential_of(n, &entries));
+                        flows[*of] = Some(S::exponential_of(n, &entries)?);
                     }
                     flows[*of].as_ref().map(|flow| flow[row * n + column].clone())?
                 }

@@ -29,6 +29,7 @@ mod scales;
 mod sign;
 mod specialise;
 mod taylor;
+mod tiles;
 mod values;
 mod zero_at_end;
 

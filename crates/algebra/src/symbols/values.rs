@@ -198,7 +198,7 @@ impl<'d, S: Elementary> Evaluation<'d, S> {
                     Some(family) => family,
                     None => {
                         let at = value.at.iter().map(|f| self.at(f)).collect::<Option<Vec<S>>>()?;
-                        self.families.push((value, value.of.values(&at, &self.like)?));
+                        self.families.push((value, value.of.values_near(&at, &self.like)?));
                         self.families.len() - 1
                     }
                 };

@@ -30,7 +30,6 @@ mod separate;
 mod sides;
 mod tangent;
 mod tensor;
-mod tile;
 mod tree;
 mod volume;
 mod window;

@@ -7,16 +7,27 @@
 //! wide is halved along the parameter in which the coefficients are farthest from straight.
 
 use super::moving::MovingPolynomial;
-use super::parts::{Known, Local, Term, add_terms, bundle, corners, extent, middle, pruned};
+use super::parts::{Known, Local, Term, add_terms, bundle, coordinates, corners, extent, middle, model_degree, pruned};
 use super::polynomial::Bundle;
 use super::prove::{BoxProof, Closing, Outcome, closed_by_sign, simplest_point};
 use super::reason::OpenReason;
 use super::tensor::{FrequencyScale, Tensor};
-use super::tile::{BITS, Tiled};
 use crate::subdivision::{BoxPart, Look, Octaves, Order, Tally, decided, subdivide};
-use jurist_algebra::ball::MultiTaylorModel;
+use jurist_algebra::ball::{Elementary, MultiTaylorModel};
 use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
 use jurist_algebra::number::{Integer, Rational, Sign};
+
+/// Bits after the point of coefficients in a part of the box.
+const BITS: u64 = 192;
+
+/// Taylor models have about so many coefficients.
+const MODEL_TERMS: usize = 130;
+
+/// The greatest degree of a Taylor model.
+const MODEL_DEGREE: usize = 12;
+
+/// The same where each value is that of a matrix: a third of the terms takes a tenth of the time, and leaves out little that matters.
+const OF_MATRICES: (usize, usize) = (36, 8);
 
 /// A tensor of a part has at most so many coefficients for each polynomial; beyond it terms of higher degree are left out.
 const TENSOR_TERMS: usize = 1 << 13;
@@ -42,6 +53,24 @@ struct Part {
 }
 
 impl MovingPolynomial {
+    /// What is known in a part; `None` where something may not be defined.
+    fn part(&self, sides: &[[Rational; 2]]) -> Option<Part> {
+        Some(self.part_of(sides, &self.models(sides)?))
+    }
+
+    /// The parts of all functions over sides of what is inside of functions: other sides do not change them.
+    pub(super) fn models(&self, sides: &[[Rational; 2]]) -> Option<Vec<Vec<MultiTaylorModel>>> {
+        let (most, highest) = if self.is_of_matrices { OF_MATRICES } else { (MODEL_TERMS, MODEL_DEGREE) };
+        let degree = model_degree(self.inside.len(), 2..=highest, most);
+        let moving = coordinates(sides, &self.inside, BITS, degree);
+        // What is not inside of functions is not looked at here.
+        let mut parameters = vec![moving[0].integer(&Integer::ZERO); sides.len()];
+        for (&i, model) in self.inside.iter().zip(moving) {
+            parameters[i] = model;
+        }
+        self.parts_at(&parameters)
+    }
+
     /// What is known in a part, from the functions' models.
     fn part_of(&self, sides: &[[Rational; 2]], parts: &[Vec<MultiTaylorModel>]) -> Part {
         let mut curvature = vec![Integer::ZERO; sides.len()];
@@ -90,12 +119,10 @@ impl MovingPolynomial {
         budget: &Budget,
     ) -> Result<Outcome, Exhausted> {
         let refuted = |point: Vec<Rational>| (self.seen_at(&point) == Some(false)).then_some(Outcome::Refuted(point));
-        let look = |cell: &mut Tiled, tally: Tally| {
-            let Tiled { part: Octaves(BoxPart { sides, halvings }), around } = cell;
+        let look = |cell: &mut Octaves, tally: Tally| {
+            let Octaves(BoxPart { sides, halvings }) = cell;
             checkpoint(1000);
-            let over = self.models(sides, around.as_ref());
-            let part = over.as_ref().map(|over| self.part_of(sides, over.models()));
-            *around = over.or(around.take());
+            let part = self.part(sides);
             let proved = match &part {
                 None => Err(sides.clone()),
                 Some(part) => {
@@ -123,7 +150,8 @@ impl MovingPolynomial {
                 Look::Cut,
             ))
         };
-        Ok(match subdivide([Tiled::whole(whole)], Order::Depth, budget, look)? {
+        let whole = Octaves(BoxPart::whole(whole));
+        Ok(match subdivide([whole], Order::Depth, budget, look)? {
             Ok(steps) => Outcome::Stable(BoxProof::of_cells(known.1, decided(steps).sum())),
             Err(outcome) => outcome,
         })
@@ -175,5 +203,18 @@ impl Part {
         let pair = bundle(own, sides.len()).pair();
         let (tensor, _) = Tensor::of_pair_within(&pair, &slack, &local.sides, FrequencyScale(2 * scale));
         local.closed(tensor, (closing, most), budget)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn models_have_the_degree_that_the_number_of_variables_allows() {
+        let degree = |variables| model_degree(variables, 2..=MODEL_DEGREE, MODEL_TERMS);
+        assert_eq!([1, 2, 3, 4, 5, 6, 9, 30].map(degree), [12, 12, 7, 5, 4, 3, 2, 2]);
+        let (most, highest) = OF_MATRICES;
+        assert_eq!([1, 2, 3, 4].map(|n| model_degree(n, 2..=highest, most)), [8, 7, 4, 3]);
     }
 }

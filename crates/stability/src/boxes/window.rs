@@ -3,11 +3,10 @@
 use super::family::Family;
 use super::moving::MovingPolynomial;
 use super::prove::{closed_by_vector, scale_of};
-use super::tile::OverPart;
 use crate::plane::boxes::{BoxMap, BoxVerdict, Place, Seen, Window, subdivided};
 use crate::symbolic::certain_count;
 use crate::{RootCount, Shape};
-use jurist_algebra::ball::{Ball, Series};
+use jurist_algebra::ball::{Ball, MultiTaylorModel, Series};
 use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
 use jurist_algebra::number::{Integer, Rational, Sign};
 use std::collections::HashMap;
@@ -46,9 +45,10 @@ impl MovingPolynomial {
             // Undefined, a root on the boundary, or degree lost, for all values of both.
             return BoxMap::nowhere_stable(window);
         }
-        let known = Known { p: self, window, models: Memory::default(), points: Memory::default() };
+        let known = Known { p: self, models: Memory::default(), points: Memory::default() };
         subdivided(window, goal, budget, |place, _: Option<&()>| {
-            let seen = match known.verdict_in(place, budget)? {
+            let Window { x, y } = place.window(window);
+            let seen = match known.verdict_in(&[x, y], budget)? {
                 Some(verdict) => Seen::Decided(verdict),
                 None => otherwise(place).unwrap_or(Seen::Cut(place.wider())),
             };
@@ -81,17 +81,13 @@ impl<K: Eq + Hash, V> Memory<K, V> {
 /// A loop with what is known of its functions on sides and at points: one is looked up for many boxes.
 struct Known<'p> {
     p: &'p MovingPolynomial,
-    window: &'p Window,
-    /// By number and halvings along each axis that is inside of functions.
-    models: Memory<Vec<(u128, u32)>, OverPart>,
+    models: Memory<Vec<[Rational; 2]>, Vec<Vec<MultiTaylorModel>>>,
     points: Memory<Vec<Rational>, Vec<Vec<Series>>>,
 }
 
 impl Known<'_> {
     /// What is the same at all points of a box; `None` where that is not seen.
-    fn verdict_in(&self, place: &Place, budget: &Budget) -> Result<Option<BoxVerdict>, Exhausted> {
-        let Window { x, y } = place.window(self.window);
-        let sides = &[x, y];
+    fn verdict_in(&self, sides: &[[Rational; 2]; 2], budget: &Budget) -> Result<Option<BoxVerdict>, Exhausted> {
         let [x, y] = sides;
         if self.p.has_no_meaning_in(sides) {
             return Ok(Some(BoxVerdict::Unstable { outside: None }));
@@ -106,8 +102,9 @@ impl Known<'_> {
             }
         }
         checkpoint(200);
-        let Some(over) = self.models_in(place) else { return Ok(None) };
-        if !self.p.keeps_count(sides, over.models(), (&signs, scale), (&closed_by_vector, CELLS), budget)? {
+        let inside: Vec<[Rational; 2]> = self.p.inside.iter().map(|&i| sides[i].clone()).collect();
+        let Some(models) = self.models.get(inside, || self.p.models(sides)) else { return Ok(None) };
+        if !self.p.keeps_count(sides, &models, (&signs, scale), (&closed_by_vector, CELLS), budget)? {
             return Ok(None);
         }
         Ok(Some(match count.outside {
@@ -116,23 +113,6 @@ impl Known<'_> {
             0 => BoxVerdict::Stable,
             outside => BoxVerdict::Unstable { outside: Some(outside) },
         }))
-    }
-
-    /// The functions' models in a box: those of the box that it is half of, where these are fine enough. Which boxes have models of their own does
-    /// not depend on the order in which they are asked for.
-    fn models_in(&self, place: &Place) -> Option<Arc<OverPart>> {
-        let key = self.p.inside.iter().map(|&i| (place.at[i], place.halvings[i])).collect();
-        self.models.get(key, || {
-            let longest = self.p.inside.iter().copied().max_by_key(|&i| place.halvings[i])?;
-            let around = (place.halvings[longest] > 0).then(|| {
-                let mut around = *place;
-                around.at[longest] /= 2;
-                around.halvings[longest] -= 1;
-                self.models_in(&around)
-            });
-            let Window { x, y } = place.window(self.window);
-            self.p.models(&[x, y], around.flatten().as_deref())
-        })
     }
 
     /// The root count at a point, the signs of what must not vanish, and the scale of frequencies; `None` where enclosed coefficients do

@@ -97,6 +97,39 @@ fn values_are_the_coefficients_at_points_and_in_boxes() {
     }
 }
 
+/// Over parts of a box on one side of a grid the values come from those over the box of the grid: they hold the same numbers, and not many more.
+#[test]
+fn values_over_parts_hold_those_at_points() {
+    let family = family();
+    for (radius, other) in [("1/16", "1/32"), ("1/100", "0"), ("1/5000", "1/900")] {
+        let middles = [number("7/3"), number("5/9")];
+        let lines = [radius, other].map(number);
+        let own: Vec<(Ball, Ball)> = middles.iter().zip(&lines).map(|(m, r)| (ball(m), ball(r))).collect();
+        let models = MultiTaylorModel::linear(&own, 5);
+        let [near, own] =
+            [family.values_near(&models, &models[0]), family.values(&models, &models[0])].map(Option::unwrap);
+        for (x, y) in [("0", "0"), ("1", "-1"), ("-1/3", "1"), ("-1", "-1")].map(|(x, y)| (number(x), number(y))) {
+            let point = [&middles[0] + &(&lines[0] * &x), &middles[1] + &(&lines[1] * &y)]
+                .map(|x| Series::constant(&ball(&x), 1));
+            let exact = family.values(&point, &point[0]).unwrap();
+            for ((near, own), exact) in near.iter().zip(&own).zip(&exact) {
+                let at = |model: &MultiTaylorModel| {
+                    let value = model.terms().fold(Ball::zero(BITS), |sum, (e, c)| {
+                        let powers = ball(&x).power(u64::from(e[0])).mul(&ball(&y).power(u64::from(e[1])));
+                        sum.add(&powers.mul(&Ball::from_units(c.clone(), c.clone(), BITS)))
+                    });
+                    value.widened(model.rest_units())
+                };
+                let [found, direct] = [near, own].map(at);
+                assert!(found.intersection(&exact.coefficients()[0]).is_some());
+                // Fine to 2^-24 of the function there.
+                let most = (direct.width_units() << 4) + (found.magnitude_units() >> 20) + (Integer::ONE << 50);
+                assert!(found.width_units() <= most, "{found:?} {direct:?}");
+            }
+        }
+    }
+}
+
 #[test]
 fn values_are_symbols_like_others() {
     let of = Arc::new(family());
