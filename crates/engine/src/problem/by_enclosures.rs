@@ -19,6 +19,7 @@ use super::{Bound, Problem, Region};
 use crate::error::Error;
 use crate::model::{ClosedLoop, InNumbers, Samples, beside, in_powers, quotient_at};
 use crate::stability::{EnclosedLoop, Shape, SymbolicPolynomial};
+pub(crate) use in_boxes::OpenedByValues;
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, Exhausted, Stop};
 use jurist_algebra::matrix::RationalMatrix;

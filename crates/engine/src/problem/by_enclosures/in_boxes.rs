@@ -3,12 +3,12 @@
 
 use super::{WORK_BEFORE, is_too_long};
 use crate::error::Error;
-use crate::model::{InNumbers, Symbols};
+use crate::model::{ClosedLoop, Cut, InNumbers, Opened, Symbols, Time, rank_bound};
 use crate::problem::{Algebra, Bound, Problem, Region};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::{CharacteristicPolynomial, RationalMatrix};
-use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction, UniPoly};
+use jurist_algebra::number::Rational;
+use jurist_algebra::poly::{Domain, Monomial, MultiPoly, Poly, RationalFunction};
 use jurist_algebra::symbols::{Definition, FamilyValue, MatrixFamily};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -54,10 +54,53 @@ impl Problem {
             Err(_) => None,
         };
         let is_held = |found: &InNumbers| found.symbols.has_flows() && !found.closed_loop.is_complex;
-        let Some(found) = found.filter(is_held) else { return Ok(None) };
+        let Some(InNumbers { closed_loop, sample_time, symbols }) = found.filter(is_held) else { return Ok(None) };
         budget.step("coefficients by enclosures");
-        Ok(budget.enter(|| OfNames::of(&found, kept).and_then(|names| names.algebra(&found, &radius)))?)
+        let of = Held { system: &closed_loop, sample_time: sample_time.as_ref(), symbols: &symbols };
+        Ok(budget.enter(|| of.algebra(&OfNames::of(&of, kept), &radius))?)
     }
+
+    /// The loop cut open, by values. `None` where the cut is at a gain, where the open loop has a direct feedthrough or the closed loop decouples, or is not
+    /// of this form.
+    ///
+    /// Cost: the closed loop without a characteristic polynomial.
+    ///
+    /// # Errors
+    /// As [`Problem::closed_loop_over_symbols`].
+    pub(crate) fn opened_by_values(&self, cut: &Cut, budget: &Budget) -> Result<Option<OpenedByValues>, Error> {
+        if matches!(cut, Cut::Gain(_)) || self.model().hyperperiod() > 1 || self.time() == Time::Continuous {
+            return Ok(None);
+        }
+        let kept: Vec<String> = self.free().iter().map(|free| free.name.clone()).collect();
+        let opened = budget.enter(|| self.model().opened_in_numbers(cut, &kept, self.set(), budget))??;
+        let Opened { system, sample_time, symbols, is_closed } = &opened;
+        if *is_closed || !symbols.has_flows() || system.is_complex {
+            return Ok(None);
+        }
+        let of = Held { system, sample_time: sample_time.as_ref(), symbols };
+        Ok(budget.enter(|| {
+            let names = OfNames::of(&of, kept.clone());
+            of.opened(&names)
+                .or_else(|| of.opened(&OfNames { gains: Vec::new(), inside: (0..kept.len()).collect(), kept }))
+        })?)
+    }
+}
+
+/// The open loop `N/D0` of a loop by values.
+pub(crate) struct OpenedByValues {
+    pub denominator: Poly<MultiPoly>,
+    pub numerator: Poly<MultiPoly>,
+    /// It vanishes where something is divided by zero.
+    pub undefined: MultiPoly,
+    pub sample_time: Option<RationalFunction>,
+    pub symbols: Symbols,
+}
+
+/// A loop behind holds with its exponentials whole.
+struct Held<'a> {
+    system: &'a ClosedLoop,
+    sample_time: Option<&'a RationalFunction>,
+    symbols: &'a Symbols,
 }
 
 /// What the free names do in the closed loop.
@@ -70,21 +113,20 @@ struct OfNames {
 }
 
 impl OfNames {
-    fn of(found: &InNumbers, kept: Vec<String>) -> Option<OfNames> {
-        let closed_loop = &found.closed_loop;
+    fn of(of: &Held, kept: Vec<String>) -> OfNames {
         let count = kept.len();
-        let mut inside: BTreeSet<usize> = found.symbols.arguments().flat_map(RationalFunction::variables).collect();
-        let entries = closed_loop.a.entries();
-        inside.extend(entries.iter().flat_map(|f| f.denominator().variables()));
-        inside.extend(closed_loop.poles.iter().flat_map(MultiPoly::variables));
-        for (monomial, _) in entries.iter().flat_map(|f| f.numerator().terms()) {
+        let ClosedLoop { a, e, c, poles, .. } = of.system;
+        let mut inside: BTreeSet<usize> = of.symbols.arguments().flat_map(RationalFunction::variables).collect();
+        inside.extend([a, e, c].into_iter().flat_map(|m| m.entries()).flat_map(|f| f.denominator().variables()));
+        inside.extend(poles.iter().flat_map(MultiPoly::variables));
+        for (monomial, _) in [a, e, c].into_iter().flat_map(|m| m.entries()).flat_map(|f| f.numerator().terms()) {
             let own: Vec<usize> = (0..count).filter(|&i| monomial.exponent(i) > 0 && !inside.contains(&i)).collect();
             if own.iter().map(|&i| monomial.exponent(i)).sum::<u32>() > 1 {
                 inside.extend(own);
             }
         }
         let (inside, gains) = (0..count).partition(|i| inside.contains(i));
-        Some(OfNames { kept, gains, inside })
+        OfNames { kept, gains, inside }
     }
 
     /// A function of the family's variables: names that are inside of functions, then symbols. `None` where a gain is left.
@@ -98,7 +140,7 @@ impl OfNames {
         })
     }
 
-    /// The matrix without gains, and what each gain adds.
+    /// The matrix without gains, and what each gain adds; `None` where it is not linear in them.
     fn split(&self, a: &RationalMatrix) -> Option<(RationalMatrix, Vec<RationalMatrix>)> {
         let n = a.rows();
         let part = |gain: Option<usize>| {
@@ -119,57 +161,15 @@ impl OfNames {
             let entries = a.entries().iter().map(entry).collect::<Option<Vec<_>>>()?;
             Some(RationalMatrix::from_fn(n, n, |i, j| entries[i * n + j].clone()))
         };
+        let degree = |m: &Monomial| self.gains.iter().map(|i| m.exponent(*i)).sum::<u32>();
+        if a.entries().iter().flat_map(|f| f.numerator().terms()).any(|(m, _)| degree(m) > 1) {
+            return None;
+        }
         let slopes = self.gains.iter().map(|gain| part(Some(*gain))).collect::<Option<Vec<_>>>()?;
         Some((part(None)?, slopes))
     }
 
-    fn algebra(&self, found: &InNumbers, radius: &Rational) -> Option<Algebra> {
-        let closed_loop = &found.closed_loop;
-        let (constant, slopes) = self.split(&closed_loop.a)?;
-        let over = RationalFunction::from(radius.recip()?);
-        let [constant, slopes] =
-            [vec![constant], slopes].map(|list| list.iter().map(|m| m.scaled(&over)).collect::<Vec<_>>());
-        let constant = constant.into_iter().next()?;
-        let n = constant.rows();
-        // The degree in all gains together.
-        let first_symbol = self.inside.len() + found.symbols.iter().count();
-        let all = slopes.iter().enumerate().fold(RationalMatrix::zeros(n, n), |sum, (i, slope)| {
-            &sum + &slope.scaled(&RationalFunction::variable(first_symbol + i))
-        });
-        let degree = crate::model::rank_bound(&all);
-        // What is divided by: polynomials in names stay, of others the values are asked for.
-        let below = closed_loop.a.entries().iter().chain(found.symbols.arguments()).map(RationalFunction::denominator);
-        let mut poles: Vec<&MultiPoly> = Vec::new();
-        for pole in closed_loop.poles.iter().chain(below).filter(|p| !p.is_constant()) {
-            if !poles.contains(&pole) {
-                poles.push(pole);
-            }
-        }
-        let is_of_names = |p: &&MultiPoly| p.variables().iter().all(|i| *i < self.kept.len());
-        let (of_names, of_symbols): (Vec<&MultiPoly>, Vec<&MultiPoly>) = poles.into_iter().partition(is_of_names);
-        let beside = of_symbols.iter().map(|p| self.placed(&(*p).clone().into())).collect::<Option<Vec<_>>>()?;
-        let count = beside.len();
-        let place = |f: &RationalFunction| self.placed(f);
-        let variables = found.symbols.family_variables(self.inside.len(), place)?;
-        let family = Arc::new(MatrixFamily::new(variables, constant, slopes, degree, beside)?);
-        let sample_time = found.sample_time.clone();
-        if sample_time.iter().flat_map(RationalFunction::variables).any(|i| i >= self.kept.len()) {
-            return None;
-        }
-        let symbol = |index: usize| MultiPoly::variable(self.kept.len() + index);
-        let values = family.monomials().len() * n;
-        let poles = of_names.into_iter().cloned().chain((0..count).map(|k| symbol(values + k))).collect();
-        let symbols = self.symbols(&family, values + count);
-        let polynomial = CharacteristicPolynomial {
-            variables: symbols.variables(),
-            coefficients: self.coefficients(&family, symbol),
-            formal_degree: n,
-            poles,
-            monic: true,
-        };
-        Some(Algebra::of_values(polynomial, sample_time, symbols))
-    }
-
+    /// Symbols for the values of a family.
     fn symbols(&self, family: &Arc<MatrixFamily>, count: usize) -> Symbols {
         let at: Vec<RationalFunction> = self.inside.iter().map(|i| RationalFunction::variable(*i)).collect();
         let definition = |index: usize| {
@@ -180,26 +180,131 @@ impl OfNames {
         Symbols::of_definitions(self.kept.clone(), (0..count).map(definition).collect())
     }
 
-    /// The coefficients of the powers of `z`, from those of the powers of `z - 1`.
-    fn coefficients(&self, family: &MatrixFamily, symbol: impl Fn(usize) -> MultiPoly) -> Vec<RationalFunction> {
+    /// The symbol of a value.
+    fn symbol(&self, index: usize) -> MultiPoly {
+        MultiPoly::variable(self.kept.len() + index)
+    }
+}
+
+/// The values of a loop as symbols.
+struct Values {
+    family: Arc<MatrixFamily>,
+    symbols: Symbols,
+    /// What is divided by, in names and symbols.
+    poles: Vec<MultiPoly>,
+}
+
+impl Held<'_> {
+    /// The family of the matrix and its slopes. `None` where its degree is large, or the sample time contains functions.
+    fn values(
+        &self,
+        names: &OfNames,
+        constant: RationalMatrix,
+        slopes: Vec<RationalMatrix>,
+        degree: usize,
+    ) -> Option<Values> {
+        // What is divided by: polynomials in names stay, of others the values are asked for.
+        let ClosedLoop { a, e, c, poles: known, .. } = self.system;
+        let entries = [a, e, c].into_iter().flat_map(|m| m.entries());
+        let below = entries.chain(self.symbols.arguments()).map(RationalFunction::denominator);
+        let mut all: Vec<&MultiPoly> = Vec::new();
+        for pole in known.iter().chain(below).filter(|p| !p.is_constant()) {
+            if !all.contains(&pole) {
+                all.push(pole);
+            }
+        }
+        let count = names.kept.len();
+        let is_of_names = |p: &&MultiPoly| p.variables().iter().all(|i| *i < count);
+        let (of_names, of_symbols): (Vec<&MultiPoly>, Vec<&MultiPoly>) = all.into_iter().partition(is_of_names);
+        let beside = of_symbols.iter().map(|p| names.placed(&(*p).clone().into())).collect::<Option<Vec<_>>>()?;
+        if self.sample_time.into_iter().flat_map(RationalFunction::variables).any(|i| i >= count) {
+            return None;
+        }
+        let others = beside.len();
+        let variables = self.symbols.family_variables(names.inside.len(), |f| names.placed(f))?;
+        let family = Arc::new(MatrixFamily::new(variables, constant, slopes, degree, beside)?);
+        let first = family.monomials().len() * family.order();
+        let poles = of_names.into_iter().cloned().chain((0..others).map(|k| names.symbol(first + k))).collect();
+        let symbols = names.symbols(&family, first + others);
+        Some(Values { family, symbols, poles })
+    }
+
+    /// A bound of the degree of the polynomial in all slopes together.
+    fn degree(&self, names: &OfNames, slopes: &[RationalMatrix]) -> usize {
+        let n = self.system.a.rows();
+        let first = names.inside.len() + self.symbols.iter().count();
+        let all = slopes.iter().enumerate().fold(RationalMatrix::zeros(n, n), |sum, (i, slope)| {
+            &sum + &slope.scaled(&RationalFunction::variable(first + i))
+        });
+        rank_bound(&all)
+    }
+
+    fn algebra(&self, names: &OfNames, radius: &Rational) -> Option<Algebra> {
+        let over = RationalFunction::from(radius.recip()?);
+        let (constant, slopes) = names.split(&self.system.a)?;
+        let slopes: Vec<RationalMatrix> = slopes.iter().map(|m| m.scaled(&over)).collect();
+        let degree = self.degree(names, &slopes);
+        let Values { family, symbols, poles } = self.values(names, constant.scaled(&over), slopes, degree)?;
         let n = family.order();
         let mut of_w: Vec<MultiPoly> = vec![MultiPoly::zero(); n];
         for (m, exponents) in family.monomials().iter().enumerate() {
-            let powers = self.gains.iter().zip(exponents).flat_map(|(i, e)| std::iter::repeat_n(*i, *e as usize));
+            let powers = names.gains.iter().zip(exponents).flat_map(|(i, e)| std::iter::repeat_n(*i, *e as usize));
             let gains = powers.fold(MultiPoly::one(), |product, i| product.times(&MultiPoly::variable(i)));
             for (k, c) in of_w.iter_mut().enumerate() {
-                *c = c.plus(&gains.times(&symbol(m * n + k)));
+                *c = c.plus(&gains.times(&names.symbol(m * n + k)));
             }
         }
         of_w.push(MultiPoly::one());
-        let mut power = UniPoly::one();
-        let mut out = vec![MultiPoly::zero(); n + 1];
-        for c in &of_w {
-            for (k, binomial) in power.coeffs().iter().enumerate() {
-                out[k] = out[k].plus(&c.scaled_by(binomial));
-            }
-            power = &power * &UniPoly::new(vec![Integer::from(-1), Integer::ONE]);
-        }
-        out.into_iter().map(RationalFunction::from).collect()
+        let polynomial = CharacteristicPolynomial {
+            variables: symbols.variables(),
+            coefficients: in_z(of_w).into_coeffs().into_iter().map(RationalFunction::from).collect(),
+            formal_degree: n,
+            poles,
+            monic: true,
+        };
+        Some(Algebra::of_values(polynomial, self.sample_time.cloned(), symbols))
     }
+
+    /// The closed loop is `A + E C`, and its polynomial `D0 + N`: both are linear in the gains where `E C` and what these add have the rank 1 together.
+    fn opened(&self, names: &OfNames) -> Option<OpenedByValues> {
+        let system = self.system;
+        let (n, column) = (system.a.rows(), system.inputs.len().max(system.e.columns()).checked_sub(1)?);
+        let returned = RationalMatrix::from_fn(n, n, |i, j| &system.e[(i, column)] * &system.c[(0, j)]);
+        let is_whole = (&system.a + &returned).decoupled_parts().len() == 1;
+        if !is_whole || !system.d[(0, column)].is_zero() {
+            return None;
+        }
+        let ((constant, of_open), (back, of_back)) = (names.split(&system.a)?, names.split(&returned)?);
+        let nothing = RationalMatrix::zeros(n, n);
+        // Of each slope what it is a coefficient of: D0 or N, and of which gain.
+        let gains = || names.gains.iter().copied().map(Some);
+        let parts = gains().zip(of_open).map(|(gain, m)| (false, gain, m));
+        let parts = parts.chain([(true, None, back)]).chain(gains().zip(of_back).map(|(gain, m)| (true, gain, m)));
+        let parts: Vec<(bool, Option<usize>, RationalMatrix)> = parts.filter(|(_, _, m)| *m != nothing).collect();
+        let slopes: Vec<RationalMatrix> = parts.iter().map(|(_, _, m)| m.clone()).collect();
+        if self.degree(names, &slopes) != 1 {
+            return None;
+        }
+        let Values { family, symbols, poles } = self.values(names, constant, slopes, 1)?;
+        let mut both = [false, true].map(|is_back| {
+            let own = |k: usize| {
+                let first = if is_back { MultiPoly::zero() } else { names.symbol(k) };
+                parts.iter().enumerate().filter(|(_, part)| part.0 == is_back).fold(first, |sum, (m, (_, gain, _))| {
+                    let value = names.symbol((m + 1) * n + k);
+                    sum.plus(&gain.map_or_else(|| value.clone(), |i| value.times(&MultiPoly::variable(i))))
+                })
+            };
+            (0..n).map(own).collect::<Vec<MultiPoly>>()
+        });
+        debug_assert_eq!(family.monomials().len(), parts.len() + 1);
+        both[0].push(MultiPoly::one());
+        let [denominator, numerator] = both.map(in_z);
+        let undefined = poles.iter().fold(MultiPoly::one(), |product, pole| product.times(pole));
+        Some(OpenedByValues { denominator, numerator, undefined, sample_time: self.sample_time.cloned(), symbols })
+    }
+}
+
+/// The polynomial in `z`, from the coefficients of the powers of `w = z - 1`.
+fn in_z(of_w: Vec<MultiPoly>) -> Poly<MultiPoly> {
+    Poly::new(of_w).compose(&Poly::new(vec![MultiPoly::one().negated(), MultiPoly::one()]))
 }
