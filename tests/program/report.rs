@@ -387,17 +387,20 @@ fn certificates_by_boxes_are_those_of_the_command() {
 /// What is said for all values is what the commands say; without ranges there is no such part.
 #[test]
 fn what_holds_for_all_values_is_that_of_the_commands() {
-    let (model, all) = ("examples/dc-servo.toml", ["--for-all", "T_m=0.02..0.05"]);
-    assert!(!page(model).contains("id=\"for-all\""));
-    let html = jurist(&[&["report", model, "-o", "-", "-q"][..], &all].concat()).stdout;
+    let model = "time = 'continuous'\nparameters = { K = '1/4', c = 1 }\nloop = { inputs = ['r'], outputs = ['y'] }\n\
+        [[block]]\nname = 'P'\ninput = 'r - y'\noutput = 'y'\ntransfer = 'K/(s*(c*s + 1)^2)'\n";
+    let all = ["--for-all", "c=1/2..1"];
+    let answer = |line: &[&str]| jurist_with_input(line, model.as_bytes()).stdout;
+    assert!(!answer(&["report", "-", "-o", "-", "-q"]).contains("id=\"for-all\""));
+    let html = answer(&[&["report", "-", "-o", "-", "-q"][..], &all].concat());
     let part = plain(section(&html, "for-all"));
     let below = |line: &[&str]| {
-        let text = jurist(&[line, &all].concat()).stdout;
+        let text = answer(&[line, &all].concat());
         text.split_once('\n').expect("a title").1.trim_end().to_owned()
     };
-    let margins = below(&["margins", model, "--digits", "7"]);
+    let margins = below(&["margins", "-", "--digits", "7"]);
     assert!(part.contains(&margins), "{margins}\n{part}");
-    let gains = below(&["intervals", model, "--param", "K", "--digits", "12"]);
+    let gains = below(&["intervals", "-", "--param", "K", "--digits", "12"]);
     assert!(part.contains(&gains), "{gains}\n{part}");
-    refused(&["report", model, "--for-all", "Q=1..2", "-o", "-"], "E-unknown-parameter");
+    refused(&["report", "examples/dc-servo.toml", "--for-all", "Q=1..2", "-o", "-"], "E-unknown-parameter");
 }

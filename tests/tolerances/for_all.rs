@@ -43,7 +43,7 @@ fn a_gain_grows_to_the_end_of_its_set_for_all_values() {
     for text in LOOPS {
         let model = load(text);
         let mut random = Random::new(7);
-        for _ in tried(0..6, 3) {
+        for _ in tried(0..6, 6) {
             let least = ratio(2 + random.below(9) as i64, 10);
             let greatest = &least + &ratio(1 + random.below(12) as i64, 10);
             let ranges = all(&least, &greatest);
@@ -124,26 +124,30 @@ fn a_range_that_is_not_good_alone_has_no_factor() {
     }
 }
 
-/// A phase margin is to be there for all values too: that of `K/s` with `1 s` of dead time is `90 - 180 K/pi` degrees.
+/// A phase margin is to be there for all values too: that of `K/(s (c s + 1))` is 45 degrees where `K = sqrt(2)/c`.
 #[test]
 fn requirements_hold_for_all_values() {
+    let text = "time = 'continuous'\nparameters = { K = '1/4', c = 1 }\nloop = { inputs = ['r'], outputs = ['y'] }\n\
+        [[block]]\nname = 'P'\ninput = 'r - y'\noutput = 'y'\ntransfer = 'K/(s*(c*s + 1))'\n";
+    let options = ["tolerance", "-", "--tol", "K=-0%..+10%", "--for-all", "c=1/2..2", "--phase-margin", "45"];
+    let run = jurist_with_input(&options, text.as_bytes());
+    let first = "for all c from 0.5 to 2: 1 tolerance: stable, and meets all requirements, for all values";
+    assert!(run.stdout.contains(first), "{}", run.stdout);
+    // 18.284271 = (sqrt(2)/2 - 1/4)/(1/40).
+    assert!(run.stdout.contains("grow    18.2842") && run.stdout.contains("<= 18.2842"), "{}", run.stdout);
+    let spoilt = jurist_with_input(&[&options[..5], &["c=1/2..8"], &options[6..]].concat(), text.as_bytes());
+    assert!(spoilt.status == 1 && !spoilt.stdout.contains("factor"), "{}", spoilt.stdout);
+}
+
+/// The margin of `K exp(-c s)/s` is `90 - 180 K c/pi` degrees: `K < pi/8` at `c = 2`.
+#[test]
+#[ignore = "long: CI runs it"]
+fn requirements_with_dead_time_hold_for_all_values() {
     let text = "time = 'continuous'\nparameters = { K = '1/4', c = 1 }\nloop = { inputs = ['r'], outputs = ['y'] }\n\
         [[block]]\nname = 'P'\ninput = 'r - y'\noutput = 'y'\ntransfer = 'K*exp(-c*s)/s'\n";
     let options = ["tolerance", "-", "--tol", "K=-0%..+10%", "--for-all", "c=1/2..2", "--phase-margin", "45"];
     let run = jurist_with_input(&options, text.as_bytes());
-    // K c < pi/4 at c = 2: K < 0.3926990817.
-    assert!(
-        run.stdout.contains("for all c from 0.5 to 2: 1 tolerance: stable, and meets all requirements, for all values"),
-        "{}",
-        run.stdout
-    );
-    assert!(
-        run.stdout.contains("they can grow    5.707") && run.stdout.contains("< factor <= 5.7079"),
-        "{}",
-        run.stdout
-    );
-    let spoilt = jurist_with_input(&[&options[..5], &["c=1/2..4"], &options[6..]].concat(), text.as_bytes());
-    assert!(spoilt.status == 1 && !spoilt.stdout.contains("factor"), "{}", spoilt.stdout);
+    assert!(run.stdout.contains("grow    5.707") && run.stdout.contains("<= 5.7079"), "{}", run.stdout);
 }
 
 #[test]

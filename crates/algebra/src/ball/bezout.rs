@@ -19,6 +19,14 @@ pub trait Enclosed: Clone {
     fn is_nothing(&self) -> bool;
     /// How far from zero it is at least; zero where it may vanish.
     fn least(&self) -> Integer;
+    /// The sum of products, of the same kind as this value; factors that are zero cost nothing.
+    fn sum_of_products<'a>(&self, pairs: impl Iterator<Item = (&'a Self, &'a Self)>) -> Self
+    where
+        Self: 'a,
+    {
+        let products = pairs.filter(|(a, b)| !a.is_nothing() && !b.is_nothing()).map(|(a, b)| a.times(b));
+        products.reduce(|s, t| s.plus(&t)).unwrap_or_else(|| self.nothing())
+    }
 }
 
 impl Enclosed for Ball {

@@ -1,6 +1,6 @@
-//! The characteristic polynomial of a matrix of balls.
+//! The characteristic polynomial of a matrix of balls, or of functions.
 
-use super::{Ball, BallMatrix};
+use super::{Ball, BallMatrix, Enclosed};
 use crate::limits::checkpoint;
 use crate::number::Integer;
 
@@ -39,6 +39,44 @@ impl BallMatrix {
     }
 }
 
+/// The characteristic polynomial of a matrix of `n` rows, given row by row, from the constant term up, without the leading 1: by the traces of no
+/// inverse, from one leading principal part of the matrix to the next ([Berkowitz1984](crate::bibliography#berkowitz1984)). Nothing is divided by.
+///
+/// Cost: `n^4/4` products; entries that are zero cost nothing.
+///
+/// ```
+/// use jurist_algebra::ball::{Ball, characteristic_polynomial};
+/// let entries = [1, 2, 3, 4].map(|k: i64| Ball::from_integer(&k.into(), 64));
+/// let p = characteristic_polynomial(2, &entries); // z^2 - 5 z - 2
+/// assert!(p[0].contains(&(-2).into()) && p[1].contains(&(-5).into()));
+/// ```
+pub fn characteristic_polynomial<S: Enclosed>(n: usize, matrix: &[S]) -> Vec<S> {
+    let at = |i: usize, j: usize| &matrix[i * n + j];
+    // From the power below the leading one down, as the others.
+    let mut polynomial: Vec<S> = Vec::new();
+    for r in 0..n {
+        checkpoint((r * r * r) as u64);
+        let zero = at(r, r).nothing();
+        // -a, -R C, -R A C, ..: A is the part before, R and C what comes beside and below.
+        let mut steps = vec![zero.minus(at(r, r))];
+        let mut column: Vec<S> = (0..r).map(|i| at(i, r).clone()).collect();
+        for k in 0..r {
+            steps.push(zero.minus(&zero.sum_of_products((0..r).map(|i| (at(r, i), &column[i])))));
+            if k + 1 < r {
+                column = (0..r).map(|i| zero.sum_of_products((0..r).map(|j| (at(i, j), &column[j])))).collect();
+            }
+        }
+        let next = |k: usize| {
+            let products = zero.sum_of_products((0..k).map(|i| (&steps[i], &polynomial[k - 1 - i])));
+            let own = steps[k].plus(&products);
+            if k < polynomial.len() { own.plus(&polynomial[k]) } else { own }
+        };
+        polynomial = (0..=r).map(next).collect();
+    }
+    polynomial.reverse();
+    polynomial
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -60,6 +98,12 @@ mod tests {
             for (k, c) in found.iter().enumerate() {
                 let value = Rational::new(expected.coeff(k), Integer::from(3).pow((n - k) as u64));
                 prop_assert!(c.contains(&value) && c.width_units().bit_length() < 40, "{} {:?}", k, c);
+            }
+            let entries: Vec<Ball> = (0..n * n).map(|k| Ball::from_rational(&third(k / n, k % n), 96)).collect();
+            let again = characteristic_polynomial(n, &entries);
+            prop_assert_eq!(again.len(), n);
+            for (a, b) in again.iter().zip(&found) {
+                prop_assert!(a.intersection(b).is_some() && a.width_units().bit_length() < 40, "{:?} {:?}", a, b);
             }
         }
     }

@@ -1,7 +1,8 @@
 //! Elementary functions of what enclosures are: what symbols are computed with.
 
+use super::flow::exponential_of;
 use super::implicit::implicit;
-use super::{Ball, Enclosed, Series, TaylorModel, fundamental_solutions};
+use super::{Ball, BallMatrix, Enclosed, MultiTaylorModel, Series, TaylorModel, exponential, fundamental_solutions};
 use crate::number::Integer;
 
 /// Enclosures of functions that elementary functions are known of.
@@ -22,6 +23,16 @@ pub trait Elementary: Enclosed {
     /// The zero `d` of a function of enclosures of this kind. The closure says its value and its slope at `d`, and has one zero in a ball
     /// at each point. `None` where it is not shown to have enclosures.
     fn implicit(&self, start: &Ball, f: &dyn Fn(&Self) -> Option<[Self; 2]>) -> Option<Self>;
+    /// The list as Taylor models in several variables, where it is one.
+    fn as_models(_list: &[Self]) -> Option<&[MultiTaylorModel]> {
+        None
+    }
+    /// These models as a list of this kind, where they are.
+    fn of_models(_models: Vec<MultiTaylorModel>) -> Option<Vec<Self>> {
+        None
+    }
+    /// The exponential of a matrix of so many rows, given row by row; `None` where it may have too many bits to be of use.
+    fn exponential_of(n: usize, matrix: &[Self]) -> Option<Vec<Self>>;
 
     /// An integer.
     fn integer(&self, n: &Integer) -> Self {
@@ -59,6 +70,14 @@ impl Elementary for Series {
         fundamental_solutions(coefficients, self)
     }
     /// One coefficient after the other: where all lower ones are known, the value's coefficient is what the slope times the next one is to cancel.
+    fn exponential_of(n: usize, matrix: &[Series]) -> Option<Vec<Series>> {
+        if matrix.iter().any(|s| s.terms() > 1) {
+            return exponential_of(n, matrix);
+        }
+        let m = BallMatrix::from_fn(n, |i, j| matrix[i * n + j].coefficients()[0].clone());
+        let e = m.is_of_use().then(|| exponential(&m))?;
+        Some((0..n * n).map(|k| Series::constant(e.at(k / n, k % n), 1)).collect())
+    }
     fn implicit(&self, start: &Ball, f: &dyn Fn(&Series) -> Option<[Series; 2]>) -> Option<Series> {
         let mut known = Series::constant(start, self.terms());
         for k in 1..self.terms() {
@@ -89,6 +108,9 @@ impl Elementary for TaylorModel {
     }
     fn solutions(&self, coefficients: &[TaylorModel]) -> Vec<TaylorModel> {
         TaylorModel::solutions(coefficients, self)
+    }
+    fn exponential_of(n: usize, matrix: &[TaylorModel]) -> Option<Vec<TaylorModel>> {
+        exponential_of(n, matrix)
     }
     fn implicit(&self, start: &Ball, f: &dyn Fn(&TaylorModel) -> Option<[TaylorModel; 2]>) -> Option<TaylorModel> {
         implicit(self, start, self.polynomial().terms(), f)

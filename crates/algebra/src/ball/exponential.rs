@@ -5,6 +5,9 @@ use crate::limits::checkpoint;
 use crate::matrix::Matrix;
 use crate::number::{Integer, Rational};
 
+/// Exponentials of matrices of a larger norm, in bits, may have too many bits to be of use.
+pub(super) const LARGEST_BITS: u64 = 13;
+
 /// A square matrix of balls, row by row.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BallMatrix {
@@ -45,33 +48,22 @@ impl BallMatrix {
         })
     }
 
-    /// Exponents `d` with which the entries `m_ij 2^(d_j - d_i)` have rows and columns of about the same size, so that the norm is small
-    /// ([ParlettReinsch1969](crate::bibliography#parlettreinsch1969)).
+    /// [`balancing_units`] of the entries.
     fn balancing_units(&self) -> Vec<i64> {
-        let n = self.size;
-        let mut units = vec![0i64; n];
-        let sizes = self.entry_sizes();
-        for _ in 0..2 * n {
-            let before = units.clone();
-            for i in 0..n {
-                let at = |row: usize, column: usize| {
-                    sizes[row * n + column].map(|size| size + units[column] - units[row]).filter(|_| row != column)
-                };
-                let row = (0..n).filter_map(|j| at(i, j)).max();
-                let column = (0..n).filter_map(|j| at(j, i)).max();
-                // A row without entries may be scaled as one likes, and is not.
-                if let (Some(row), Some(column)) = (row, column) {
-                    units[i] += (row - column) / 2;
-                }
-            }
-            if units == before {
-                break;
-            }
-        }
-        units
+        balancing_units(self.size, &self.entry_sizes())
     }
 
-    /// The number of bits of each entry; none for zero.
+    /// Whether the exponential has not too many bits to be of use.
+    pub(super) fn is_of_use(&self) -> bool {
+        let units = self.balancing_units();
+        let row = |i: usize| {
+            let size = |j: usize| self.at(i, j).shifted(units[j] - units[i]).magnitude_units();
+            (0..self.size).fold(Integer::ZERO, |sum, j| sum + size(j))
+        };
+        let norm = (0..self.size).map(row).max().unwrap_or(Integer::ZERO);
+        self.entries.first().is_none_or(|entry| norm.bit_length() <= entry.bits + LARGEST_BITS)
+    }
+
     fn entry_sizes(&self) -> Vec<Option<i64>> {
         let size = |b: &Ball| (!b.is_zero()).then(|| b.magnitude_units().bit_length() as i64);
         self.entries.iter().map(size).collect()
@@ -82,6 +74,30 @@ impl BallMatrix {
         let row = |i: usize| (0..self.size).fold(Integer::ZERO, |sum, j| sum + self.at(i, j).magnitude_units());
         (0..self.size).map(row).max().unwrap_or(Integer::ZERO)
     }
+}
+
+/// Exponents `d` with which entries `m_ij 2^(d_j - d_i)` of about so many bits, row by row, have rows and columns of about the same size, so that
+/// the norm is small ([ParlettReinsch1969](crate::bibliography#parlettreinsch1969)).
+pub(super) fn balancing_units(n: usize, sizes: &[Option<i64>]) -> Vec<i64> {
+    let mut units = vec![0i64; n];
+    for _ in 0..2 * n {
+        let before = units.clone();
+        for i in 0..n {
+            let at = |row: usize, column: usize| {
+                sizes[row * n + column].map(|size| size + units[column] - units[row]).filter(|_| row != column)
+            };
+            let row = (0..n).filter_map(|j| at(i, j)).max();
+            let column = (0..n).filter_map(|j| at(j, i)).max();
+            // A row without entries may be scaled as one likes, and is not.
+            if let (Some(row), Some(column)) = (row, column) {
+                units[i] += (row - column) / 2;
+            }
+        }
+        if units == before {
+            break;
+        }
+    }
+    units
 }
 
 /// An enclosure of `exp(M)` for every matrix `M` in the given one.

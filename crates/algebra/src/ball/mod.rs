@@ -8,6 +8,7 @@ mod bezout;
 mod characteristic;
 mod elementary;
 mod exponential;
+mod flow;
 mod functions;
 mod implicit;
 mod multi_taylor_model;
@@ -19,6 +20,7 @@ mod taylor_model;
 pub use bezout::{
     Enclosed, common_root, determinant_enclosed, enclosed_resultant, enclosed_resultant_by_minors, hybrid_bezout,
 };
+pub use characteristic::characteristic_polynomial;
 pub use elementary::Elementary;
 pub use exponential::{BallMatrix, exponential, exponential_of_rationals};
 pub use functions::{cos_sin, exp, tan};

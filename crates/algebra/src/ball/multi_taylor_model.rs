@@ -1,10 +1,11 @@
 //! Analytic functions of several variables as polynomials with a bound of all that is left out.
 
+use super::flow::exponential_of;
 use super::implicit::{Approximate, implicit};
 use super::solutions::{Scaled, Summed, solutions_by_taylor};
 use super::{Ball, Elementary, Enclosed, exp};
 use crate::limits::checkpoint;
-use crate::number::Integer;
+use crate::number::{Integer, Rational};
 use std::sync::Arc;
 
 /// The monomials in some variables up to a total degree, by degree, and the places of their products.
@@ -118,6 +119,48 @@ impl MultiTaylorModel {
         &self.rest
     }
 
+    /// The line that this is, of which nothing but rounding is left out: its middle and how far it goes around it; `None` of any other function.
+    pub fn as_line(&self) -> Option<(Rational, Rational)> {
+        let last = self.monomials.starts.get(2).copied().unwrap_or(self.coefficients.len());
+        let is_line = self.coefficients[last.min(self.coefficients.len())..].iter().all(Integer::is_zero);
+        let number = |units: &Integer| Rational::dyadic(units, self.bits);
+        is_line.then(|| (number(&self.coefficients[0]), number(&self.around())))
+    }
+
+    /// The same function of lines within the polydisc, which may be in other variables.
+    ///
+    /// Cost: as many products with a line as there are coefficients.
+    ///
+    /// # Panics
+    /// Unless there is a line for each variable, with the bits of this function.
+    pub fn along(&self, lines: &[MultiTaylorModel]) -> MultiTaylorModel {
+        let terms: Vec<(&[u32], &Integer)> = self.terms().filter(|(_, c)| !c.is_zero()).collect();
+        let mut out = horner(&terms, lines, &lines[0]);
+        // What is left out is no larger there.
+        out.rest += &self.rest;
+        out
+    }
+
+    /// With other bits after the point.
+    pub fn with_bits(&self, bits: u64) -> MultiTaylorModel {
+        self.rescaled(bits, 0)
+    }
+
+    /// The number of bits after the point.
+    pub fn value_bits(&self) -> u64 {
+        self.bits
+    }
+
+    /// The difference from a number.
+    pub fn less(&self, number: &Ball) -> MultiTaylorModel {
+        self.sub(&self.constant(number))
+    }
+
+    /// Times a power of two.
+    pub fn shifted(&self, exponent: i64) -> MultiTaylorModel {
+        self.rescaled(self.bits, exponent)
+    }
+
     fn with(&self, coefficients: Vec<Integer>, rest: Integer) -> MultiTaylorModel {
         MultiTaylorModel { monomials: Arc::clone(&self.monomials), bits: self.bits, coefficients, rest }
     }
@@ -167,35 +210,9 @@ impl MultiTaylorModel {
 
     /// The product: as many products of numbers as there are pairs of monomials whose product is not beyond the degree.
     pub fn mul(&self, other: &MultiTaylorModel) -> MultiTaylorModel {
-        let monomials = &self.monomials;
-        let mut out = vec![Integer::ZERO; self.coefficients.len()];
-        let filled = other.coefficients.iter().rposition(|c| !c.is_zero()).map_or(0, |i| i + 1);
-        for (a, places) in self.coefficients.iter().zip(&monomials.products).filter(|(a, _)| !a.is_zero()) {
-            checkpoint((4 * places.len().min(filled)) as u64);
-            for (b, &place) in other.coefficients[..filled].iter().zip(places) {
-                if !b.is_zero() {
-                    out[place as usize].add_mul_assign(a, b);
-                }
-            }
-        }
-        let out = out.into_iter().map(|c| c >> self.bits).collect();
-        let (a, b) = (self.sizes(), other.sizes());
-        let mut left_out = Integer::ZERO;
-        for (i, a) in a.iter().enumerate() {
-            for b in &b[monomials.degree + 1 - i.min(monomials.degree)..] {
-                if i > 0 {
-                    left_out.add_mul_assign(a, b);
-                }
-            }
-        }
-        if !other.rest.is_zero() {
-            left_out.add_mul_assign(&a.iter().fold(self.rest.clone(), |sum, a| sum + a), &other.rest);
-        }
-        if !self.rest.is_zero() {
-            left_out.add_mul_assign(&b.iter().fold(Integer::ZERO, |sum, b| sum + b), &self.rest);
-        }
-        let rest = up(left_out, self.bits) + self.roundings();
-        self.with(out, rest)
+        let mut sum = RawSum::of(self);
+        sum.add_product(self, other);
+        sum.model(self)
     }
 
     /// The quotient; `None` where the divisor may have a zero in the polydisc.
@@ -292,6 +309,65 @@ fn ratio_up(a: &Integer, b: &Integer, bits: u64) -> Integer {
     -(-(a << bits)).div_mod_floor(b).0
 }
 
+/// The sum of terms in the first so many lines.
+fn horner(terms: &[(&[u32], &Integer)], lines: &[MultiTaylorModel], like: &MultiTaylorModel) -> MultiTaylorModel {
+    let Some((last, others)) = lines.split_last() else {
+        let sum = terms.iter().fold(Integer::ZERO, |sum, (_, c)| sum + *c);
+        return like.constant(&Ball::from_units(sum.clone(), sum, like.bits));
+    };
+    let power = |e: &[u32]| e[others.len()];
+    let highest = terms.iter().map(|(e, _)| power(e)).max().unwrap_or(0);
+    (0..=highest).rev().fold(like.nothing(), |sum, k| {
+        let own: Vec<(&[u32], &Integer)> = terms.iter().filter(|(e, _)| power(e) == k).copied().collect();
+        let sum = if sum.is_nothing() { sum } else { last.mul(&sum) };
+        if own.is_empty() { sum } else { sum.add(&horner(&own, others, like)) }
+    })
+}
+
+/// A sum of products with twice the bits after the point.
+struct RawSum {
+    coefficients: Vec<Integer>,
+    left_out: Integer,
+}
+
+impl RawSum {
+    fn of(like: &MultiTaylorModel) -> RawSum {
+        RawSum { coefficients: vec![Integer::ZERO; like.coefficients.len()], left_out: Integer::ZERO }
+    }
+
+    fn add_product(&mut self, one: &MultiTaylorModel, other: &MultiTaylorModel) {
+        let monomials = &one.monomials;
+        let filled = other.coefficients.iter().rposition(|c| !c.is_zero()).map_or(0, |i| i + 1);
+        for (a, places) in one.coefficients.iter().zip(&monomials.products).filter(|(a, _)| !a.is_zero()) {
+            checkpoint((4 * places.len().min(filled)) as u64);
+            for (b, &place) in other.coefficients[..filled].iter().zip(places) {
+                if !b.is_zero() {
+                    self.coefficients[place as usize].add_mul_assign(a, b);
+                }
+            }
+        }
+        let (a, b) = (one.sizes(), other.sizes());
+        for (i, a) in a.iter().enumerate() {
+            for b in &b[monomials.degree + 1 - i.min(monomials.degree)..] {
+                if i > 0 {
+                    self.left_out.add_mul_assign(a, b);
+                }
+            }
+        }
+        if !other.rest.is_zero() {
+            self.left_out.add_mul_assign(&a.iter().fold(one.rest.clone(), |sum, a| sum + a), &other.rest);
+        }
+        if !one.rest.is_zero() {
+            self.left_out.add_mul_assign(&b.iter().fold(Integer::ZERO, |sum, b| sum + b), &one.rest);
+        }
+    }
+
+    fn model(self, like: &MultiTaylorModel) -> MultiTaylorModel {
+        let coefficients = self.coefficients.into_iter().map(|c| c >> like.bits).collect();
+        like.with(coefficients, up(self.left_out, like.bits) + like.roundings())
+    }
+}
+
 impl Enclosed for MultiTaylorModel {
     fn nothing(&self) -> MultiTaylorModel {
         self.with(vec![Integer::ZERO; self.coefficients.len()], Integer::ZERO)
@@ -310,6 +386,13 @@ impl Enclosed for MultiTaylorModel {
     }
     fn is_nothing(&self) -> bool {
         self.rest.is_zero() && self.coefficients.iter().all(Integer::is_zero)
+    }
+    fn sum_of_products<'a>(&self, pairs: impl Iterator<Item = (&'a Self, &'a Self)>) -> MultiTaylorModel {
+        let mut sum: Option<RawSum> = None;
+        for (a, b) in pairs.filter(|(a, b)| !a.is_nothing() && !b.is_nothing()) {
+            sum.get_or_insert_with(|| RawSum::of(self)).add_product(a, b);
+        }
+        sum.map_or_else(|| self.nothing(), |sum| sum.model(self))
     }
     fn least(&self) -> Integer {
         let least = self.coefficients[0].abs() - self.around();
@@ -385,6 +468,15 @@ impl Elementary for MultiTaylorModel {
     }
     fn solutions(&self, coefficients: &[MultiTaylorModel]) -> Vec<MultiTaylorModel> {
         solutions_by_taylor(coefficients, self)
+    }
+    fn as_models(list: &[MultiTaylorModel]) -> Option<&[MultiTaylorModel]> {
+        Some(list)
+    }
+    fn of_models(models: Vec<MultiTaylorModel>) -> Option<Vec<MultiTaylorModel>> {
+        Some(models)
+    }
+    fn exponential_of(n: usize, matrix: &[MultiTaylorModel]) -> Option<Vec<MultiTaylorModel>> {
+        exponential_of(n, matrix)
     }
     fn implicit(
         &self,

@@ -81,7 +81,7 @@ fn bound(definition: &Definition, start: &Rational) -> Option<Ball> {
         Definition::Root(x) => Ball::from_rational(&x.as_constant()?, BITS).sqrt(),
         Definition::Algebraic(x) => Some(Definition::enclosed(x, BITS)),
         Definition::Enclosed(x) => Some(x.at(BITS)),
-        Definition::Pi | Definition::Tangent { .. } | Definition::Duty(_) => None,
+        Definition::Pi | Definition::Tangent { .. } | Definition::Duty(_) | Definition::Family(_) => None,
     }
 }
 

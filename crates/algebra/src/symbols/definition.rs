@@ -1,6 +1,6 @@
 //! What a symbol stands for.
 
-use super::DutyRatio;
+use super::{DutyRatio, FamilyValue};
 use crate::ball::Ball;
 use crate::number::{Enclosure, Integer, Rational};
 use crate::poly::{MultiPoly, RationalFunction, RealAlgebraic};
@@ -40,6 +40,8 @@ pub enum Definition {
     },
     /// The duty ratio of a periodic orbit.
     Duty(Box<DutyRatio>),
+    /// A coefficient of the characteristic polynomial of a matrix of functions, of which nothing but its values is known.
+    Family(FamilyValue),
 }
 
 /// A real number that is known by enclosures alone, with the words for it.
@@ -97,6 +99,7 @@ impl Definition {
             Definition::Tangent { square, time } => vec![square, time],
             Definition::Fundamental { polynomial, time, .. } => polynomial.iter().chain([time]).collect(),
             Definition::Duty(duty) => duty.arguments().collect(),
+            Definition::Family(value) => value.at.iter().collect(),
         }
     }
 
@@ -113,6 +116,10 @@ impl Definition {
                 time: f(time)?,
             },
             Definition::Duty(duty) => Definition::Duty(Box::new(duty.with(f)?)),
+            Definition::Family(value) => {
+                let at = value.at.iter().map(f).collect::<Option<_>>()?;
+                Definition::Family(FamilyValue { at, ..value.clone() })
+            }
         })
     }
 
@@ -142,6 +149,10 @@ impl Definition {
                     }
                     None => format!("{name}(({})*sqrt({}))/sqrt({1})", shown(time), shown(&w)),
                 }
+            }
+            Definition::Family(value) => {
+                let at: Vec<String> = value.at.iter().map(shown).collect();
+                format!("value {} of the closed loop's matrix at [{}]", value.index, at.join(", "))
             }
             Definition::Duty(duty) => format!("the duty ratio of the orbit with the mean {}", shown(&duty.mean)),
             Definition::Fundamental { polynomial, index, time } => {

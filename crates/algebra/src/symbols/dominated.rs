@@ -182,6 +182,6 @@ fn bound(definition: &Definition, power: i64, start: &Rational) -> Option<Powers
         }
         Definition::Algebraic(x) => Some(Powers::power(0, Definition::enclosed(x, BITS))),
         Definition::Enclosed(x) => Some(Powers::power(0, x.at(BITS))),
-        Definition::Pi | Definition::Tangent { .. } | Definition::Duty(_) => None,
+        Definition::Pi | Definition::Tangent { .. } | Definition::Duty(_) | Definition::Family(_) => None,
     }
 }

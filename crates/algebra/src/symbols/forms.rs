@@ -238,7 +238,11 @@ fn start(definition: &Definition, order: u32) -> Option<Start> {
                 add(duty.mean.clone());
             }
         }
-        Definition::Pi | Definition::Algebraic(_) | Definition::Enclosed(_) | Definition::Root(_) => {}
+        Definition::Pi
+        | Definition::Algebraic(_)
+        | Definition::Enclosed(_)
+        | Definition::Root(_)
+        | Definition::Family(_) => {}
     }
     found
 }

@@ -13,6 +13,7 @@ mod common;
 mod definition;
 mod dominated;
 mod duty;
+mod family;
 mod forms;
 mod function;
 mod horner;
@@ -28,11 +29,13 @@ mod scales;
 mod sign;
 mod specialise;
 mod taylor;
+mod tiles;
 mod values;
 mod zero_at_end;
 
 pub use definition::{Definition, EnclosedNumber};
 pub use duty::DutyRatio;
+pub use family::{FamilyValue, FamilyVariables, MatrixFamily, Step};
 pub use function::{Function, common_scale};
 pub use horner::value_at_balls;
 pub use moving::{DefinedParts, MovingSymbols, SignUnderRoot, Zeros};
@@ -155,7 +158,18 @@ impl Symbols {
         let mut values = Vec::with_capacity(self.len());
         // All solutions of an equation at once.
         let mut rows: Vec<(&[RationalFunction], &RationalFunction, Vec<Ball>)> = Vec::new();
+        let mut families: Vec<(&FamilyValue, Vec<Ball>)> = Vec::new();
         for (_, definition) in &self.table {
+            if let Definition::Family(value) = definition {
+                let is_same = |(of, _): &(&FamilyValue, _)| Arc::ptr_eq(&of.of, &value.of) && of.at == value.at;
+                let row = families.iter().position(is_same).unwrap_or_else(|| {
+                    let found = narrow(bits, value.of.values_count(), |bits| self.family_values(value, bits));
+                    families.push((value, found));
+                    families.len() - 1
+                });
+                values.push(families[row].1[value.index].clone());
+                continue;
+            }
             let Definition::Fundamental { polynomial, index, time } = definition else {
                 values.push(self.value(definition, bits));
                 continue;
@@ -181,6 +195,14 @@ impl Symbols {
     }
 
     /// All fundamental solutions of an equation at a time; `None` where a divisor may vanish.
+    /// All values of a family at arguments that are numbers.
+    fn family_values(&self, value: &FamilyValue, bits: u64) -> Option<Vec<Ball>> {
+        let like = Series::constant(&Ball::zero(bits), 1);
+        let at = |f: &RationalFunction| Some(Series::constant(&self.quotient_at(f, bits)?, 1));
+        let at = value.at.iter().map(at).collect::<Option<Vec<Series>>>()?;
+        Some(value.of.values(&at, &like)?.iter().map(|s| s.coefficients()[0].clone()).collect())
+    }
+
     fn solutions(&self, polynomial: &[RationalFunction], time: &RationalFunction, bits: u64) -> Option<Vec<Ball>> {
         let constant = |c: &RationalFunction| Some(Series::constant(&self.quotient_at(c, bits)?, 1));
         let (_, lower) = polynomial.split_last()?;
@@ -211,6 +233,7 @@ impl Symbols {
             Definition::Fundamental { polynomial, index, time } => {
                 Some(self.solutions(polynomial, time, bits)?.swap_remove(*index))
             }
+            Definition::Family(value) => Some(self.family_values(value, bits)?.swap_remove(value.index)),
             Definition::Duty(duty) => {
                 let value = duty.value(|f| Some(Series::constant(&at(f)?, 1)))?;
                 Some(value.coefficients()[0].clone())
@@ -266,7 +289,7 @@ fn at_rationals(definition: &Definition, bits: u64) -> Option<Ball> {
             Some(exponential_of_rationals(&Matrix::from_fn(1, 1, |_, _| x.clone()), bits).at(0, 0).clone())
         }
         Definition::Tangent { square, time } => Some(tangent(&square.as_constant()?, &time.as_constant()?, bits)),
-        Definition::Fundamental { .. } | Definition::Duty(_) => None,
+        Definition::Fundamental { .. } | Definition::Duty(_) | Definition::Family(_) => None,
     }
 }
 

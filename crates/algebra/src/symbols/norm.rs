@@ -58,7 +58,7 @@ impl Symbols {
 
     /// Whether of some symbols nothing but enclosures is known: then no identity shows that a polynomial in them is zero.
     pub fn has_enclosed_numbers(&self) -> bool {
-        (0..self.len()).any(|i| matches!(self.definition(i), Definition::Enclosed(_)))
+        (0..self.len()).any(|i| matches!(self.definition(i), Definition::Enclosed(_) | Definition::Family(_)))
     }
 }
 

@@ -305,7 +305,11 @@ impl Table<'_> {
         let whole = |numerator| Some(Quotient { numerator, denominator: Sum::one() });
         let one = || Number::rational(Rational::ONE);
         match definition {
-            Definition::Pi | Definition::Algebraic(_) | Definition::Enclosed(_) | Definition::Duty(_) => None,
+            Definition::Pi
+            | Definition::Algebraic(_)
+            | Definition::Enclosed(_)
+            | Definition::Duty(_)
+            | Definition::Family(_) => None,
             Definition::Exponential(x) => whole(Sum::power(self.algebraic(x)?, one())),
             Definition::Root(x) => whole(Sum::number(Number::square_root(&self.algebraic(x)?.as_rational()?))),
             Definition::Tangent { square, time } => {

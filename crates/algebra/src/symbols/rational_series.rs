@@ -65,7 +65,8 @@ pub(super) fn values(table: &[(String, Definition)], at: &Rational, terms: usize
             | Definition::Algebraic(_)
             | Definition::Enclosed(_)
             | Definition::Root(_)
-            | Definition::Duty(_) => return None,
+            | Definition::Duty(_)
+            | Definition::Family(_) => return None,
             Definition::Exponential(x) => exponential(1, &[value(x)?])?.swap_remove(0),
             Definition::Tangent { square, time } => {
                 let (w, t) = (value(square)?, value(time)?);

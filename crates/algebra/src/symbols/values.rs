@@ -1,12 +1,13 @@
 //! The values of symbols whose arguments are functions of parameters.
 
-use super::Definition;
 use super::function::polynomial_at;
 use super::scales::exponent;
+use super::{Definition, FamilyValue};
 use crate::ball::{Ball, Elementary};
-use crate::number::{Enclosure, Rational};
+use crate::number::{Enclosure, Integer, Rational};
 use crate::poly::{MultiPoly, RationalFunction};
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 /// Exponents beyond this are not enclosed over an interval.
 const LARGEST: i64 = 1 << 13;
@@ -47,6 +48,11 @@ impl ParametricSymbols {
     /// The number of symbols.
     pub fn len(&self) -> usize {
         self.table.len()
+    }
+
+    /// Whether some symbols are values of a family of matrices.
+    pub fn has_families(&self) -> bool {
+        self.table.iter().any(|(_, definition)| matches!(definition, Definition::Family(_)))
     }
 
     /// Whether there is none.
@@ -90,57 +96,116 @@ fn first_of(variables: impl Iterator<Item = usize>, count: usize) -> Vec<usize> 
     variables.filter(|v| *v < count).collect::<BTreeSet<usize>>().into_iter().collect()
 }
 
-/// The parameters and all symbols, from the parameters'; `None` where a divisor may vanish.
+/// The parameters and the symbols of a table, where the parameters have these values; `None` where one may not be defined.
 pub(super) fn values_of<S: Elementary>(table: &[(String, Definition)], parameters: Vec<S>) -> Option<Vec<S>> {
-    let mut values = parameters;
-    let like = values.first()?.clone();
-    let bits = like.bits();
-    // All solutions of an equation at once.
-    let mut rows: Vec<(&Vec<RationalFunction>, &RationalFunction, Vec<S>)> = Vec::new();
+    let like = parameters.first()?.clone();
+    let mut known = Evaluation::new(parameters, &like);
     for (_, definition) in table {
-        let at = |f: &RationalFunction| -> Option<S> {
-            polynomial_at(f.numerator(), &values).over(&polynomial_at(f.denominator(), &values))
-        };
-        let value = match definition {
+        let value = known.value(definition)?;
+        known.push(value);
+    }
+    Some(known.values)
+}
+
+/// The value of a rational function where its variables have these; `None` where the denominator may vanish.
+pub(super) fn quotient<S: Elementary>(f: &RationalFunction, values: &[S], like: &S) -> Option<S> {
+    let at = |p: &MultiPoly| match p.as_constant() {
+        Some(c) => like.integer(&c),
+        None => polynomial_at(p, values),
+    };
+    match f.denominator().as_constant() {
+        Some(c) if c.is_one() => Some(at(f.numerator())),
+        Some(c) => {
+            let over = Rational::new(Integer::ONE, c);
+            Some(at(f.numerator()).times(&like.constant(&Ball::from_rational(&over, like.bits()))))
+        }
+        None => at(f.numerator()).over(&at(f.denominator())),
+    }
+}
+
+/// Values of variables, one after the other.
+pub(super) struct Evaluation<'d, S> {
+    values: Vec<S>,
+    like: S,
+    /// All solutions of an equation at once.
+    rows: Vec<(&'d [RationalFunction], &'d RationalFunction, Vec<S>)>,
+    /// All values of a family at once.
+    families: Vec<(&'d FamilyValue, Vec<S>)>,
+}
+
+impl<'d, S: Elementary> Evaluation<'d, S> {
+    /// With these values of the first variables; another number says of which kind all are.
+    pub fn new(values: Vec<S>, like: &S) -> Self {
+        Evaluation { values, like: like.clone(), rows: Vec::new(), families: Vec::new() }
+    }
+
+    /// The values that are known.
+    pub fn values(&self) -> &[S] {
+        &self.values
+    }
+
+    /// The value of one more variable.
+    pub fn push(&mut self, value: S) {
+        self.values.push(value);
+    }
+
+    fn at(&self, f: &RationalFunction) -> Option<S> {
+        quotient(f, &self.values, &self.like)
+    }
+
+    /// The value of a function of the variables that are known; `None` where it may not be defined.
+    pub fn value(&mut self, definition: &'d Definition) -> Option<S> {
+        let (like, bits) = (&self.like, self.like.bits());
+        Some(match definition {
             Definition::Pi => like.constant(&Ball::from_enclosure(&Enclosure::pi(bits + 8), bits)),
             Definition::Algebraic(x) => like.constant(&Definition::enclosed(x, bits)),
             Definition::Enclosed(x) => like.constant(&x.at(bits)),
-            Definition::Root(x) => at(x)?.square_root()?,
-            Definition::Duty(duty) => duty.value(at)?,
+            Definition::Root(x) => self.at(x)?.square_root()?,
+            Definition::Duty(duty) => duty.value(|f| self.at(f))?,
             Definition::Exponential(x) => {
-                let x = at(x)?;
+                let x = self.at(x)?;
                 if x.range().upper() > Rational::from(LARGEST) {
                     return None;
                 }
                 x.exponential()
             }
             Definition::Tangent { square, time } => {
-                let (w, t) = (at(square)?, at(time)?);
+                let (w, t) = (self.at(square)?, self.at(time)?);
                 let row = t.solutions(&[w, like.nothing()]);
                 row[1].over(&row[0])?
             }
             Definition::Fundamental { polynomial, index, time } => {
-                let known = rows.iter().find(|(of, at, _)| *of == polynomial && *at == time);
-                match known {
-                    Some((_, _, row)) => row[*index].clone(),
+                let row = self.rows.iter().position(|(of, at, _)| *of == polynomial.as_slice() && *at == time);
+                let row = match row {
+                    Some(row) => row,
                     None => {
                         let n = polynomial.len() - 1;
-                        let coefficients = polynomial[..n].iter().map(at).collect::<Option<Vec<S>>>()?;
-                        let time_there = at(time)?;
+                        let coefficients = polynomial[..n].iter().map(|f| self.at(f)).collect::<Option<Vec<S>>>()?;
+                        let time_there = self.at(time)?;
                         if is_too_large(&coefficients, &time_there) {
                             return None;
                         }
-                        let row = time_there.solutions(&coefficients);
-                        let value = row[*index].clone();
-                        rows.push((polynomial, time, row));
-                        value
+                        self.rows.push((polynomial, time, time_there.solutions(&coefficients)));
+                        self.rows.len() - 1
                     }
-                }
+                };
+                self.rows[row].2[*index].clone()
             }
-        };
-        values.push(value);
+            Definition::Family(value) => {
+                let is_same =
+                    |(known, _): &(&FamilyValue, _)| Arc::ptr_eq(&known.of, &value.of) && known.at == value.at;
+                let family = match self.families.iter().position(is_same) {
+                    Some(family) => family,
+                    None => {
+                        let at = value.at.iter().map(|f| self.at(f)).collect::<Option<Vec<S>>>()?;
+                        self.families.push((value, value.of.values_near(&at, &self.like)?));
+                        self.families.len() - 1
+                    }
+                };
+                self.families[family].1[value.index].clone()
+            }
+        })
     }
-    Some(values)
 }
 
 /// Whether exponentials of a companion matrix anywhere in these balls may have too many bits to be of use.

@@ -209,6 +209,10 @@ impl Problem {
             if method == MapMethod::Exact {
                 return exact(budget);
             }
+            let in_boxes = self.in_boxes(budget)?;
+            if !Arc::ptr_eq(self, &in_boxes) {
+                return self.boxes_by_values(&in_boxes, request, budget);
+            }
             let ring = CoefficientRing::of(self.algebra_over_symbols(budget)?.symbols());
             let is_exact = Asked::ExactMap.over(ring).is_answered();
             let window = self.window_over(ring, request, budget);
@@ -241,6 +245,21 @@ impl Problem {
                 MapBoxes { goal: request.undecided.clone(), boxes, no_exact_map, required: None, for_all: Vec::new() };
             Ok(MapOrBoxes::Boxes(Box::new(Answer::new(Arc::clone(self), value))))
         })?
+    }
+
+    /// Boxes where no exact map is looked for: of the coefficients nothing but values is known.
+    fn boxes_by_values(
+        self: &Arc<Self>,
+        in_boxes: &Problem,
+        request: &BoxRequest,
+        budget: &Budget,
+    ) -> Result<MapOrBoxes, Error> {
+        let ring = in_boxes.coefficient_ring(budget)?;
+        let window = self.window_over(ring, request, budget);
+        let boxes = in_boxes.boxes_over(ring, window, &request.undecided, budget)?;
+        let (goal, no_exact_map) = (request.undecided.clone(), None);
+        let value = MapBoxes { goal, boxes, no_exact_map, required: None, for_all: Vec::new() };
+        Ok(MapOrBoxes::Boxes(Box::new(Answer::new(Arc::clone(self), value))))
     }
 
     /// The stable region with the parts of it in which requirements are met, margins being taken at a cut; the exact one where that is known
@@ -341,7 +360,8 @@ impl Problem {
             CoefficientRing::Functions => {
                 let family = self.moving_family(budget)?.expect("a loop with functions");
                 let window = window?;
-                if family.is_inside_of_both() {
+                let is_of_values = self.algebra_over_symbols(budget)?.symbols().has_families();
+                if family.is_inside_of_both() || is_of_values {
                     return Ok(family.boxes(&window, goal, &share(), |_| None));
                 }
                 let plane = self.symbolic_plane(budget)?.expect("one parameter is inside of functions");

@@ -99,13 +99,23 @@ impl Problem {
     }
 
     /// The stable set of a loop behind holds from enclosures of its coefficients; `None` where the loop is not of that form.
-    fn stable_set_by_enclosures(&self, budget: &Budget) -> Result<Option<StableSet>, Error> {
+    fn stable_set_by_enclosures(self: &Arc<Self>, budget: &Budget) -> Result<Option<StableSet>, Error> {
         let parts = match self.enclosed_parts(budget)? {
             Some(EnclosedParts::Parts(parts)) => parts,
             Some(EnclosedParts::Unstable) => return Ok(Some(StableSet::from_intervals(Vec::new(), Vec::new()))),
-            None => return Ok(None),
+            None => return self.stable_set_by_values(budget),
         };
         Ok(Some(stable_set_of_parts(&parts, &self.parameter().domain, self.shape(), budget)?))
+    }
+
+    /// The same where the parameter is inside of functions: its values are all that is known of the coefficients.
+    fn stable_set_by_values(self: &Arc<Self>, budget: &Budget) -> Result<Option<StableSet>, Error> {
+        let of = self.in_boxes(budget)?;
+        if Arc::ptr_eq(self, &of) {
+            return Ok(None);
+        }
+        let Some(p) = of.symbolic(budget)? else { return Ok(None) };
+        Ok(Some(stable_set_of_parts(&[p], &self.parameter().domain, self.shape(), budget)?))
     }
 
     /// The stable set by exact polynomials.

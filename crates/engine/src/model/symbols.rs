@@ -371,7 +371,7 @@ impl Meaning {
             Meaning::Constant(Definition::Root(_)) => "r",
             Meaning::Constant(Definition::Exponential(_)) => "X",
             Meaning::Constant(Definition::Tangent { .. }) => "t",
-            Meaning::Constant(Definition::Enclosed(_)) => "c",
+            Meaning::Constant(Definition::Enclosed(_) | Definition::Family(_)) => "c",
             Meaning::Constant(Definition::Fundamental { .. }) => "f",
             Meaning::Constant(Definition::Duty(_)) => "d",
             Meaning::Delay(_) => "z",

@@ -8,6 +8,7 @@
 mod assembled;
 mod at_one;
 mod exact_zeros;
+mod in_boxes;
 mod nodes;
 mod origin;
 mod part;
@@ -18,14 +19,17 @@ use super::{Bound, Problem, Region};
 use crate::error::Error;
 use crate::model::{ClosedLoop, InNumbers, Samples, beside, in_powers, quotient_at};
 use crate::stability::{EnclosedLoop, Shape, SymbolicPolynomial};
+pub(crate) use in_boxes::OpenedByValues;
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, Exhausted, Stop};
 use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
 use part::Part;
+pub(super) use part::quotient;
 pub(crate) use quotient::EnclosedQuotient;
 use std::sync::Arc;
+pub(super) use steady_state::steady_state;
 
 /// Work that exact polynomials over the constants of a held loop may be before enclosures of coefficients are asked: less than a second.
 const WORK_BEFORE: u64 = 6_000_000;

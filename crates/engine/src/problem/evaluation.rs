@@ -102,6 +102,16 @@ impl Algebra {
         })
     }
 
+    /// Algebra of a loop in discrete time whose coefficients are known by their values; the region's bound is in the polynomial.
+    pub(super) fn of_values(
+        polynomial: CharacteristicPolynomial,
+        sample_time: Option<RationalFunction>,
+        symbols: Symbols,
+    ) -> Algebra {
+        let formal_degree = polynomial.formal_degree;
+        Algebra { polynomial: Some(polynomial), formal_degree, sample_time, symbols, ..Algebra::default() }
+    }
+
     /// What the polynomial's variables beyond the free names stand for; none where everything is rational.
     ///
     /// Where the bound of the region is free it is one more variable before the symbols.

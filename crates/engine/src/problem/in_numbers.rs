@@ -1,10 +1,11 @@
 //! A loop whose parameters all have values, decided by enclosures of its numbers.
 
+use super::by_enclosures::{quotient, steady_state};
 use super::{Bound, Problem, Region, exact_or_enclosed};
 use crate::error::Error;
 use crate::model::{ClosedLoop, InNumbers, Symbols, quotient_at};
 use crate::precisions::LOOP_IN_NUMBERS;
-use crate::stability::{AtPoint, EnclosedLoop, Shape, open_equation};
+use crate::stability::{AtPoint, EnclosedLoop, RootCount, Shape, open_equation};
 use jurist_algebra::ball::{Ball, BallMatrix};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::RationalMatrix;
@@ -171,8 +172,29 @@ fn attempt(of: &InNumbers, region: &Region, shape: Shape, bits: u64) -> FromNumb
             let at = AtPoint::Defined { count, infinite: 0 };
             FromNumbers::Known { at, degree: polynomial.len() - 1, drifts, is_complex: of.closed_loop.is_complex }
         }
-        None => FromNumbers::Open(open_equation(&polynomial, shape)),
+        None => {
+            let drifting = at_rest(of, region, &polynomial).and_then(|rest| EnclosedLoop::of(&rest, shape));
+            match drifting {
+                Some(EnclosedLoop { count, .. }) => {
+                    let at = AtPoint::Defined { count: RootCount { on: count.on + 1, ..count }, infinite: 0 };
+                    let (degree, is_complex) = (polynomial.len() - 1, of.closed_loop.is_complex);
+                    FromNumbers::Known { at, degree, drifts: false, is_complex }
+                }
+                None => FromNumbers::Open(open_equation(&polynomial, shape)),
+            }
+        }
     }
+}
+
+/// The polynomial without a root at 1, where the loop at rest shows that there is one: an integrator without feedback.
+fn at_rest(of: &InNumbers, region: &Region, polynomial: &[Ball]) -> Option<Vec<Ball>> {
+    let value = polynomial.iter().fold(Ball::zero(polynomial[0].bits()), |sum, c| sum.add(c));
+    if *region != Region::Disc(Bound::Number(Rational::ONE)) || !value.contains_zero() {
+        return None;
+    }
+    let n = of.closed_loop.a.rows();
+    let rest = steady_state(&of.closed_loop.a, &RationalMatrix::zeros(n, n), &of.symbols)?;
+    rest.is_zero().then(|| quotient(polynomial.to_vec(), &UniPoly::from_i64(&[-1, 1])))
 }
 
 /// The characteristic polynomial with the bound of the region put in, as balls; `None` where a divisor may vanish.

@@ -131,12 +131,14 @@ impl Problem {
 }
 
 impl Problem {
-    /// The loop in all its free names where one of them is inside of functions and there is no dead time.
+    /// The loop in all its free names where one of them is inside of functions, or only values of its coefficients are known, and there is no dead
+    /// time.
     pub(crate) fn moving_family(&self, budget: &Budget) -> Result<Option<MovingPolynomial>, Error> {
         let algebra = self.algebra_over_symbols(budget)?;
-        let is_moving = algebra.symbols().is_moving() && algebra.symbols().delays().is_empty();
+        let symbols = algebra.symbols();
+        let is_moving = (symbols.is_moving() || symbols.has_families()) && symbols.delays().is_empty();
         let Some(d) = algebra.polynomial().filter(|_| is_moving) else { return Ok(None) };
-        let symbols = parametric_symbols(algebra.symbols())?;
+        let symbols = parametric_symbols(symbols)?;
         let d = CharacteristicPolynomial { poles: self.divisors(budget)?, ..d.clone() };
         let positive = self.positive();
         let free = self.free().len();

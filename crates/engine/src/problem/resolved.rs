@@ -96,6 +96,8 @@ pub struct Problem {
     plane: OnceLock<Option<PlanePolynomial>>,
     delayed: OnceLock<Option<DelayedLoop>>,
     in_numbers: OnceLock<Option<InNumbers>>,
+    /// The same problem with coefficients that are known by enclosures, for boxes; `None` where exact ones are short.
+    pub(super) in_boxes: OnceLock<Option<Arc<Problem>>>,
     pub(super) plan: OnceLock<Plan>,
 }
 
@@ -109,8 +111,22 @@ impl Problem {
     ) -> Problem {
         let (algebra, parametric, plane) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
         let (delayed, in_numbers, plan) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
-        let positive = Vec::new();
-        Problem { model, set, free, region, warnings, positive, algebra, parametric, plane, delayed, in_numbers, plan }
+        let (positive, in_boxes) = (Vec::new(), OnceLock::new());
+        Problem {
+            model,
+            set,
+            free,
+            region,
+            warnings,
+            positive,
+            algebra,
+            parametric,
+            plane,
+            delayed,
+            in_numbers,
+            in_boxes,
+            plan,
+        }
     }
 
     /// With functions of what is free that are positive where the model has a meaning; the domains are within these of one name.
@@ -412,6 +428,14 @@ impl Problem {
         }
         let problem = Problem::new(Arc::clone(&self.model), self.set.clone(), self.free.clone(), plain, Vec::new());
         Arc::new(problem.with_positive(self.positive.clone()))
+    }
+
+    /// The same problem with algebra that is known.
+    pub(super) fn with_algebra(&self, algebra: Algebra) -> Problem {
+        let (model, set, free) = (Arc::clone(&self.model), self.set.clone(), self.free.clone());
+        let problem = Problem::new(model, set, free, self.region.clone(), self.warnings.clone());
+        problem.algebra.get_or_init(|| algebra);
+        problem.with_positive(self.positive.clone())
     }
 
     /// The same problem where some names have no value, for an answer that is about all of their values.

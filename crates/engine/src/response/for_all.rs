@@ -129,7 +129,7 @@ impl MapForAll {
             known => known?,
         }
         let together = self.together(question)?;
-        let window = plane.window(request, budget)?;
+        let window = plane.in_boxes(budget)?.window(request, budget)?;
         let middles = [&window.x, &window.y].map(|[low, high]| low.midpoint(high)).into();
         let (stability, requirements) = self.tests(&together, middles, budget)?;
         let part = if requirements.is_empty() { budget.clone() } else { budget.share(STABILITY.0, STABILITY.1) };

@@ -4,7 +4,7 @@ use super::family::{Quotient, nothing_comes_back};
 use crate::coverage::refusals::MARGINS_IN_ONE;
 use crate::error::{Code, Diagnostic, Error};
 use crate::model::{Cut, Evaluated, Opened, Symbols};
-use crate::problem::Problem;
+use crate::problem::{OpenedByValues, Problem};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction};
@@ -23,7 +23,7 @@ enum Of {
     /// The system from the cut to the cut.
     System(Box<Opened>),
     /// The characteristic polynomial without the gain, what the gain adds to it, and where they are undefined.
-    Gain { open: Poly<MultiPoly>, back: Poly<MultiPoly>, undefined: MultiPoly },
+    Polynomials { open: Poly<MultiPoly>, back: Poly<MultiPoly>, undefined: MultiPoly },
 }
 
 impl<'p> OpenedLoop<'p> {
@@ -44,6 +44,16 @@ impl<'p> OpenedLoop<'p> {
         Ok(OpenedLoop { problem, cut, sample_time, symbols, of })
     }
 
+    /// The same where nothing but values is known of the polynomials; `None` as in [`Problem::opened_by_values`].
+    ///
+    /// # Errors
+    /// As [`Problem::opened_by_values`].
+    pub fn by_values(problem: &'p Problem, cut: Cut, budget: &Budget) -> Result<Option<OpenedLoop<'p>>, Error> {
+        let Some(found) = problem.opened_by_values(&cut, budget)? else { return Ok(None) };
+        let OpenedByValues { denominator: open, numerator: back, undefined, sample_time, symbols } = found;
+        Ok(Some(OpenedLoop { problem, cut, sample_time, symbols, of: Of::Polynomials { open, back, undefined } }))
+    }
+
     /// Refuses symbols, where polynomials have none.
     pub fn without_symbols(self) -> Result<Self, Error> {
         if self.symbols.is_empty() { Ok(self) } else { Err(MARGINS_IN_ONE.diagnostic(&[]).into()) }
@@ -61,7 +71,7 @@ impl<'p> OpenedLoop<'p> {
         let shape = self.problem.shape();
         let (quotient, undefined) = match &self.of {
             Of::System(opened) => Quotient::of(opened, shape, ring, budget)?,
-            Of::Gain { open, back, undefined } => {
+            Of::Polynomials { open, back, undefined } => {
                 let over = |p: &Poly<MultiPoly>| Poly::new(p.coeffs().iter().map(&ring).collect());
                 (Quotient { denominator: over(open), numerator: over(back), shape }, ring(undefined))
             }
@@ -134,5 +144,5 @@ fn with_gain(
         Some(_) => undefined,
         None => undefined.substitute(at, &factor.1).0,
     };
-    Ok((Of::Gain { open, back, undefined: beside(undefined) }, sample_time, symbols))
+    Ok((Of::Polynomials { open, back, undefined: beside(undefined) }, sample_time, symbols))
 }

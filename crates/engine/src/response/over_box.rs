@@ -15,7 +15,7 @@ use super::taylor_along::{
 };
 use crate::error::Error;
 use crate::model::Cut;
-use crate::problem::{Problem, parametric_symbols};
+use crate::problem::{Problem, exact_or_enclosed, parametric_symbols};
 use crate::stability::Shape;
 use jurist_algebra::ball::{Ball, Elementary, MultiTaylorModel, exp};
 use jurist_algebra::limits::Budget;
@@ -358,10 +358,26 @@ fn bits_of(sides: &[[Rational; 2]]) -> u64 {
 
 /// The open loop in the free parameters and symbols, and the number that a rule asks for as the last of them.
 fn open_loop(problem: &Problem, rule: &Rule, cut: Cut, budget: &Budget) -> Result<(ParametricSymbols, Asks), Error> {
-    let opened = OpenedLoop::of(problem, cut, budget)?;
+    let exact = |budget: &Budget| asked_of(problem, &OpenedLoop::of(problem, cut.clone(), budget)?, rule, budget);
+    if !problem.model().has_holds() {
+        return exact(budget);
+    }
+    exact_or_enclosed(budget, exact, |budget| {
+        let opened = OpenedLoop::by_values(problem, cut.clone(), budget)?;
+        opened.map(|opened| asked_of(problem, &opened, rule, budget)).transpose()
+    })
+}
+
+fn asked_of(
+    problem: &Problem,
+    opened: &OpenedLoop,
+    rule: &Rule,
+    budget: &Budget,
+) -> Result<(ParametricSymbols, Asks), Error> {
     let (mut quotient, undefined) = opened.quotient(MultiPoly::clone, budget)?;
     let dead_time = dead_time(&mut quotient, &undefined, &opened.symbols)?;
     let table = match &dead_time {
+        // The functions of the frequency have the dead time in its place.
         Some(_) => ParametricSymbols::new(Vec::new()),
         None => parametric_symbols(&opened.symbols)?,
     };

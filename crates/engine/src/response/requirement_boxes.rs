@@ -138,6 +138,7 @@ impl RequirementBoxes {
         near: &[Rational],
         budget: &Budget,
     ) -> Result<Option<RequirementBoxes>, Error> {
+        let problem = &problem.in_boxes(budget)?;
         let algebra = problem.algebra_over_symbols(budget)?;
         let Some(d) = algebra.polynomial() else { return Ok(None) };
         let over = OverBox::of_stability(problem, near, budget)?;

@@ -56,6 +56,8 @@ pub struct MovingPolynomial {
     /// In parameters and symbols.
     polynomial: BoxPolynomial,
     symbols: ParametricSymbols,
+    /// Whether values of symbols are those of matrices: then each takes long.
+    pub(super) is_of_matrices: bool,
     parameters: usize,
     /// The parameters that symbols depend on.
     pub(super) inside: Vec<usize>,
@@ -79,7 +81,11 @@ impl MovingPolynomial {
         shape: Shape,
     ) -> MovingPolynomial {
         let polynomial = BoxPolynomial::over(d, d.variables.len(), shape);
-        let inside = symbols.parameters_inside(parameters);
+        let mut inside = symbols.parameters_inside(parameters);
+        if inside.is_empty() && parameters > 0 {
+            // Taylor models have a variable.
+            inside.push(0);
+        }
         let split = |p: &MultiPoly| {
             let mut parts: BTreeMap<Vec<u32>, Vec<(Vec<u32>, Integer)>> = BTreeMap::new();
             for (monomial, c) in p.terms() {
@@ -95,7 +101,17 @@ impl MovingPolynomial {
         let all = coefficients.iter().chain(polynomial.certain().iter().map(|(_, f)| f));
         let functions = all.map(split).collect();
         let below = symbols.parameters_below(parameters);
-        MovingPolynomial { polynomial, symbols, parameters, inside, below, functions, positive: Vec::new() }
+        let is_of_matrices = symbols.has_families();
+        MovingPolynomial {
+            polynomial,
+            symbols,
+            is_of_matrices,
+            parameters,
+            inside,
+            below,
+            functions,
+            positive: Vec::new(),
+        }
     }
 
     /// The same where the loop has a meaning only where these polynomials in the parameters, which are among the poles, are positive.

@@ -100,3 +100,34 @@ fn what_is_left_out_is_as_small_as_the_first_powers() {
     let root = rest(sum.sqrt().unwrap());
     assert!(root < number("0.00005"), "{root}");
 }
+
+#[test]
+fn models_of_parts_hold_what_the_whole_ones_do() {
+    let lines = [("3/2", "1/2"), ("1/3", "1/8")].map(|(m, r)| (ball(&number(m)), ball(&number(r))));
+    let [x, y]: [MultiTaylorModel; 2] = MultiTaylorModel::linear(&lines, 4).try_into().unwrap();
+    let whole = x.mul(&y).exp().mul(&x).sub(&y);
+    // A quarter of the one side, five sixteenths from its middle; a third of the other one.
+    let inner = [("-5/16", "1/4"), ("2/3", "1/3")].map(|(m, r)| (ball(&number(m)), ball(&number(r))));
+    let part = whole.along(&whole.lines(&inner));
+    assert!(
+        part.rest_units() < &(whole.rest_units() + &Integer::from(1000)) && part.rest_units() >= whole.rest_units()
+    );
+    for (u, v) in [("-1", "1"), ("1", "1"), ("0", "-1"), ("-3/7", "2/5")].map(|(u, v)| (number(u), number(v))) {
+        let outer = [number("-5/16") + &number("1/4") * &u, number("2/3") + &number("1/3") * &v];
+        let there = [number("3/2") + &number("1/2") * &outer[0], number("1/3") + &number("1/8") * &outer[1]];
+        let [a, b] = there.map(|x| ball(&x));
+        let exact = exp(&a.mul(&b)).mul(&a).sub(&b);
+        assert!(value(&part, &[u, v]).intersection(&exact).is_some());
+    }
+    // The same lines in three variables, of which the first is another one.
+    let like =
+        MultiTaylorModel::linear(&[(ball(&number("0")), ball(&number("1"))), inner[0].clone(), inner[1].clone()], 4);
+    let again = whole.along(&like[1..]);
+    assert!(again.terms().filter(|(e, _)| e[0] == 0).map(|(_, c)| c).eq(part.terms().map(|(_, c)| c)));
+    assert!(again.terms().filter(|(e, _)| e[0] > 0).all(|(_, c)| c.is_zero()));
+    let half = ball(&number("1/4")).to_enclosure().upper().clone();
+    assert_eq!(whole.lines(&inner)[0].as_line(), Some((number("-5/16"), half)));
+    assert!(whole.as_line().is_none() && whole.shifted(3).shifted(-3).terms().eq(whole.terms()));
+    let none = whole.nothing();
+    assert_eq!(none.along(&whole.lines(&inner)), none);
+}

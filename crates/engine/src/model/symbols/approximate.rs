@@ -38,6 +38,8 @@ impl Symbols {
                 Definition::Pi => std::f64::consts::PI,
                 Definition::Algebraic(x) => x.refined_to_digits(17).enclosure().0.to_f64_approximate(),
                 Definition::Enclosed(x) => x.value.refined_to_digits(17).enclosure().0.to_f64_approximate(),
+                // Pictures are made of the model itself.
+                Definition::Family(_) => f64::NAN,
                 Definition::Root(x) => at(x).sqrt(),
                 Definition::Duty(duty) => duty_approximate(duty, at),
                 Definition::Exponential(x) => at(x).exp(),

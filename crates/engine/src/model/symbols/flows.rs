@@ -9,7 +9,7 @@ use jurist_algebra::ball::{Ball, BallMatrix, exponential};
 use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::number::Integer;
 use jurist_algebra::poly::RationalFunction;
-use jurist_algebra::symbols::{Symbols as Values, value_at_balls};
+use jurist_algebra::symbols::{FamilyVariables, Step, Symbols as Values, value_at_balls};
 
 /// Functions of more terms become symbols of their own.
 const MOST_TERMS: usize = 2;
@@ -189,6 +189,53 @@ impl Symbols {
             }
         }
         Some(values.iter().map(|v| v.with_bits(bits)).collect())
+    }
+
+    /// The symbols as the variables of a family of matrices in these kept names, the others having no place there; `None` where a symbol is a dead time.
+    /// `place` gives each variable its number.
+    pub(crate) fn family_variables(
+        &self,
+        parameters: usize,
+        place: impl Fn(&RationalFunction) -> Option<RationalFunction>,
+    ) -> Option<FamilyVariables> {
+        let step = |symbol: &Symbol| {
+            Some(match &symbol.meaning {
+                Meaning::Constant(definition) => Step::Function(definition.try_map(&place)?),
+                Meaning::Value(f) => Step::Value(place(f)?),
+                Meaning::Flow { of, row, column } => Step::Flow { of: *of, row: *row, column: *column },
+                Meaning::Delay(_) => return None,
+            })
+        };
+        let flow = |m: &RationalMatrix| {
+            let entries = m.entries().iter().map(&place).collect::<Option<Vec<_>>>()?;
+            Some(RationalMatrix::from_fn(m.rows(), m.columns(), |i, j| entries[i * m.columns() + j].clone()))
+        };
+        Some(FamilyVariables {
+            parameters,
+            steps: self.table.iter().map(step).collect::<Option<_>>()?,
+            flows: self.flows.iter().map(flow).collect::<Option<_>>()?,
+        })
+    }
+
+    /// What exponentials that stay whole and their functions depend on, and what they divide by.
+    pub(crate) fn arguments(&self) -> impl Iterator<Item = &RationalFunction> {
+        let entries = self.flows.iter().flat_map(|m| m.entries());
+        self.table.iter().flat_map(|symbol| symbol.meaning.arguments()).chain(entries)
+    }
+
+    /// Symbols with these names and definitions beside these kept names.
+    pub(crate) fn of_definitions(kept: Vec<String>, definitions: Vec<(String, Definition)>) -> Symbols {
+        let mut symbols = Symbols { kept, ..Symbols::default() };
+        for (name, definition) in definitions {
+            let is_moving = definition.arguments().into_iter().any(|f| symbols.moves(f));
+            symbols.table.push(Symbol { name, meaning: definition.into(), is_moving });
+        }
+        symbols
+    }
+
+    /// Whether nothing but values is known of some symbols: they are those of a family of matrices.
+    pub(crate) fn has_families(&self) -> bool {
+        self.table.iter().any(|symbol| matches!(symbol.definition(), Some(Definition::Family(_))))
     }
 
     /// The values of all symbols in floating point, from enclosures.

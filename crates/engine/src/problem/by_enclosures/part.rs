@@ -280,7 +280,7 @@ fn integrators(m: &RationalMatrix, symbols: &Symbols) -> usize {
 }
 
 /// The quotient of a polynomial by an exact factor: the remainder, which is zero, is left out.
-fn quotient(mut p: Vec<Ball>, factor: &UniPoly) -> Vec<Ball> {
+pub(in crate::problem) fn quotient(mut p: Vec<Ball>, factor: &UniPoly) -> Vec<Ball> {
     let (degree, lead) = (factor.degree().unwrap_or(0), factor.leading().cloned().unwrap_or(Integer::ONE));
     for at in (degree..p.len()).rev() {
         let over = Ball::from_rational(&Rational::new(Integer::ONE, lead.clone()), p[at].bits());

@@ -24,7 +24,11 @@ pub(super) type Form = Vec<Linear>;
 /// A polynomial `d(K)` with `D(1; K) = c d(K)` for a number `c`, which may be 0; `None` where the matrix is not of this form.
 ///
 /// Cost: a determinant of polynomials in `K`.
-pub(super) fn steady_state(constant: &RationalMatrix, linear: &RationalMatrix, symbols: &Symbols) -> Option<UniPoly> {
+pub(in crate::problem) fn steady_state(
+    constant: &RationalMatrix,
+    linear: &RationalMatrix,
+    symbols: &Symbols,
+) -> Option<UniPoly> {
     determinant(&at_rest(constant, linear, symbols)?)
 }
 
