@@ -305,14 +305,7 @@ fn sum(parts: &[Patch; 3], waves: &[Wave; 2]) -> Patch {
     }
     let shift = bits.saturating_sub(room);
     let reduced = |column: &[i128]| -> Vec<i128> { column.iter().map(|v| v >> shift).collect() };
-    let product = |p: &[i128], wave: &[i128; 4], down: u64| -> Vec<i128> {
-        let one = |k: usize| {
-            let pairs = (0..4).filter_map(|j| Some((j, k.checked_sub(j).filter(|i| *i <= degree)?)));
-            let sum: i128 = pairs.map(|(j, i)| own[i] * p[i] * wave[j]).sum();
-            sum.div_euclid(raised[k]) >> down
-        };
-        (0..degree + 4).map(one).collect()
-    };
+    let product = |p: &[i128], wave: &[i128; 4], down: u64| with_cubic((p, &own), wave, &raised, down);
     let even = [1, 3, 3, 1];
     let mut out = Patch {
         columns: parts[0].columns.iter().map(|column| product(&reduced(column), &even, 0)).collect(),
@@ -355,6 +348,16 @@ fn sum(parts: &[Patch; 3], waves: &[Wave; 2]) -> Patch {
         }
     }
     out
+}
+
+/// A polynomial in Bernstein's basis, whose binomials are known, times a cubic, over a power of two; `raised` are the binomials of the product.
+fn with_cubic((p, own): (&[i128], &[i128]), wave: &[i128; 4], raised: &[i128], down: u64) -> Vec<i128> {
+    let one = |k: usize| {
+        let pairs = (0..4).filter_map(|j| Some((j, k.checked_sub(j).filter(|i| *i < own.len())?)));
+        let sum: i128 = pairs.map(|(j, i)| own[i] * p[i] * wave[j]).sum();
+        sum.div_euclid(raised[k]) >> down
+    };
+    (0..raised.len()).map(one).collect()
 }
 
 /// How many ways there are to choose some of so many.

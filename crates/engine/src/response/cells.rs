@@ -167,27 +167,17 @@ where
     U: Fn(&Rational) -> Result<Unmet, Error>,
     C: Fn(usize, &[&'static str]) -> Result<bool, Error>,
 {
-    // An end that is stable itself is kept where all is met there, too.
-    let kept = |end: &Option<End>| -> Result<Option<End>, Error> {
-        let Some(end) = end else { return Ok(None) };
-        let exact = end.value.exact().filter(|_| end.closed);
-        let closed = exact.map(|x| unmet(&x)).transpose()?.is_some_and(|names| names.is_empty());
-        Ok(Some(end.clone().closed_if(closed)))
-    };
-    let (lower, upper) = (kept(&interval.lower)?, kept(&interval.upper)?);
+    let (lower, upper) = (kept_end(&interval.lower, &unmet)?, kept_end(&interval.upper, &unmet)?);
     if let (Some(a), Some(b)) = (&lower, &upper)
         && a.value.is_same(&b.value)
     {
-        // A single value.
-        let [lower, upper] = [lower, upper].map(|end| end.map(RequiredEnd::Stability));
-        let is_met = matches!(&lower, Some(RequiredEnd::Stability(end)) if end.closed);
-        return Ok(if is_met { vec![RequiredInterval { lower, upper }] } else { Vec::new() });
+        return Ok(single_value([lower, upper]).into_iter().collect());
     }
-    let mut cells = Vec::with_capacity(candidates.len() + 1);
-    for cell in interval.bare().cut(candidates) {
+    let sample = |cell: RealInterval| {
         budget.check()?;
-        cells.push(unmet(&cell.sample(budget)?)?);
-    }
+        unmet(&cell.sample(budget)?)
+    };
+    let cells = interval.bare().cut(candidates).into_iter().map(sample).collect::<Result<Vec<Unmet>, Error>>()?;
     let mut out: Vec<RequiredInterval> = Vec::new();
     let stability = |end: &Option<End>| end.clone().map(RequiredEnd::Stability);
     let binding = |i: usize, names: &[&'static str]| -> Result<RequiredEnd, Error> {
@@ -227,6 +217,21 @@ where
         out.push(RequiredInterval { lower, upper: stability(&upper) });
     }
     Ok(out)
+}
+
+/// An interval of one value, if all is met there.
+fn single_value(ends: [Option<End>; 2]) -> Option<RequiredInterval> {
+    let [lower, upper] = ends.map(|end| end.map(RequiredEnd::Stability));
+    let is_met = matches!(&lower, Some(RequiredEnd::Stability(end)) if end.closed);
+    is_met.then_some(RequiredInterval { lower, upper })
+}
+
+/// An end that is stable itself is kept where all is met there, too.
+fn kept_end(end: &Option<End>, unmet: impl Fn(&Rational) -> Result<Unmet, Error>) -> Result<Option<End>, Error> {
+    let Some(end) = end else { return Ok(None) };
+    let exact = end.value.exact().filter(|_| end.closed);
+    let closed = exact.map(|x| unmet(&x)).transpose()?.is_some_and(|names| names.is_empty());
+    Ok(Some(end.clone().closed_if(closed)))
 }
 
 /// Bits of the bracket around a number that is not told from an end.

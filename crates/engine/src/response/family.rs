@@ -205,94 +205,132 @@ impl<R: Domain> Quotient<R> {
         requirement: &Requirement,
         budget: &Budget,
     ) -> Result<Boundaries<E::Left>, Exhausted> {
-        let common = budget.enter(|| self.denominator.gcd(&self.numerator))?;
-        let divided = |p: &Poly<R>| p.div_exact(&common).expect("a gcd divides");
-        let (d, n) = (divided(&self.denominator), divided(&self.numerator));
-        let degree = d.coeffs().len().max(n.coeffs().len()) - 1;
-        let squared = |p: &Poly<R>| modulus_squared(p, degree, self.shape);
-        let below = squared(&d);
-        let (twice_real, imaginary) = product(&n, &d, degree, self.shape);
-        let twice_below = below.scaled(&integer(2));
-        let one = || by.function(R::one());
-        let repeated = |p: &Poly<R>| match p.degree() {
-            Some(2..) => by.discriminant(p, budget),
-            _ => Ok(one()),
-        };
-        let eliminated = |p: &Poly<R>, a: &Poly<R>, b: &Poly<R>, alpha: &RealAlgebraic| match p.is_constant() {
-            true => Ok(one()),
-            false => by.common_root(p, a, b, alpha, budget),
-        };
-        let at_ends = |p: &Poly<R>| self.at_ends(p).into_iter().map(|f| by.function(f)).collect::<Vec<_>>();
-        Ok(match requirement.rule() {
-            Rule::Circle(circle) => {
-                let excess = by.excess(circle, &squared(&d.plus(&n)), &squared(&circle.combination(&d, &n)));
-                // Where the content is zero, all frequencies pass to the other side at once.
-                let (content, excess) = budget.enter(|| (excess.content(), excess.square_free_part()))?;
-                let mut zeros = at_ends(&excess);
-                zeros.extend((!content.is_zero()).then(|| by.function(content)));
-                zeros.push(repeated(&excess)?);
-                Boundaries { zeros, touches: one() }
-            }
-            Rule::Turned { twice_cosine } => {
-                // Modulus one, and the real part is minus the cosine: twice_real + 2 cos |N|^2 = 0. Of a gain, N is a multiple.
-                let above = squared(&n);
-                let excess = above.minus(&below);
-                let excess = without_common(&excess, &[&below, &twice_real], budget)?;
-                // At an end of the range L = 1: where it is -1 there, stability ends.
-                let ends = self.values_at_ends(&d, &n, degree).into_iter().map(|(d, n)| n.minus(&d));
-                let ends = ends.chain(excess.leading().cloned()).filter(|f| !f.is_zero());
-                let mut zeros: Vec<_> = ends.map(|f| by.function(f)).collect();
-                zeros.push(eliminated(&excess, &twice_real, &above, twice_cosine)?);
-                zeros.push(repeated(&excess)?);
-                Boundaries { zeros, touches: repeated(&excess)? }
-            }
-            Rule::Factors(factor) => {
-                // Real, and the factor makes it -1: 2 |D0|^2 + k twice_real = 0.
-                let mut zeros = Vec::new();
-                let mut touches = one();
-                if !imaginary.is_zero() {
-                    let imaginary = without_common(&imaginary, &[&below, &twice_real], budget)?;
-                    zeros.extend(at_ends(&imaginary));
-                    zeros.push(eliminated(&imaginary, &twice_below, &twice_real, factor)?);
-                    zeros.push(eliminated(&imaginary, &twice_real, &twice_below, factor)?);
-                    zeros.push(repeated(&imaginary)?);
-                    touches = repeated(&imaginary)?;
-                }
-                for (a, b) in self.values_at_ends(&d, &n, degree) {
-                    for (a, b) in [(&a, &b), (&b, &a)] {
-                        zeros.push(by.sum(a, b, factor, budget)?);
-                    }
-                }
-                Boundaries { zeros, touches }
-            }
+        let along = Along::of(self, by, budget)?;
+        match requirement.rule() {
+            Rule::Circle(circle) => along.of_circle(circle),
+            Rule::Turned { twice_cosine } => along.of_turn(twice_cosine),
+            Rule::Factors(factor) => along.of_factors(factor),
             Rule::Sector(_) | Rule::DeadTime(_) | Rule::Modulus { .. } => {
-                Boundaries { zeros: Vec::new(), touches: one() }
+                Ok(Boundaries { zeros: Vec::new(), touches: along.one() })
             }
-        })
+        }
     }
 
     /// With other coefficients.
     pub fn map<S: Domain>(&self, f: impl Fn(&R) -> S) -> Quotient<S> {
         Quotient { denominator: self.denominator.map(&f), numerator: self.numerator.map(&f), shape: self.shape }
     }
+}
+
+/// An open loop `N/D0` in lowest terms along the boundary, and how the frequency is eliminated.
+struct Along<'q, R, E> {
+    by: &'q E,
+    shape: Shape,
+    d: Poly<R>,
+    n: Poly<R>,
+    degree: usize,
+    /// `|D0|^2`.
+    below: Poly<R>,
+    /// Twice the real part of `N conj(D0)`.
+    twice_real: Poly<R>,
+    imaginary: Poly<R>,
+    budget: &'q Budget,
+}
+
+impl<'q, R: Domain, E: Elimination<R>> Along<'q, R, E> {
+    fn of(quotient: &Quotient<R>, by: &'q E, budget: &'q Budget) -> Result<Self, Exhausted> {
+        let shape = quotient.shape;
+        let common = budget.enter(|| quotient.denominator.gcd(&quotient.numerator))?;
+        let divided = |p: &Poly<R>| p.div_exact(&common).expect("a gcd divides");
+        let (d, n) = (divided(&quotient.denominator), divided(&quotient.numerator));
+        let degree = d.coeffs().len().max(n.coeffs().len()) - 1;
+        let below = modulus_squared(&d, degree, shape);
+        let (twice_real, imaginary) = product(&n, &d, degree, shape);
+        Ok(Along { by, shape, d, n, degree, below, twice_real, imaginary, budget })
+    }
+
+    fn squared(&self, p: &Poly<R>) -> Poly<R> {
+        modulus_squared(p, self.degree, self.shape)
+    }
+
+    fn one(&self) -> E::Left {
+        self.by.function(R::one())
+    }
+
+    fn repeated(&self, p: &Poly<R>) -> Result<E::Left, Exhausted> {
+        match p.degree() {
+            Some(2..) => self.by.discriminant(p, self.budget),
+            _ => Ok(self.one()),
+        }
+    }
+
+    fn eliminated(&self, p: &Poly<R>, a: &Poly<R>, b: &Poly<R>, alpha: &RealAlgebraic) -> Result<E::Left, Exhausted> {
+        match p.is_constant() {
+            true => Ok(self.one()),
+            false => self.by.common_root(p, a, b, alpha, self.budget),
+        }
+    }
+
+    fn of_circle(&self, circle: &Circle) -> Result<Boundaries<E::Left>, Exhausted> {
+        let (sum, combined) = (self.d.plus(&self.n), circle.combination(&self.d, &self.n));
+        let excess = self.by.excess(circle, &self.squared(&sum), &self.squared(&combined));
+        // Where the content is zero, all frequencies pass to the other side at once.
+        let (content, excess) = self.budget.enter(|| (excess.content(), excess.square_free_part()))?;
+        let mut zeros = self.at_ends(&excess);
+        zeros.extend((!content.is_zero()).then(|| self.by.function(content)));
+        zeros.push(self.repeated(&excess)?);
+        Ok(Boundaries { zeros, touches: self.one() })
+    }
+
+    /// Modulus one, and the real part is minus the cosine: `twice_real + 2 cos |N|^2 = 0`. Of a gain, `N` is a multiple.
+    fn of_turn(&self, twice_cosine: &RealAlgebraic) -> Result<Boundaries<E::Left>, Exhausted> {
+        let above = self.squared(&self.n);
+        let excess = without_common(&above.minus(&self.below), &[&self.below, &self.twice_real], self.budget)?;
+        // At an end of the range L = 1: where it is -1 there, stability ends.
+        let ends = self.values_at_ends().into_iter().map(|(d, n)| n.minus(&d));
+        let ends = ends.chain(excess.leading().cloned()).filter(|f| !f.is_zero());
+        let mut zeros: Vec<_> = ends.map(|f| self.by.function(f)).collect();
+        zeros.push(self.eliminated(&excess, &self.twice_real, &above, twice_cosine)?);
+        zeros.push(self.repeated(&excess)?);
+        Ok(Boundaries { zeros, touches: self.repeated(&excess)? })
+    }
+
+    /// Real, and the factor makes it -1: `2 |D0|^2 + k twice_real = 0`.
+    fn of_factors(&self, factor: &RealAlgebraic) -> Result<Boundaries<E::Left>, Exhausted> {
+        let (mut zeros, mut touches) = (Vec::new(), self.one());
+        if !self.imaginary.is_zero() {
+            let (twice_real, twice_below) = (&self.twice_real, &self.below.scaled(&integer(2)));
+            let imaginary = without_common(&self.imaginary, &[&self.below, twice_real], self.budget)?;
+            zeros.extend(self.at_ends(&imaginary));
+            zeros.push(self.eliminated(&imaginary, twice_below, twice_real, factor)?);
+            zeros.push(self.eliminated(&imaginary, twice_real, twice_below, factor)?);
+            zeros.push(self.repeated(&imaginary)?);
+            touches = self.repeated(&imaginary)?;
+        }
+        for (a, b) in self.values_at_ends() {
+            for (a, b) in [(&a, &b), (&b, &a)] {
+                zeros.push(self.by.sum(a, b, factor, self.budget)?);
+            }
+        }
+        Ok(Boundaries { zeros, touches })
+    }
 
     /// The values at the ends of the range of frequencies, and the leading coefficient.
-    fn at_ends(&self, p: &Poly<R>) -> Vec<R> {
+    fn at_ends(&self, p: &Poly<R>) -> Vec<E::Left> {
         let mut out: Vec<R> = match self.shape {
             Shape::UnitDisc => [2, -2].map(|x| p.eval(&integer(x))).to_vec(),
             Shape::LeftHalfPlane => vec![p.coeff(0)],
         };
         out.extend(p.leading().cloned());
-        out.retain(|f| !f.is_zero());
-        out
+        out.into_iter().filter(|f| !f.is_zero()).map(|f| self.by.function(f)).collect()
     }
 
     /// `D0` and `N` at the real ends: a root passes there at the factor `-D0/N`.
-    fn values_at_ends(&self, d: &Poly<R>, n: &Poly<R>, degree: usize) -> Vec<(R, R)> {
-        let at = |x: i64| (d.eval(&integer(x)), n.eval(&integer(x)));
+    fn values_at_ends(&self) -> Vec<(R, R)> {
+        let at = |x: i64| (self.d.eval(&integer(x)), self.n.eval(&integer(x)));
         let mut out = match self.shape {
             Shape::UnitDisc => vec![at(1), at(-1)],
-            Shape::LeftHalfPlane => vec![at(0), (d.coeff(degree), n.coeff(degree))],
+            Shape::LeftHalfPlane => vec![at(0), (self.d.coeff(self.degree), self.n.coeff(self.degree))],
         };
         out.retain(|(a, b)| !a.is_zero() && !b.is_zero());
         out

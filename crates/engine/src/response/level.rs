@@ -10,7 +10,7 @@ use crate::model::{Between, Time};
 use crate::problem::{DECAY, Problem, RADIUS, Region};
 use crate::stability::Shape;
 use crate::stability::plane::{PlanePolynomial, boundary_curves};
-use crate::stability::sector::on_edge_of;
+use crate::stability::sector::{on_edge_of, on_sector_edge};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RealAlgebraic, resultant};
@@ -218,6 +218,11 @@ impl Elimination<MultiPoly> for ByLevel {
     }
 }
 
+/// A polynomial in the parameter as one beside a level's scale.
+fn beside(p: &MultiPoly) -> MultiPoly {
+    p.map_variables(|_| 1)
+}
+
 impl Problem {
     /// Polynomials in a level's scale and in the one free parameter, in this order, on whose zeros alone it may change whether a loop is
     /// stable, has the level and meets the requirements. `None` where the loop is not rational in its parameter, and where a polynomial
@@ -241,7 +246,6 @@ impl Problem {
             return Ok(None);
         }
         budget.enter(|| {
-            let beside = |p: &MultiPoly| p.map_variables(|_| 1);
             let mut found = match level.asked_of_roots() {
                 true => self.boundary_of_region(level, budget)?,
                 false => self.boundary_of_stability(budget)?.map(|list| list.iter().map(beside).collect()),
@@ -251,46 +255,18 @@ impl Problem {
                 LevelAsked::Requirement(requirement) => Some(requirement),
                 LevelAsked::Region(_) => None,
             };
-            let whole = self.without_region();
-            let family_of = |mut list: Vec<&Requirement>| -> Result<Option<Family<MultiPoly>>, Error> {
-                list.retain(|requirement| requirement.needs_cut());
-                let Some(first) = list.first() else { return Ok(None) };
-                Family::of_cut(&whole, first.cut(self, at)?, budget).map(Some)
-            };
             Requirement::refuse_signals(requirements)?;
-            let family = family_of(requirements.iter().collect())?;
-            let closed = || -> Result<Option<Poly<MultiPoly>>, Error> {
-                let plain = self.without_region();
-                let polynomial = plain.algebra(budget)?.polynomial().map(PlanePolynomial::new);
-                Ok(polynomial.map(|p| p.polynomial().map(beside)))
-            };
+            let family = self.family_of(requirements.iter().collect(), at, budget)?;
             for requirement in requirements {
-                match (requirement.rule(), &family) {
-                    (Rule::Sector(least), _) if self.shape() == Shape::LeftHalfPlane => {
-                        let Some(closed) = closed()? else { return Ok(None) };
-                        let [first, second] = crate::stability::sector::on_sector_edge(&closed, least);
-                        all.push(resultant(&first, &second, budget)?);
-                    }
-                    (Rule::Factors(_) | Rule::Turned { .. } | Rule::Circle(_), Some(f)) => {
-                        all.extend(f.boundaries(requirement, budget)?.zeros.iter().map(beside));
-                        all.push(beside(&f.undefined));
-                    }
-                    _ => return Ok(None),
-                }
+                let Some(own) = self.boundaries_of((requirement, false), family.as_ref(), budget)? else {
+                    return Ok(None);
+                };
+                all.extend(own);
             }
             if let Some(asked) = &asked {
-                match (asked.rule(), &family_of(vec![asked])?) {
-                    (Rule::Sector(_), _) if self.shape() == Shape::LeftHalfPlane => {
-                        let Some(closed) = closed()? else { return Ok(None) };
-                        let [first, second] = on_edge_of(&closed, [&MultiPoly::variable(0), &MultiPoly::one()]);
-                        all.push(resultant(&first, &second, budget)?);
-                    }
-                    (Rule::Factors(_) | Rule::Turned { .. } | Rule::Circle(_), Some(f)) => {
-                        all.extend(f.quotient().map(beside).boundaries(&ByLevel, asked, budget)?.zeros);
-                        all.push(beside(&f.undefined));
-                    }
-                    _ => return Ok(None),
-                }
+                let family = self.family_of(vec![asked], at, budget)?;
+                let Some(own) = self.boundaries_of((asked, true), family.as_ref(), budget)? else { return Ok(None) };
+                all.extend(own);
             }
             if all.iter().any(Domain::is_zero) {
                 return match asked.as_ref().or(requirements.first()) {
@@ -301,6 +277,53 @@ impl Problem {
             all.retain(|p| !p.is_constant());
             Ok(found)
         })?
+    }
+
+    /// The open loop at the cut of the first requirement that needs one.
+    fn family_of(
+        self: &Arc<Self>,
+        mut list: Vec<&Requirement>,
+        at: Option<&str>,
+        budget: &Budget,
+    ) -> Result<Option<Family<MultiPoly>>, Error> {
+        list.retain(|requirement| requirement.needs_cut());
+        let Some(first) = list.first() else { return Ok(None) };
+        Family::of_cut(&self.without_region(), first.cut(self, at)?, budget).map(Some)
+    }
+
+    /// The characteristic polynomial, its parameter beside the level's scale.
+    fn beside_level(self: &Arc<Self>, budget: &Budget) -> Result<Option<Poly<MultiPoly>>, Error> {
+        let plain = self.without_region();
+        let polynomial = plain.algebra(budget)?.polynomial().map(PlanePolynomial::new);
+        Ok(polynomial.map(|p| p.polynomial().map(beside)))
+    }
+
+    /// The boundary of a requirement, or of the level itself, whose scale is the first variable; `None` where there is none of this kind.
+    fn boundaries_of(
+        self: &Arc<Self>,
+        (requirement, is_level): (&Requirement, bool),
+        family: Option<&Family<MultiPoly>>,
+        budget: &Budget,
+    ) -> Result<Option<Vec<MultiPoly>>, Error> {
+        match (requirement.rule(), family) {
+            (Rule::Sector(least), _) if self.shape() == Shape::LeftHalfPlane => {
+                let Some(closed) = self.beside_level(budget)? else { return Ok(None) };
+                let [first, second] = match is_level {
+                    true => on_edge_of(&closed, [&MultiPoly::variable(0), &MultiPoly::one()]),
+                    false => on_sector_edge(&closed, least),
+                };
+                Ok(Some(vec![resultant(&first, &second, budget)?]))
+            }
+            (Rule::Factors(_) | Rule::Turned { .. } | Rule::Circle(_), Some(f)) => {
+                let mut zeros = match is_level {
+                    true => f.quotient().map(beside).boundaries(&ByLevel, requirement, budget)?.zeros,
+                    false => f.boundaries(requirement, budget)?.zeros.iter().map(beside).collect(),
+                };
+                zeros.push(beside(&f.undefined));
+                Ok(Some(zeros))
+            }
+            _ => Ok(None),
+        }
     }
 
     /// The level of a loop in which every parameter has its value, enclosed by so many bits: degrees of a phase margin. `None` where it has no bound,
