@@ -180,10 +180,9 @@ impl<'a, J: Judge> Search<'a, J> {
                         let [low, high] = side(&self.boxes[**b].window, axis);
                         if k == 0 { *low < at } else { *high > at }
                     };
-                    match self.wanted(boxes.iter().filter(overlaps).copied().collect()) {
-                        Some(wanted) => wanted,
-                        None => continue,
-                    }
+                    let wanted = self.wanted(boxes.iter().filter(overlaps).copied().collect());
+                    let Some(wanted) = wanted else { continue };
+                    wanted
                 }
             };
             self.open.push_back(Open { node: first + k, halvings: open.halvings + 1, window, judged, wanted });

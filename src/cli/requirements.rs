@@ -105,10 +105,7 @@ impl RequirementOptions {
             "radius" => region.radius.is_none(),
             _ => true,
         });
-        let question = match asked.region.clone() {
-            Some(region) => question.within(region),
-            None => question,
-        };
+        let question = asked.region.clone().into_iter().fold(question, Question::within);
         Ok((asked, question))
     }
 }

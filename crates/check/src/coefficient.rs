@@ -143,10 +143,7 @@ impl Coefficient for Uni {
 pub(super) fn at_point(coefficients: &[Uni], sample: &Q, clock: &Clock) -> Result<Uni, String> {
     // All values over the denominator of the sample to the power of the highest degree.
     let degree = coefficients.iter().map(Uni::degree).max().unwrap_or(0);
-    let mut values = Vec::with_capacity(coefficients.len());
-    for c in coefficients {
-        let value = c.numerator_at(sample, clock)?;
-        values.push(value * num_traits::pow(sample.denom().clone(), degree - c.degree()));
-    }
-    Ok(Uni::new(values))
+    let scaled =
+        |c: &Uni| Ok(c.numerator_at(sample, clock)? * num_traits::pow(sample.denom().clone(), degree - c.degree()));
+    Ok(Uni::new(coefficients.iter().map(scaled).collect::<Result<_, String>>()?))
 }

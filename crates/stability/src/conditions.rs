@@ -154,14 +154,8 @@ pub fn classical_test(
     for (i, (name, inequality)) in inequalities.into_iter().enumerate() {
         budget.step(&format!("condition {}", i + 1));
         let row = i.checked_sub(VALUE_CONDITIONS).and_then(|row| Some((divided.as_ref()?, row)));
-        let known = match row {
-            Some((table, row)) => solve_divided_row(table, row, range, budget)?,
-            None => None,
-        };
-        let solution = match known {
-            Some(solution) => solution,
-            None => solve(&inequality, range, budget)?,
-        };
+        let known = row.map(|(table, row)| solve_divided_row(table, row, range, budget)).transpose()?.flatten();
+        let solution = known.map_or_else(|| solve(&inequality, range, budget), Ok)?;
         intersection = intersection.intersection(&solution);
         conditions.push(Condition { name, inequality, solution });
     }

@@ -30,10 +30,8 @@ pub fn plants(question: &Question, gains: &[Gain], given: Vec<AllOf>, robust: bo
         if gains.iter().any(|gain| gain.name == name) || all.iter().any(|known| known.name == name) {
             continue;
         }
-        let nominal = match question.values_set().get(&name) {
-            Some(value) => Some(value.clone()),
-            None => question.nominal(&name)?,
-        };
+        let set = question.values_set().get(&name).cloned();
+        let nominal = set.map_or_else(|| question.nominal(&name), |value| Ok(Some(value)))?;
         let Some(nominal) = nominal else {
             let error = Diagnostic::error(Code::NoValue, format!("'{name}' has a tolerance and no value"));
             return Err(error.help(format!("give it one: --set {name}=VALUE")).into());

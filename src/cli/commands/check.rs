@@ -101,10 +101,7 @@ fn unmet_requirements(model: &Model, budget: &Budget) -> Vec<Diagnostic> {
     let found = || -> Result<Vec<Diagnostic>, Error> {
         let values = model.ask().problem()?.set().to_vec();
         let asked = model.requirements(&[], &values, budget)?;
-        let question = match asked.region.clone() {
-            Some(region) => model.ask().within(region),
-            None => model.ask(),
-        };
+        let question = asked.region.clone().into_iter().fold(model.ask(), |question, region| question.within(region));
         let problem = question.problem()?;
         let in_region = problem.verdict(budget)?.value().verdict == Verdict::Stable;
         let met = problem.requirements_met(&asked.list, asked.at.as_deref(), budget)?;

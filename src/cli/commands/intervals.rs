@@ -54,10 +54,7 @@ impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
         let output = &self.decision.output;
         let (model, question) = decision(&self.decision, context)?;
-        let name = match &self.param {
-            Some(name) => name.clone(),
-            None => only_parameter(&model, &self.decision.model)?,
-        };
+        let name = self.param.clone().map_or_else(|| only_parameter(&model, &self.decision.model), Ok)?;
         if name != RADIUS && name != DECAY {
             known_names(context, &model, "--param", from_ref(&name))?;
         }

@@ -43,10 +43,7 @@ impl Runs for Options {
         let model = load(self.model.model.as_ref(), &self.model.line, context)?;
         warn_of_ignored(&model, context);
         let question = question(context, &model, &self.model, &Default::default())?;
-        let name = match &self.param {
-            Some(name) => name.clone(),
-            None => only_parameter(&model, &self.model)?,
-        };
+        let name = self.param.clone().map_or_else(|| only_parameter(&model, &self.model), Ok)?;
         known_names(context, &model, "--param", from_ref(&name))?;
         let answer = question.free(&name).stable_set(&context.budget)?;
         context.warn(None, answer.problem().warnings());

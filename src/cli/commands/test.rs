@@ -44,10 +44,8 @@ pub(in crate::cli) struct Options {
 
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
-        let cases = match &self.cases {
-            Some(file) => Some(Arc::new(Table::read(&text(Path::new(file))?)?)),
-            None => None,
-        };
+        let table = |file: &_| Ok::<_, Error>(Arc::new(Table::read(&text(Path::new(file))?)?));
+        let cases = self.cases.as_ref().map(table).transpose()?;
         let mut collector = Collector::new(cases);
         let suites = collector.suites(&self.paths)?;
         let named = [("the JUnit report", &self.junit), ("the SARIF log", &self.sarif), ("the answer", &self.output)];

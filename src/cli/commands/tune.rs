@@ -87,10 +87,7 @@ impl Runs for Options {
         let names = gains.iter().map(|gain| &gain.name).chain(for_all.iter().map(|all| &all.name));
         let free = freed(&question, names);
         let (required, _) = self.require.asked(&model, free.clone(), &self.region, context)?;
-        let question = match required.region.clone() {
-            Some(region) => question.within(region),
-            None => question,
-        };
+        let question = required.region.clone().into_iter().fold(question, Question::within);
         let mut asked = asked(self, (&model, gains), required, context)?;
         asked.for_all = for_all;
         let digits = output.digits() as usize;

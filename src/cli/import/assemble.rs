@@ -96,10 +96,7 @@ pub(in crate::cli) fn assemble(variables: Variables, sample_time: Option<Time>) 
     }
     let c = c.unwrap_or_else(|| Matrix::identity(a.rows));
     let d = direct_matrix(&variables, c.rows, inputs.as_ref().map_or(0, |b| b.columns))?;
-    let time = match sample_time {
-        Some(time) => time,
-        None => time_of(&variables)?,
-    };
+    let time = sample_time.map_or_else(|| time_of(&variables), Ok)?;
     Ok(StateSpace { a, inputs: inputs.zip(d), c, time, names: variables.names, remarks })
 }
 

@@ -77,10 +77,7 @@ fn input_matrix(model: &Model, ports: &Ports) -> String {
 
 /// An expression as the model's text has it, on one line.
 fn written(model: &Model, e: &Expression) -> String {
-    match text_at(model, e.span) {
-        Some(text) => text,
-        None => e.to_string(),
-    }
+    text_at(model, e.span).unwrap_or_else(|| e.to_string())
 }
 
 fn text_at(model: &Model, span: Span) -> Option<String> {

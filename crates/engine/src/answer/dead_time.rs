@@ -13,13 +13,8 @@ use jurist_algebra::number::Rational;
 /// The verdict at a point.
 pub(super) fn verdict(problem: &Problem, delayed: &DelayedLoop, budget: &Budget) -> Result<PointVerdict, Error> {
     let degree = problem.algebra_over_symbols(budget)?.formal_degree();
-    let count = match delayed.family() {
-        Some(family) => family.count(&Rational::ZERO, budget).map_err(not_counted)?,
-        None => None,
-    };
-    let Some(count) = count else {
-        return Ok(PointVerdict::with_dead_time(degree, 0, None));
-    };
+    let count = delayed.family().map(|family| family.count(&Rational::ZERO, budget).map_err(not_counted));
+    let Some(count) = count.transpose()?.flatten() else { return Ok(PointVerdict::with_dead_time(degree, 0, None)) };
     Ok(PointVerdict::with_dead_time(degree, count.on, count.right))
 }
 

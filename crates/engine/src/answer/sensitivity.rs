@@ -85,14 +85,8 @@ impl Answer<StableSet> {
         let mut out = Sensitivities::default();
         for end in ends {
             for (name, value, family) in &columns {
-                let derivative = match family {
-                    Some(family) => family.derivative(end, budget)?,
-                    None => None,
-                };
-                let (derivative, relative) = match derivative {
-                    Some((derivative, relative)) => (Some(derivative), relative),
-                    None => (None, None),
-                };
+                let found = family.as_ref().map(|family| family.derivative(end, budget)).transpose()?.flatten();
+                let (derivative, relative) = found.map_or((None, None), |(own, relative)| (Some(own), relative));
                 let (limit, name, value) = (end.value.clone(), name.clone(), value.clone());
                 out.rows.push(Sensitivity { limit, name, value, derivative, relative });
             }

@@ -55,10 +55,8 @@ impl Algebra {
             problem.free().iter().position(|f| problem.region().is_free() && f.name == problem.region().bound_name());
         let kept: Vec<String> =
             problem.free().iter().enumerate().filter(|(i, _)| Some(*i) != bound).map(|(_, f)| f.name.clone()).collect();
-        let evaluated = match known(problem, budget) {
-            Some(found) => found,
-            None => model.evaluate_near(&kept, problem.set(), near, budget),
-        };
+        let evaluated =
+            known(problem, budget).unwrap_or_else(|| model.evaluate_near(&kept, problem.set(), near, budget));
         let evaluated = match evaluated {
             Ok(evaluated) => evaluated,
             Err(Error::Undefined(why)) => {

@@ -125,10 +125,9 @@ pub(super) fn factors(p: &[Enclosure], budget: &Budget) -> Result<Option<(Enclos
         None => {
             let bits = ROOT_BITS * 2;
             let balls: Vec<Ball> = p.iter().rev().map(|c| Ball::from_enclosure(c, bits)).collect();
-            match root_discs(&balls, bits).filter(|discs| discs.iter().all(|disc| disc.is_one)) {
-                Some(discs) => discs,
-                None => return Ok(None),
-            }
+            let discs = root_discs(&balls, bits).filter(|discs| discs.iter().all(|disc| disc.is_one));
+            let Some(discs) = discs else { return Ok(None) };
+            discs
         }
     };
     let factor = |disc: &RootDisc| {

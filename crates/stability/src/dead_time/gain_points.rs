@@ -211,15 +211,9 @@ fn within(
         if !inside {
             continue;
         }
-        let below = match &beyond.below {
-            Some(end) => point.value.compare(end, budget)?.is_lt(),
-            None => false,
-        };
-        let above = match &beyond.above {
-            Some(end) => point.value.compare(end, budget)?.is_gt(),
-            None => false,
-        };
-        if !below && !above {
+        let beside = |end: &Option<Real>| end.as_ref().map(|end| point.value.compare(end, budget)).transpose();
+        let (below, above) = (beside(&beyond.below)?, beside(&beyond.above)?);
+        if below.is_none_or(|side| side.is_ge()) && above.is_none_or(|side| side.is_le()) {
             out.push(point);
         }
     }

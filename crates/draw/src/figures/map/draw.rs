@@ -74,10 +74,8 @@ impl<'a> MapContents<'a> {
         }
         let mut on_lines = limits_on_lines(answer);
         on_lines.extend(extreme_points(answer));
-        let layers = match &answer.value().required {
-            Some(found) => Some(Layers::new(found, &answer.problem().free()[1].domain, trace.windows.clone(), budget)?),
-            None => None,
-        };
+        let layers = |found| Layers::new(found, &answer.problem().free()[1].domain, trace.windows.clone(), budget);
+        let layers = answer.value().required.as_ref().map(layers).transpose()?;
         Ok(MapContents { answer, map, trace, layers, walls, frequencies: found, on_lines, published })
     }
 
