@@ -46,7 +46,7 @@ pub(in crate::cli) struct Options {
     /// Also asks how far this parameter may go while all others have their tolerances
     #[arg(long, value_name = "NAME")]
     pub limit: Option<String>,
-    /// Also proves the largest factor as an exact algebraic number
+    /// Also proves the largest factor as an exact number, where it is one that is known; else it is between what is proved and what is refuted
     #[arg(long)]
     pub exact: bool,
     /// Also says which share of the box is stable, up to 1 % that may stay undecided (at most six parameters)
@@ -66,6 +66,10 @@ const BRACKET_DIGITS: u32 = 6;
 
 /// No bracket is asked to be narrower.
 const MOST_DIGITS: u32 = 18;
+
+/// What is said where no number was proved.
+const NO_EXACT_NUMBER: &str =
+    "the factor is not proved as an exact number; it is in the bracket, which is as narrow as --digits says, up to 18";
 
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
@@ -116,6 +120,10 @@ fn run(options: &Options, context: &Context) -> Outcome {
             "note: --limit begins at a nominal point that is stable: 'jurist intervals --param {}' finds one",
             visible(name)
         ));
+    }
+    let has_no_number = options.exact && answer.value().factor.is_some() && answer.value().exact.is_none();
+    if has_no_number && !context.quiet {
+        note(&format!("note: {NO_EXACT_NUMBER}"));
     }
     let question = request
         .requirements
