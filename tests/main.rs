@@ -121,6 +121,7 @@ mod tolerances {
     mod program;
     mod published;
     mod required;
+    mod shares;
 }
 
 /// Certificates: true ones are accepted by both checkers, wrong ones by none.

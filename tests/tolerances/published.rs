@@ -116,8 +116,9 @@ fn an_unstable_disc_that_lines_miss_is_found() {
 #[test]
 fn the_factor_of_the_disc_is_exact_though_its_point_is_not_a_corner() {
     let answer = of_example("unstable-disc");
-    let proof = answer.value().exact.as_ref().expect("closed");
-    assert_eq!(proof.value.exact(), Some(number("3/11")));
+    let exact = answer.value().exact.as_ref().expect("closed");
+    assert_eq!(exact.value.exact(), Some(number("3/11")));
+    let proof = exact.proof.as_ref().expect("by cells");
     assert_eq!(proof.place, [Place::Low, Place::Inside]);
 }
 

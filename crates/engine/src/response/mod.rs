@@ -65,7 +65,6 @@ mod required_map;
 mod required_set;
 mod requirement;
 mod requirement_boxes;
-mod same_count;
 mod sampled_delay;
 mod shortened;
 mod spiral;
