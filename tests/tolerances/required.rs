@@ -308,6 +308,7 @@ const HELD: &str = "time = 'discrete'\nsample_time = 'T'\n[parameters]\ntau = { 
 
 /// Corners and random points of the proved box meet the requirement, decided by crossings at each; the point beyond does not.
 #[test]
+#[ignore = "long: CI runs it"]
 fn requirements_behind_a_hold_hold_for_constants_of_the_plant() {
     let model = load(HELD);
     let mut random = Random::new(15);
