@@ -162,8 +162,8 @@ impl Counted {
         Counted { right, switches: Vec::new(), grows, crossings: Vec::new() }
     }
 
-    /// Whether an interval of angles over frequencies holds no switch but one: of each crossing the first that is not before it is
-    /// looked at.
+    /// Whether an interval of dead times holds one switch and no other. A crossing has many switches: the first one that does not lie before the
+    /// interval decides.
     fn is_alone(&self, (crossing, turns): (usize, usize), [a, b]: [&Q; 2]) -> Result<bool, String> {
         for (i, (c, ends)) in self.crossings.iter().enumerate() {
             let before = ends.partition_point(|hi| hi * a.denom() < *a.numer());

@@ -4,6 +4,7 @@ use super::clock::Clock;
 use super::dead_time::characteristic_function;
 use super::expression::Base;
 use super::frequency::{Family, Frequencies, Label};
+use super::multivariate::Multi;
 use super::number::{Q, Z};
 use super::over_symbols::primitive;
 use super::statement::{Extent, count, extent, identifier, list, number, object, pair, text, values};
@@ -131,16 +132,13 @@ fn family(
     clock: &Clock,
 ) -> Result<(Family, Vec<Uni>), String> {
     let found = characteristic_function(text, parameter, set, Base::Number(&tau), clock)?;
-    let in_parameter = |p: &super::multivariate::Multi| {
+    let in_parameter = |p: &Multi| {
         let numbers = p.coefficients(1);
         Uni::new(numbers.iter().map(|c| c.0.values().next().cloned().unwrap_or_default()).collect())
     };
     let common = |list: &[Uni]| list.iter().try_fold(Uni::default(), |g, c| g.gcd(c, clock));
-    let mut divisors = Vec::new();
-    for divisor in &found.divisors {
-        let coefficients: Vec<Uni> = divisor.coefficients(0).iter().map(in_parameter).collect();
-        divisors.push(common(&coefficients)?);
-    }
+    let of = |divisor: &Multi| common(&divisor.coefficients(0).iter().map(in_parameter).collect::<Vec<_>>());
+    let mut divisors = found.divisors.iter().map(of).collect::<Result<Vec<_>, _>>()?;
     let mut parts: Vec<Vec<Uni>> = primitive(found.function.coefficients(2), clock)?
         .iter()
         .map(|part| part.coefficients(0).iter().map(in_parameter).collect())

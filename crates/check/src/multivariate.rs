@@ -165,10 +165,7 @@ impl Multi {
         let mut out = vec![Multi::default(); if self.is_zero() { 0 } else { self.degree(variable) + 1 }];
         for (e, c) in &self.0 {
             let mut rest = e.clone();
-            let k = match rest.get_mut(variable) {
-                Some(e) => std::mem::take(e) as usize,
-                None => 0,
-            };
+            let k = rest.get_mut(variable).map_or(0, |e| std::mem::take(e) as usize);
             out[k].add(rest, c.clone());
         }
         out

@@ -1,4 +1,5 @@
-//! Numbers in statements: short fractions as they are, all others by twelve digits of which it is said, or plain, which way they are rounded.
+//! Numbers in statements. A short fraction stands as it is. Any other number is a decimal of twelve digits. Three dots stand behind digits that are
+//! cut off. The sentence makes plain in which direction an end is rounded.
 
 use super::number::{Q, Z};
 use num_traits::{Signed, Zero};
@@ -12,7 +13,7 @@ const FEW: i64 = 3;
 /// Fractions that take no more characters are written as such.
 const SHORT: usize = 12;
 
-/// Whole numbers that take no more characters are.
+/// A whole number with at most so many characters is written in full.
 const WHOLE: usize = 15;
 
 /// Decimals from one to the other power of ten have no exponent.
@@ -100,7 +101,7 @@ fn rounded(q: &Q, leading: i64, up: bool) -> String {
     format!("{sign}{}", layout(&digits.abs(), power, ""))
 }
 
-/// Of the leading digit the power of ten; the least one of zero.
+/// The power of ten of the leading digit. Zero has the least power.
 fn exponent(q: &Q) -> i64 {
     if q.is_zero() {
         return i64::MIN / 2;

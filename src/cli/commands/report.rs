@@ -77,10 +77,7 @@ impl Runs for Options {
         let report = loop_report(&question, &request, &context.budget);
         context.reporter.finish();
         finish_answer(&report.html, Some(file))?;
-        Ok(match &report.stopped {
-            Some(stopped) => context.say_undecided(stopped),
-            None => Status::Holds,
-        })
+        Ok(report.stopped.as_ref().map_or(Status::Holds, |stopped| context.say_undecided(stopped)))
     }
 
     fn files<'a>(&'a self, files: &mut Files<'a>) -> Result<(), Error> {

@@ -288,11 +288,8 @@ fn root_above(x: &Rational) -> Rational {
 
 /// Discs that are apart: those that touch are one, and one that touches the real axis is made symmetric to it.
 fn parted(discs: Vec<Around>) -> Vec<RootDisc> {
-    let mut parts: Vec<RootDisc> = Vec::new();
-    for disc in discs {
-        let one = RootDisc { re: disc.re, im: disc.im, radius: disc.radius, count: 1, is_one: true, is_pair: false };
-        parts.push(one.symmetric());
-    }
+    let one = |Around { re, im, radius, .. }| RootDisc { re, im, radius, count: 1, is_one: true, is_pair: false };
+    let mut parts: Vec<RootDisc> = discs.into_iter().map(|disc| one(disc).symmetric()).collect();
     // Joined discs may reach others.
     loop {
         let pair =

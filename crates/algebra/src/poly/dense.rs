@@ -254,3 +254,22 @@ impl<R: Domain> fmt::Debug for Poly<R> {
         f.debug_list().entries(&self.coeffs).finish()
     }
 }
+
+/// `l/C(n, k)` for `k` from 0 to `n`, where `l` is the least common multiple of the binomial coefficients: the coefficients of powers are multiplied
+/// by these numbers on the way to Bernstein's basis.
+///
+/// Cost: `O(n)` operations on numbers of `O(n)` bits.
+///
+/// ```
+/// use jurist_algebra::poly::bernstein_weights;
+/// assert_eq!(bernstein_weights(3), [3, 1, 1, 3].map(|k: i64| k.into()));
+/// ```
+pub fn bernstein_weights(n: usize) -> Vec<Integer> {
+    let mut choices = vec![Integer::ONE];
+    for k in 0..n {
+        let next = &choices[k] * &Integer::from((n - k) as u64);
+        choices.push(next.div_exact(&Integer::from(k as u64 + 1)));
+    }
+    let common = choices.iter().fold(Integer::ONE, |l, c| l.lcm(c));
+    choices.iter().map(|c| common.div_exact(c)).collect()
+}

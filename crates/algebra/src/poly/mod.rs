@@ -26,7 +26,7 @@ mod subresultant;
 
 pub use algebraic::{RealAlgebraic, rational_between, simplest_between};
 pub use complex_roots::{RootDisc, complex_roots, root_discs};
-pub use dense::{Poly, UniPoly};
+pub use dense::{Poly, UniPoly, bernstein_weights};
 pub use domain::Domain;
 pub use factored_resultant::resultant_square_free_decomposition;
 pub use multivariate::{Monomial, MultiPoly};

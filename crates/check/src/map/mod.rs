@@ -147,10 +147,8 @@ pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -
     let verdicts = Step::Strips.of(decomposed.cells(strips, clock))?;
     let regions = Step::Stable.of(numbered(&s.regions, &verdicts))?;
     Step::Joins.of((|| {
-        let mut pairs = Vec::new();
-        for (i, join) in list(joins, "'joins'")?.iter().enumerate() {
-            pairs.push(decomposed.join(join, clock).map_err(|e| format!("join {i}: {e}"))?);
-        }
+        let join = |(i, join)| decomposed.join(join, clock).map_err(|e| format!("join {i}: {e}"));
+        let pairs = list(joins, "'joins'")?.iter().enumerate().map(join).collect::<Result<Vec<_>, _>>()?;
         connected(&s.regions, &regions, &pairs)
     })())?;
     Ok(Proved { statement: s.in_words(&places), kind: "map" })

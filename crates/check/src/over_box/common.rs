@@ -1,5 +1,5 @@
-//! What all coefficients of a characteristic polynomial have in common. How a loop is brought to one denominator decides which factor that is, and no
-//! two readers do it alike; without it the signs that are seen over a box are those of the loop.
+//! The common factor of all coefficients of a characteristic polynomial. Each reader brings a loop to one denominator in its own way, so each reader has
+//! a factor of its own. Without that factor the signs over a box are the signs of the loop.
 
 use super::{FIRST, OverBox};
 use crate::clock::Clock;

@@ -70,7 +70,7 @@ impl Statement {
         Ok(Statement { asked, objective, found, tree: text(tree, "'tree'")?.to_owned() })
     }
 
-    /// The loops of which the gains that are found have to be good ones; all but the last one are refuted by cells, if the level of the found ones adds one.
+    /// The numbers of the loops for which the found gains must be good: all loops without the level that no gains have.
     fn loops_of_found(&self) -> Vec<usize> {
         let all = self.asked.each.len();
         match (&self.objective, self.found.as_ref().and_then(|found| found.level.as_ref())) {
@@ -80,7 +80,7 @@ impl Statement {
         }
     }
 
-    /// So many loops, from the first one on, are those of which gains are refuted.
+    /// The number of loops, from the first one on, by which a cell of gains may be refuted: all without the level that the found gains have.
     fn refutable(&self) -> usize {
         self.asked.each.len() - usize::from(self.found.as_ref().is_some_and(|found| found.level.is_some()))
     }
@@ -102,7 +102,7 @@ impl Statement {
     }
 }
 
-/// Stability, each requirement, the level of which there is none, and the level that is found, which takes the place of the former.
+/// What is wanted of the loops, in this order: stability, each requirement, the level that no gains have, and the level that the found gains have.
 fn wanted(
     discrete: bool,
     extent: Extent,

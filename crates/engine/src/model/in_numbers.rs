@@ -1,4 +1,4 @@
-//! Closed loops of which only numbers are asked for.
+//! Closed loops whose answer needs numbers only.
 
 use super::closed_loop::ClosedLoop;
 use super::connect::samples::{Samples, samples};

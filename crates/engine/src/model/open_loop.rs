@@ -382,7 +382,7 @@ fn open_diagram(answer: &mut Answer<'_>, cut: &Cut, model: &Model) -> Result<(),
     Ok(())
 }
 
-/// Which blocks are given an output of which, by their numbers.
+/// For each block, the numbers of the blocks that read one of its outputs.
 fn successors(diagram: &Diagram) -> Vec<Vec<usize>> {
     let reads: Vec<Vec<&str>> =
         diagram.blocks.iter().map(|b| b.inputs.iter().flat_map(|e| e.names()).collect()).collect();

@@ -78,10 +78,7 @@ impl Tolerance {
 /// A number, and whether a percent sign stands behind it, which divides it by 100.
 fn percent(text: &str) -> Result<(Rational, bool), String> {
     let text = text.trim();
-    let (number, is_share) = match text.strip_suffix('%') {
-        Some(number) => (number.trim_end(), true),
-        None => (text, false),
-    };
+    let (number, is_share) = text.strip_suffix('%').map_or((text, false), |number| (number.trim_end(), true));
     let value = parse_number(number.strip_prefix('+').unwrap_or(number)).map_err(|e| e.to_string())?;
     Ok((if is_share { value * Rational::new(1.into(), 100.into()) } else { value }, is_share))
 }

@@ -186,7 +186,8 @@ fn rounded_degrees(twice_cosine: &RealAlgebraic) -> Rational {
     rounded_down(degrees.lower(), &unit)
 }
 
-/// Two numbers around the tangents of half of all angles that are that near to one of which these are around the tangent: it changes by half of `1 + t^2` times the angle.
+/// A wider pair of numbers. The given numbers enclose the tangent `t` of half an angle. The wider pair encloses this tangent for all angles close by: the
+/// tangent changes by half of `1 + t^2` times the change of the angle.
 fn around_rounded([below, above]: [Rational; 2]) -> [Rational; 2] {
     let by = |t: &Rational| (t * t + Rational::ONE) * Rational::dyadic(&1.into(), NEAR_BITS);
     let (less, more) = (&below - &by(&below), &above + &by(&above));

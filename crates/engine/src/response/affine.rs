@@ -4,6 +4,7 @@ use super::along_circle::{Coefficient, NearlyLinear};
 use crate::stability::subdivision::Halves;
 use jurist_algebra::ball::Ball;
 use jurist_algebra::number::{Integer, Rational, Sign};
+use jurist_algebra::poly::bernstein_weights;
 
 /// A linear function of coordinates from -1 to 1, up to a bound; all in units of the last place.
 #[derive(Clone, Debug)]
@@ -117,13 +118,8 @@ impl AlongCircle {
 /// The Bernstein coefficients for `y` from 0 to a power of two, times a positive number that depends on the degree alone.
 fn bernstein<C: Coefficient>(p: Vec<C>, exponent: u64) -> Vec<C> {
     let d = p.len() - 1;
-    let mut choices = vec![Integer::ONE];
-    for k in 0..d {
-        let next = &choices[k] * &Integer::from((d - k) as u64);
-        choices.push(next.div_exact(&Integer::from(k as u64 + 1)));
-    }
-    let common = choices.iter().fold(Integer::ONE, |l, c| l.lcm(c));
-    let scale = |(k, c): (usize, C)| c.scaled(&(&common.div_exact(&choices[k]) << (exponent * k as u64)));
+    let weights = bernstein_weights(d);
+    let scale = |(k, c): (usize, C)| c.scaled(&(&weights[k] << (exponent * k as u64)));
     let mut c: Vec<C> = p.into_iter().enumerate().map(scale).collect();
     for r in 1..=d {
         for k in (r..=d).rev() {

@@ -161,10 +161,7 @@ fn line_at<'d>(source: &Source, span: Span, label: (AnnotationKind, Span, &'d st
     let before = text[line_start..span.start].char_indices().rev().nth(BEFORE - 1);
     let long = text[line_start..line_end].chars().nth(SHOWN).is_some();
     let start = if long { before.map_or(line_start, |(i, _)| line_start + i) } else { line_start };
-    let end = match text[start..line_end].char_indices().nth(SHOWN) {
-        Some((i, _)) => start + i,
-        None => line_end,
-    };
+    let end = text[start..line_end].char_indices().nth(SHOWN).map_or(line_end, |(i, _)| start + i);
     let mut shown = String::new();
     let prefix = if start > line_start { "..." } else { "" };
     shown.push_str(prefix);

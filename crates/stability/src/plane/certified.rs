@@ -6,9 +6,9 @@ use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{MultiPoly, Poly, UniPoly, resultant_square_free_decomposition};
 
-/// Polynomials in `x` of whose powers all those are products at whose zeros the curves may meet, turn, leave or end: leading
-/// coefficients, resultants with the derivative and with one another in `y`, and the curves on the domain's edges. None of them is
-/// constant.
+/// Polynomials in `x` with the places at which curves may meet, turn, leave or end among their zeros. Such places are zeros of leading coefficients, of
+/// resultants of a curve with its derivative and with another curve in `y`, and of the curves on the domain's edges. Each of these is a product of powers
+/// of the polynomials, and no polynomial is constant.
 ///
 /// Cost: that of the projection once more, which does not keep what belongs to which power.
 ///

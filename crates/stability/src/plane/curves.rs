@@ -162,7 +162,7 @@ impl PlanePolynomial {
     /// The exact root count at a point of a loop without symbols.
     ///
     /// # Panics
-    /// When there are symbols: their loops are asked by [`PlanePolynomial::count_at`].
+    /// When there are symbols: their loops are asked by [`SymbolicPolynomial::at`](crate::SymbolicPolynomial::at).
     pub fn at(&self, x: &Rational, y: &Rational, region: Shape) -> AtPoint {
         let point = [x.clone(), y.clone()];
         let value = |p: &MultiPoly| p.eval(&point);

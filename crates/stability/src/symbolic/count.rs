@@ -243,7 +243,7 @@ fn without_root(p: &Poly<MultiPoly>, a: &MultiPoly) -> Poly<MultiPoly> {
     Poly::new(coefficients)
 }
 
-/// Pairs of roots that are mirror images in the boundary, split off: those on it, and those of which one is on either side.
+/// Splits off pairs of roots that are mirror images in the boundary. Both roots of a pair lie on the boundary, or one on each side of it.
 fn split_pairs(
     d: &Poly<MultiPoly>,
     symbols: &Arc<Symbols>,

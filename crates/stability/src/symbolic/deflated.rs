@@ -1,4 +1,4 @@
-//! Zeros of resultants that are not expanded, some of which are known to be double.
+//! Zeros of resultants that are not expanded. Some of these zeros are known to be double.
 
 use super::basis::{Condition, Unexpanded};
 use super::resultant::PairResultant;

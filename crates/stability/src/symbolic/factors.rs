@@ -1,8 +1,8 @@
 //! Factors of a characteristic polynomial over symbols, each of which is decided alone.
 //!
 //! Where two parts of a loop do not act on each other, or one drives the other only, the resultant of the whole polynomial's
-//! half-size pair has factors for pairs of roots of which each part has one. Their zeros mean nothing, and crowd around those of
-//! the parts where these are nearly equal.
+//! half-size pair has factors for pairs of one root of each part. The zeros of these factors mean nothing. Where the parts are nearly equal, they crowd
+//! around the zeros of the parts.
 
 use super::SymbolicPolynomial;
 use jurist_algebra::limits::{Budget, Exhausted};

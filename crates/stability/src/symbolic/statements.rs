@@ -33,7 +33,7 @@ pub(super) struct Conditions {
     pub is_plain: bool,
     /// Rows that the table has.
     pub rows: usize,
-    /// The functions of which the first entry of each row is the product, where another row is divided by it.
+    /// For each row by which another row is divided: the functions whose product is its first entry.
     pub divisors: Vec<Vec<usize>>,
 }
 

@@ -39,10 +39,7 @@ fn roots_of_roots(p: &UniPoly, h: usize, from: &Rational, to: Option<&Rational>,
     for (i, y) in ys.iter().enumerate() {
         // Numbers on both sides of y with no other root in between; the sides of y decide signs.
         let (lo, hi) = y.enclosure();
-        let left = match i.checked_sub(1) {
-            Some(before) => ys[before].enclosure().1.midpoint(&lo),
-            None => from.clone(),
-        };
+        let left = i.checked_sub(1).map_or_else(|| from.clone(), |before| ys[before].enclosure().1.midpoint(&lo));
         let right = match (ys.get(i + 1), to) {
             (Some(after), _) => hi.midpoint(&after.enclosure().0),
             (None, Some(to)) => to.clone(),

@@ -1,5 +1,5 @@
-//! The ways to make a continuous block discrete: one list, of which the words of model files, their schema, errors, the table of the
-//! documentation and Python's type are made.
+//! One list of the ways to make a continuous block discrete. The words of model files, their schema, errors, the table of the documentation and
+//! Python's type follow from this list.
 //!
 //! Each way is a file with a [`Method`]: its words, its keys, and what it does to a system.
 
@@ -38,7 +38,7 @@ pub struct Method {
     pub words: &'static str,
     /// What it does, in a few words.
     pub about: &'static str,
-    /// Other words for it, of which an error says how it is written here.
+    /// Other words for it. An error at such a word says what to write.
     spellings: &'static [&'static str],
     /// What such an error says beside that.
     advice: &'static str,

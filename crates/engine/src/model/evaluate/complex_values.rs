@@ -1,4 +1,4 @@
-//! Complex values: the imaginary unit is one more variable, of which values are brought into one form.
+//! Complex values. The imaginary unit is one more variable. Its square is -1, so that each value has one form.
 
 use super::scalar::{Scope, Variable, checked_product};
 use super::walk::{Failure, division_by_zero, too_large};

@@ -129,8 +129,8 @@ pub(in crate::model) struct Hold {
 #[derive(Clone)]
 pub(in crate::model) struct Pulse {
     pub duty: RationalFunction,
-    /// Where the edges stand that commands at even and at odd samples move, in sample times; each moves by the same share of a change of
-    /// the duty ratio.
+    /// The places of edges in sample times: first the edges that a command at an even sample moves, then those of an odd sample. A change of
+    /// the duty ratio moves all edges of a pulse by the same share of it.
     pub edges: [Vec<RationalFunction>; 2],
     /// Whether these are different.
     pub alternates: bool,
@@ -139,9 +139,9 @@ pub(in crate::model) struct Pulse {
 }
 
 pub(in crate::model) enum DynamicValues {
-    /// Numerator and denominator, of which the denominator's degree is the order.
+    /// Numerator and denominator. The degree of the denominator is the order of the block.
     Ratio(Fraction),
-    /// The same with complex coefficients, of which these are the real and the imaginary parts.
+    /// Numerator and denominator with complex coefficients: first the real part, then the imaginary part.
     ComplexRatio {
         numerator: [ZPoly; 2],
         denominator: [ZPoly; 2],

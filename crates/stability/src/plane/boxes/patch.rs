@@ -2,7 +2,7 @@
 
 use crate::plane::curves::{X, Y};
 use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::MultiPoly;
+use jurist_algebra::poly::{MultiPoly, bernstein_weights};
 
 /// The greatest coefficient of a fresh patch has this many bits; sums of two fit `i128`.
 const BITS: u64 = 120;
@@ -67,14 +67,8 @@ fn bernstein(c: &[Integer], [low, high]: &[Rational; 2]) -> Vec<Integer> {
         out[0].add_mul_assign(a, &power);
     }
     // b_i = sum_(k <= i) C(i, k)/C(d, k) a_k.
-    let mut binomials = vec![Integer::ONE];
-    for k in 0..d {
-        let next = &binomials[k] * &Integer::from((d - k) as u64);
-        binomials.push(next.div_exact(&Integer::from(k as u64 + 1)));
-    }
-    let common = binomials.iter().fold(Integer::ONE, |l, b| l.lcm(b));
-    for (a, b) in out.iter_mut().zip(&binomials) {
-        *a = &*a * &common.div_exact(b);
+    for (a, weight) in out.iter_mut().zip(bernstein_weights(d)) {
+        *a = &*a * &weight;
     }
     for r in 1..=d {
         for i in (r..=d).rev() {
