@@ -1,7 +1,7 @@
 //! Boxes of a window of two parameters of which at least one is inside of functions.
 
 use super::family::Family;
-use super::moving::MovingPolynomial;
+use super::moving::{MovingPolynomial, POINT_BITS};
 use super::prove::{closed_by_vector, scale_of};
 use crate::plane::boxes::{BoxMap, BoxVerdict, Place, Seen, Window, subdivided};
 use crate::symbolic::certain_count;
@@ -92,18 +92,24 @@ impl Known<'_> {
         if self.p.has_no_meaning_in(sides) {
             return Ok(Some(BoxVerdict::Unstable { outside: None }));
         }
+        // Values at points take as long as models where they are those of matrices, and models tell most of them.
+        let models = || self.models.get(self.inside(sides), || self.p.models(sides));
+        let first = if self.p.is_of_matrices { models() } else { None };
         let middle = [x, y].map(|[low, high]| low.midpoint(high));
-        let Some((count, signs, scale)) = self.certain_at(&middle) else { return Ok(None) };
+        let at = |point: &[Rational; 2], corner: [i8; 2]| {
+            let told = first.as_ref().and_then(|models| self.told(&self.at_corner(models, corner), point));
+            told.or_else(|| self.certain_at(point))
+        };
+        let Some((count, signs, scale)) = at(&middle, [0, 0]) else { return Ok(None) };
         // Another count or sign at a corner tells at once that a boundary is here.
         for (i, j) in [(0, 0), (1, 1), (0, 1), (1, 0)] {
-            let corner = self.certain_at(&[x[i].clone(), y[j].clone()]);
+            let corner = at(&[x[i].clone(), y[j].clone()], [i, j].map(|end| 2 * end as i8 - 1));
             if corner.is_some_and(|found| (found.0, &found.1) != (count, &signs)) {
                 return Ok(None);
             }
         }
         checkpoint(200);
-        let inside: Vec<[Rational; 2]> = self.p.inside.iter().map(|&i| sides[i].clone()).collect();
-        let Some(models) = self.models.get(inside, || self.p.models(sides)) else { return Ok(None) };
+        let Some(models) = first.or_else(models) else { return Ok(None) };
         if !self.p.keeps_count(sides, &models, (&signs, scale), (&closed_by_vector, CELLS), budget)? {
             return Ok(None);
         }
@@ -115,12 +121,30 @@ impl Known<'_> {
         }))
     }
 
+    /// The sides of what is inside of functions.
+    fn inside(&self, sides: &[[Rational; 2]; 2]) -> Vec<[Rational; 2]> {
+        self.p.inside.iter().map(|&i| sides[i].clone()).collect()
+    }
+
+    /// The parts of the functions in the middle of a box, or where the coordinates are at its ends.
+    fn at_corner(&self, models: &[Vec<MultiTaylorModel>], corner: [i8; 2]) -> Vec<Vec<Series>> {
+        let coordinates: Vec<i8> = self.p.inside.iter().map(|&i| corner[i]).collect();
+        let value =
+            |model: &MultiTaylorModel| Series::constant(&model.at_corner(&coordinates).with_bits(POINT_BITS), 1);
+        models.iter().map(|parts| parts.iter().map(value).collect()).collect()
+    }
+
     /// The root count at a point, the signs of what must not vanish, and the scale of frequencies; `None` where enclosed coefficients do
     /// not tell.
     fn certain_at(&self, point: &[Rational; 2]) -> Option<(RootCount, Vec<Sign>, i64)> {
         let inside = self.p.inside.iter().map(|&i| point[i].clone()).collect();
         let parts = self.points.get(inside, || self.p.parts_at_point(point))?;
-        let values = self.p.enclosed(point, &parts);
+        self.told(&parts, point)
+    }
+
+    /// The same from the parts of the functions there.
+    fn told(&self, parts: &[Vec<Series>], point: &[Rational; 2]) -> Option<(RootCount, Vec<Sign>, i64)> {
+        let values = self.p.enclosed(point, parts);
         let (coefficients, beside) = values.split_at(self.p.formal_degree() + 1);
         let signs = beside.iter().map(|b| b.sign().filter(|s| s.is_ne())).collect::<Option<Vec<Sign>>>()?;
         let count = certain_count(coefficients, Shape::LeftHalfPlane)?;
