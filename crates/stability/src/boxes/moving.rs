@@ -20,7 +20,7 @@ use jurist_algebra::symbols::ParametricSymbols;
 use std::collections::BTreeMap;
 
 /// Bits after the point of coefficients at a point.
-const POINT_BITS: u64 = 256;
+pub(super) const POINT_BITS: u64 = 256;
 
 /// A box is cut into so many parts at most.
 const MOST_PARTS: usize = 2000;

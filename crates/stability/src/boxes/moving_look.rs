@@ -1,7 +1,7 @@
 //! What is seen of all points of a box where parameters are inside of functions.
 
 use super::look::{BoxLook, MOST_CORNERS};
-use super::moving::MovingPolynomial;
+use super::moving::{MovingPolynomial, POINT_BITS};
 use super::parts::{corners, middle};
 use super::prove::{closed_by_vector, scale_of};
 use crate::symbolic::certain_count;
@@ -73,18 +73,24 @@ impl<'p> Known<'p> {
         if self.p.has_no_meaning_in(sides) {
             return Ok(Some(Everywhere::Meaningless));
         }
+        // Values at points take as long as models where they are those of matrices, and models tell most of them.
+        let models = || self.models.get(self.inside(sides), || self.p.models(sides));
+        let first = if self.p.is_of_matrices { models() } else { None };
+        let at = |point: &[Rational]| {
+            let told = first.as_ref().and_then(|models| self.told(&self.parts_of(models, sides, point), point));
+            told.or_else(|| self.certain_at(point))
+        };
         let middle = middle(sides);
-        let Some((count, signs, scale)) = self.certain_at(&middle) else { return Ok(None) };
+        let Some((count, signs, scale)) = at(&middle) else { return Ok(None) };
         // Another count or sign at a corner tells at once that a boundary is here.
         for corner in corners(sides).take(MOST_CORNERS) {
-            let found = self.certain_at(&corner);
+            let found = at(&corner);
             if found.is_some_and(|found| (found.0, &found.1) != (count, &signs)) {
                 return Ok(None);
             }
         }
         checkpoint(200);
-        let inside: Vec<[Rational; 2]> = self.p.inside.iter().map(|&i| sides[i].clone()).collect();
-        let Some(models) = self.models.get(inside, || self.p.models(sides)) else { return Ok(None) };
+        let Some(models) = first.or_else(models) else { return Ok(None) };
         if !self.p.keeps_count(sides, &models, (&signs, scale), (&closed_by_vector, CELLS), budget)? {
             return Ok(None);
         }
@@ -132,10 +138,37 @@ impl<'p> Known<'p> {
             .map_or(0, |(_, i)| i)
     }
 
+    /// The sides of what is inside of functions.
+    fn inside(&self, sides: &[[Rational; 2]]) -> Vec<[Rational; 2]> {
+        self.p.inside.iter().map(|&i| sides[i].clone()).collect()
+    }
+
+    /// The parts of the functions in the middle of a box or at a corner, from their models in the box.
+    fn parts_of(
+        &self,
+        models: &[Vec<MultiTaylorModel>],
+        sides: &[[Rational; 2]],
+        point: &[Rational],
+    ) -> Vec<Vec<Series>> {
+        let coordinate = |&i: &usize| i8::from(point[i] == sides[i][1]) - i8::from(point[i] == sides[i][0]);
+        let coordinates: Vec<i8> = self.p.inside.iter().map(coordinate).collect();
+        let value =
+            |model: &MultiTaylorModel| Series::constant(&model.at_corner(&coordinates).with_bits(POINT_BITS), 1);
+        models.iter().map(|parts| parts.iter().map(value).collect()).collect()
+    }
+
     /// The root count at a point, the signs of what must not vanish, and the scale of frequencies; `None` where enclosed coefficients do
     /// not tell.
     fn certain_at(&self, point: &[Rational]) -> Option<(RootCount, Vec<Sign>, i64)> {
-        let values = self.values_at(point)?;
+        self.told_by(&self.values_at(point)?)
+    }
+
+    /// The same from the parts of the functions there.
+    fn told(&self, parts: &[Vec<Series>], point: &[Rational]) -> Option<(RootCount, Vec<Sign>, i64)> {
+        self.told_by(&self.p.enclosed(point, parts))
+    }
+
+    fn told_by(&self, values: &[Ball]) -> Option<(RootCount, Vec<Sign>, i64)> {
         let (coefficients, beside) = values.split_at(self.p.formal_degree() + 1);
         let signs = beside.iter().map(|b| b.sign().filter(|s| s.is_ne())).collect::<Option<Vec<Sign>>>()?;
         let count = certain_count(coefficients, Shape::LeftHalfPlane)?;
