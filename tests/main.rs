@@ -122,6 +122,7 @@ mod tolerances {
     mod published;
     mod required;
     mod shares;
+    mod spiral;
 }
 
 /// Certificates: true ones are accepted by both checkers, wrong ones by none.

@@ -68,6 +68,7 @@ mod requirement_boxes;
 mod sampled_delay;
 mod shortened;
 mod spiral;
+mod spiral_over_box;
 mod taylor_along;
 mod turning;
 mod value;
