@@ -121,6 +121,8 @@ mod tolerances {
     mod program;
     mod published;
     mod required;
+    mod shares;
+    mod spiral;
 }
 
 /// Certificates: true ones are accepted by both checkers, wrong ones by none.

@@ -191,6 +191,7 @@ fn boxes_wider_than_the_truth_are_rejected() {
 
 /// Changes of one value each: what both checkers accept is true.
 #[test]
+#[ignore = "long: CI runs it"]
 fn changed_certificates_are_rejected_or_true() {
     for (plant, every, least) in [(PLANTS[2], 1, 250), (PLANTS[0], 5, 150), (PLANTS[8], 3, 100)] {
         let text = loop_of(plant);

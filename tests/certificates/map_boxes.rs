@@ -147,6 +147,7 @@ fn agree_with_verdicts(text: &str, sides: [Side; 2], certificate: &str, every: u
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn boxes_of_examples_are_certified() {
     let maps = [
         ("drive", [("T", "0", "0.001"), ("K_pwm", "0", "600")], "0.05"),
@@ -168,6 +169,7 @@ fn boxes_of_examples_are_certified() {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn functions_of_parameters_and_constants_are_certified() {
     let loops = [
         ("continuous", "(s + 1)*(s^2 + sqrt(2)*b*s + b^2) + a*b^2"),

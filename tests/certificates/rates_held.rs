@@ -118,6 +118,7 @@ fn the_drive_at_ten_rates_is_certified() {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn plants_of_all_kinds_are_certified_at_all_rates() {
     let (mut random, mut exact) = (Random::new(5), 0);
     for (k, plant) in PLANTS.iter().enumerate().filter(|(k, _)| is_tried(*k, 3)) {
@@ -143,6 +144,7 @@ fn plants_of_all_kinds_are_certified_at_all_rates() {
 
 /// Whatever the rates of another model are, of two checkers that accept a verdict each is right.
 #[test]
+#[ignore = "long: CI runs it"]
 fn a_verdict_is_about_these_rates() {
     let mut random = Random::new(77);
     let (mut rejected, mut accepted) = (0, 0);
@@ -176,6 +178,7 @@ fn a_verdict_is_about_these_rates() {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn certificates_by_enclosures_that_lie_are_rejected() {
     let text = cascade(PLANTS[2], ["every = 3\nphase = 1", "every = 2"]);
     for value in tried(["1/10", "30"], 2) {

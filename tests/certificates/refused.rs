@@ -49,6 +49,7 @@ fn a_box_around_a_point_that_misses_a_requirement_is_not_certified_but_the_point
 
 /// `K L/s` bears `pi/(2 K L)`: a second for all `L` up to 2 as long as `K <= pi/4`.
 #[test]
+#[ignore = "long: CI runs it"]
 fn a_delay_margin_for_all_values_has_no_certificate() {
     let file = std::env::temp_dir().join(format!("jurist-for-all-{}.cert", std::process::id()));
     let arguments = ["intervals", "K*L/s", "--param", "K", "--domain", "K=1/2..1", "--for-all", "L=1..2"];

@@ -121,6 +121,7 @@ fn places(set: &StableSet) -> Vec<(String, String)> {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn limits_are_those_of_the_transfer_function_written_out() {
     let mut random = Random::new(2003);
     let (mut ends, mut moving) = (0, 0);
@@ -179,6 +180,7 @@ fn a_command_turned_by_right_angles_more_has_another_sign() {
 /// Pulses of zero voltage, commanded before their period begins: by hand, edge by edge. With the edge at `t` behind the sample the
 /// column `exp(-(1 - phi)/2)` acts on the command of `m` samples before, `t = m + phi`.
 #[test]
+#[ignore = "long: CI runs it"]
 fn pulses_of_zero_voltage_in_a_turning_frame() {
     let text = |block: &str| {
         format!(

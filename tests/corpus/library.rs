@@ -50,6 +50,7 @@ fn the_library_answers_as_expected() {
 
 /// Everything that an expectation says counts: each changed in one place is no longer met.
 #[test]
+#[ignore = "long: CI runs it"]
 fn broken_expectations_are_not_met() {
     let mut broken = 0;
     for case in cases() {

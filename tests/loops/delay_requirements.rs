@@ -189,6 +189,7 @@ fn random_loops_against_a_count_for_each_number_of_samples() {
 
 /// Behind a hold the dead time need not be whole samples: a short bracket, on whose sides the margins at points say what the set says.
 #[test]
+#[ignore = "long: CI runs it"]
 fn dead_time_behind_a_hold() {
     let model = series("time = 'discrete'", "1/(s + 1)", "discretize = { method = 'zoh', T = 0.5 }\n");
     let range = Range::between(Some(number("1")), Some(number("8")));

@@ -203,6 +203,7 @@ proptest! {
 
     /// With s = (z - 1)/(z + 1) both kinds of time have the same stable set; a lost degree is a root at z = -1.
     #[test]
+    #[ignore = "long: CI runs it"]
     fn continuous_answers_are_the_discrete_ones_through_the_bilinear_map(
         rows in vec((-4i64..=4, -3i64..=3, -1i64..=1), 2..6),
         pole in prop::option::of(-2i64..=2),

@@ -51,6 +51,7 @@ fn read_and_written(document: &Value) -> Result<Value, String> {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn every_document_of_the_examples_fits_its_schema() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
     let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
@@ -148,6 +149,7 @@ const FORMS: &[&[&str]] = &[
 ];
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn every_kind_of_document_fits_its_schema_and_every_schema_is_used() {
     let mut used = BTreeSet::new();
     for arguments in FORMS {

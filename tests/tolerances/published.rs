@@ -93,6 +93,7 @@ fn the_bus_is_not_stable_over_its_whole_range() {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn the_engine_is_stable_over_its_operating_range() {
     let answer = of_example("fiat-dedra");
     assert!(answer.value().decision.is_stable());
@@ -116,8 +117,9 @@ fn an_unstable_disc_that_lines_miss_is_found() {
 #[test]
 fn the_factor_of_the_disc_is_exact_though_its_point_is_not_a_corner() {
     let answer = of_example("unstable-disc");
-    let proof = answer.value().exact.as_ref().expect("closed");
-    assert_eq!(proof.value.exact(), Some(number("3/11")));
+    let exact = answer.value().exact.as_ref().expect("closed");
+    assert_eq!(exact.value.exact(), Some(number("3/11")));
+    let proof = exact.proof.as_ref().expect("by cells");
     assert_eq!(proof.place, [Place::Low, Place::Inside]);
 }
 

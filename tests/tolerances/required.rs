@@ -2,7 +2,7 @@
 
 use crate::helpers::model::{example, load};
 use crate::helpers::number::number;
-use crate::helpers::program::{jurist_with_input, refused};
+use crate::helpers::program::jurist_with_input;
 use crate::helpers::random::Random;
 use crate::helpers::thorough::tried;
 use jurist_algebra::limits::Budget;
@@ -189,13 +189,12 @@ fn an_open_loop_inside_of_the_circle_does_not_have_the_modulus_margin() {
 }
 
 #[test]
-fn requirements_that_are_no_polynomials_are_refused_with_the_reason() {
+fn requirements_beside_a_limit_are_refused_with_the_reason() {
     let model = load(SERVO);
     let refused_for =
         |request: &ToleranceRequest| model.ask().tolerance(request, &Budget::unlimited()).unwrap_err().to_string();
     let phase = || requirement(&model, "phase_margin", "30");
     assert!(refused_for(&request(&model, &["K"], phase()).limit("a")).contains("E-require"));
-    refused(&["tolerance", "--tol", "R_a=1%", "--damping", "0.1"], "E-require");
 }
 
 /// `K/s` bears `pi/(2 K)`: at `K = 1` with a tenth more or less a second as long as `1 + f/10 <= pi/2`.
@@ -308,6 +307,7 @@ const HELD: &str = "time = 'discrete'\nsample_time = 'T'\n[parameters]\ntau = { 
 
 /// Corners and random points of the proved box meet the requirement, decided by crossings at each; the point beyond does not.
 #[test]
+#[ignore = "long: CI runs it"]
 fn requirements_behind_a_hold_hold_for_constants_of_the_plant() {
     let model = load(HELD);
     let mut random = Random::new(15);

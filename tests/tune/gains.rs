@@ -147,6 +147,7 @@ fn two_gains_by_boxes_and_exactly() {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn a_level_over_three_gains() {
     let case = Case::new(THREE, &[("kp", "0.1", "1"), ("ki", "0.1", "1"), ("kd", "0.5", "1.5")], Vec::new());
     let answer = case.answer("max modulus_margin", ratio(5, 100));
@@ -200,6 +201,7 @@ fn two_gains_with_dead_time() {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn specifications_that_cannot_be_met() {
     let bounds = ["--bound", "kp=0.1..1", "--bound", "ki=0.1..1", "--bound", "kd=0.1..1.5"];
     let required = ["--objective", "none", "--phase-margin", "170 deg", "--gain-margin", "1.01"];
@@ -283,6 +285,7 @@ proptest! {
 
     /// `c <= r^3` of `s^3 + a s^2 + b s + c`: the largest decay is `r`, at a triple root, wherever `3 r` and `3 r^2` are within the other bounds.
     #[test]
+    #[ignore = "long: CI runs it"]
     fn a_triple_root_that_is_known(r in 1_i64..12, low in 1_i64..9, high in 11_i64..20) {
         let r = ratio(r, 4);
         let [b, c] = [&r * &r, &(&r * &r) * &r];

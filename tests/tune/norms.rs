@@ -97,6 +97,7 @@ fn a_peak_that_falls_to_zero() {
 
 /// The steady state from the reference is 1 for all gains with integral action: no box has less.
 #[test]
+#[ignore = "long: CI runs it"]
 fn a_peak_at_the_steady_state_is_enclosed() {
     let model = diagram("continuous", "(k*s + ki)/s", "1/(s + 1)^3", "");
     let gains = boxed([("k", "1/100", "3"), ("ki", "1/100", "2")]);

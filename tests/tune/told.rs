@@ -101,6 +101,7 @@ fn the_loss_of_a_bracket_is_an_upper_one() {
 
 /// Wherever the work ends, what is known is said.
 #[test]
+#[ignore = "long: CI runs it"]
 fn an_early_end_leaves_the_bracket_so_far() {
     let three = [
         "(kd*s^2+kp*s+ki)/(s*(s+1)^3)",

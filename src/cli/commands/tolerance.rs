@@ -50,7 +50,7 @@ pub(in crate::cli) struct Options {
     /// Also asks how far this parameter may go while all others have their tolerances
     #[arg(long, value_name = "NAME")]
     pub limit: Option<String>,
-    /// Also proves the largest factor as an exact algebraic number
+    /// Also proves the largest factor as an exact number, where it is one that is known; else it is between what is proved and what is refuted
     #[arg(long)]
     pub exact: bool,
     /// Also says which share of the box is stable, up to 1 % that may stay undecided (at most six parameters)
@@ -71,6 +71,10 @@ const BRACKET_DIGITS: u32 = 6;
 /// No bracket is asked to be narrower.
 const MOST_DIGITS: u32 = 18;
 
+/// What is said where no number was proved.
+const NO_EXACT_NUMBER: &str =
+    "the factor is not proved as an exact number; it is in the bracket, which is as narrow as --digits says, up to 18";
+
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
         let output = &self.decision.output;
@@ -90,7 +94,8 @@ impl Runs for Options {
             Err(stopped) if picture.is_some() => return Ok(context.say_undecided(&stopped)),
             Err(stopped) => {
                 let mut open = question;
-                for (name, _) in &request.tolerances {
+                let ranges = request.for_all.iter().map(|all| &all.name);
+                for name in request.tolerances.iter().map(|(name, _)| name).chain(ranges) {
                     open = open.without_value(name).free(name);
                 }
                 let problem = open.problem()?;
@@ -105,6 +110,10 @@ impl Runs for Options {
                 "note: --limit begins at a nominal point that is stable: 'jurist intervals --param {}' finds one",
                 visible(name)
             ));
+        }
+        let has_no_number = self.exact && answer.value().factor.is_some() && answer.value().exact.is_none();
+        if has_no_number && !context.quiet {
+            note(&format!("note: {NO_EXACT_NUMBER}"));
         }
         let question = request
             .requirements

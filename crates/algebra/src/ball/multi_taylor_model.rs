@@ -141,6 +141,19 @@ impl MultiTaylorModel {
         out
     }
 
+    /// The value where each coordinate is -1, 0 or 1.
+    pub fn at_corner(&self, coordinates: &[i8]) -> Ball {
+        let sum = self.terms().fold(Integer::ZERO, |sum, (e, c)| {
+            let mut powers = coordinates.iter().zip(e).filter(|(_, e)| **e > 0);
+            match powers.clone().any(|(u, _)| *u == 0) {
+                true => sum,
+                false if powers.by_ref().filter(|(u, e)| **u < 0 && **e % 2 == 1).count() % 2 == 1 => sum - c,
+                false => sum + c,
+            }
+        });
+        Ball::from_units(&sum - &self.rest, &sum + &self.rest, self.bits)
+    }
+
     /// With other bits after the point.
     pub fn with_bits(&self, bits: u64) -> MultiTaylorModel {
         self.rescaled(bits, 0)

@@ -9,18 +9,18 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Models have at most so many coefficients, and this degree at most.
-const TERMS: usize = 36;
-const DEGREE: usize = 8;
+const TERMS: usize = 100;
+const DEGREE: usize = 16;
 
 /// Boxes of the grid are tried from those of half the size of the values down, each so many octaves shorter.
 const STEP: i64 = 2;
 const STEPS: i64 = 12;
 
 /// Models over a box serve for a part where they leave out less than this share of the function there, in bits.
-const FINE_BITS: u64 = 24;
+const FINE_BITS: u64 = 20;
 
-/// What rounding leaves out is never more than this, in bits.
-const ROUNDING: u64 = 48;
+/// The same as a share of the greatest of all functions: some are zero.
+const SMALL_BITS: u64 = 36;
 
 /// What is left beyond a line on a side of the grid, as a share of half the side, in bits.
 const MARGIN_BITS: u64 = 6;
@@ -132,18 +132,14 @@ fn on_part(
         moved.shifted(-side.octave)
     };
     let lines: Vec<MultiTaylorModel> = key.iter().zip(parameters).map(line).collect();
-    let value = |model: &MultiTaylorModel| {
-        let found = model.along(&lines);
-        is_fine(&found).then(|| found.with_bits(bits))
+    let found: Vec<MultiTaylorModel> = tile.iter().map(|model| model.along(&lines)).collect();
+    let largest = |model: &MultiTaylorModel| model.terms().map(|(_, c)| c.abs()).max().unwrap_or(Integer::ZERO);
+    let least = found.iter().map(largest).max().unwrap_or(Integer::ZERO) >> SMALL_BITS;
+    let is_fine = |model: &MultiTaylorModel| {
+        let rest = model.rest_units();
+        *rest <= least || &(rest << FINE_BITS) <= &largest(model)
     };
-    tile.iter().map(value).collect()
-}
-
-/// Whether a model leaves out little.
-fn is_fine(model: &MultiTaylorModel) -> bool {
-    let largest = model.terms().map(|(_, c)| c.abs()).max().unwrap_or(Integer::ZERO);
-    let rest = model.rest_units();
-    rest.bit_length() <= ROUNDING || &(rest << FINE_BITS) <= &largest
+    found.iter().all(is_fine).then(|| found.iter().map(|model| model.with_bits(bits)).collect())
 }
 
 #[cfg(test)]

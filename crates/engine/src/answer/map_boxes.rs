@@ -292,8 +292,7 @@ impl Problem {
             return by(method, budget);
         }
         let ring = self.coefficient_ring(budget)?;
-        // The curve of a delay margin is not algebraic.
-        let is_of_boxes = requirements.iter().any(Requirement::is_delay_margin);
+        let is_of_boxes = requirements.iter().any(|one| one.has_no_curve(self.time()));
         let has_exact = Asked::ExactMap.over(ring).is_answered() && !is_of_boxes;
         let has_boxes = self.window_over(ring, request, budget).is_ok();
         let is_short = match ring {

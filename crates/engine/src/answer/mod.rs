@@ -33,7 +33,7 @@ pub use roots::{BeyondRoots, ClosedLoopRoot, RIGHTMOST, Roots};
 pub use sensitivity::{Sensitivities, Sensitivity};
 pub(crate) use sides::Sides;
 pub use table::{ParametricTable, PointTable};
-pub use tolerance::{LimitSide, RequiredBox, ToleranceAnswer, ToleranceLimit, ToleranceRequest, WorstEnd};
+pub use tolerance::{ExactFactor, LimitSide, RequiredBox, ToleranceAnswer, ToleranceLimit, ToleranceRequest, WorstEnd};
 pub(crate) use tolerance::{SYMBOL_BITS, Truth};
 pub use verdict::{DelayedRoots, PointVerdict, Verdict};
 

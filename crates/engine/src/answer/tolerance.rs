@@ -18,6 +18,7 @@ use crate::stability::{AtPoint, End};
 use decide::Asked;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::real::Real;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -171,8 +172,8 @@ pub struct ToleranceAnswer {
     pub factor: Option<LargestFactor>,
     /// Where stability is lost on the line to the worst point; `None` where none was found.
     pub worst: Option<WorstEnd>,
-    /// Why the end of that line is the largest factor, where that was asked for and proved.
-    pub exact: Option<ExactProof>,
+    /// The largest factor as a number, where that was asked for and proved.
+    pub exact: Option<ExactFactor>,
     /// The factor at which the first parameter reaches the end of its domain.
     pub domain_factor: Option<Rational>,
     /// The range of one parameter that is safe for all values of the others.
@@ -207,6 +208,23 @@ impl ToleranceAnswer {
                 AllOf::new(&free.name, low, high)
             })
             .collect()
+    }
+}
+
+/// The largest factor as a number with any digits.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct ExactFactor {
+    /// The factor.
+    pub value: Real,
+    /// Why nothing in the box is worse than a point of the line that ends there; `None` where one name alone has a tolerance, and the lines up and
+    /// down from its nominal value are the whole box.
+    pub proof: Option<ExactProof>,
+}
+
+impl From<ExactProof> for ExactFactor {
+    fn from(proof: ExactProof) -> ExactFactor {
+        ExactFactor { value: proof.value.clone(), proof: Some(proof) }
     }
 }
 

@@ -125,6 +125,11 @@ pub(super) static REQUIRED_BOXES: Method = Method::new(
      requirement allows it there. A box where all are allowed meets the requirement, one where a sign changes among forbidden ones does not; others are halved.",
     "answer::MapBoxes",
 );
+pub(super) static SPIRAL_BOXES: Method = Method::new(
+    "arcs of the spiral by Taylor models in the parameters",
+    "The damping of a discrete loop asks for roots inside of a logarithmic spiral. On arcs of it the characteristic polynomial keeps to half planes for all points      of a box: then all have as many roots inside, which one point tells. Other boxes are halved.",
+    "answer::MapBoxes",
+);
 pub(super) static DELAYED_REQUIRED: Method = Method::new(
     "pieces of the imaginary axis by Taylor models in the parameters",
     "Taylor models of the coefficients of the open loop's rational factor in a box of the parameters, times the cosine and the sine of the dead time: cubics \

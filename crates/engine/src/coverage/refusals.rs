@@ -152,11 +152,6 @@ pub(crate) static SLICES_ARE_OF_STABILITY: Refusal = Refusal::new(
     "the slices of '-z' are of stability alone, without '{option}'",
     "leave out '-z' and give its parameter one value with '--set'",
 );
-pub(crate) static ONLY_THE_BOX: Refusal = Refusal::new(
-    Code::Tolerance,
-    "{what} not asked of tolerances inside of functions or with dead time",
-    "what can be asked of it: whether the box is stable, the largest factor with its worst point and shares, and --limit",
-);
 pub(crate) static MARGINS_IN_ONE: Refusal = Refusal::new(
     Code::Require,
     "of this loop requirements on margins are decided in one parameter only",

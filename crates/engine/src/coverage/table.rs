@@ -56,7 +56,6 @@ const NO_ORDER: Coverage = R(&NO_FIXED_ORDER);
 const NO_DELAY: Coverage = R(&DEAD_TIME);
 const UNDAMPED: Coverage = R(&NO_DAMPING);
 const NO_FUNCTIONS: Coverage = R(&FUNCTIONS);
-const BOX_ALONE: Coverage = R(&ONLY_THE_BOX);
 
 /// The refusals of certificates and proofs over what is not rational are of the same kind everywhere.
 const NO_COQ: Coverage = R(&NOT_FOR_COQ);
@@ -93,8 +92,8 @@ static ROWS: &[Row] = &[
     Row::new(Asked::RootLocusForm, "charpoly --root-locus-form NAME", [A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), NO_ORDER]),
     Row::new(Asked::Transfer, "charpoly --transfer INPUT OUTPUT", [A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), NO_ORDER]),
     Row::new(Asked::ToleranceLimit, "tolerance --tol NAME=10% --limit NAME", [A(&TENSOR), A(&TENSOR), A(&FUNCTION_TENSOR), A(&DELAYED_TENSOR), BESIDE, NO_ORDER]),
-    Row::new(Asked::ToleranceExact, "tolerance --tol NAME=10% --exact", [A(&TENSOR), A(&TENSOR), BOX_ALONE, BOX_ALONE, BOX_ALONE, NO_ORDER]),
-    Row::new(Asked::ToleranceVolume, "tolerance --tol NAME=10% --volume", [A(&TENSOR), A(&TENSOR), BOX_ALONE, BOX_ALONE, BOX_ALONE, NO_ORDER]),
+    Row::new(Asked::ToleranceExact, "tolerance --tol NAME=10% --exact", [A(&TENSOR), A(&TENSOR), A(&FUNCTION_TENSOR), A(&DELAYED_TENSOR), BESIDE, NO_ORDER]),
+    Row::new(Asked::ToleranceVolume, "tolerance --tol NAME=10% --volume", [A(&TENSOR), A(&TENSOR), A(&FUNCTION_TENSOR), A(&DELAYED_TENSOR), BESIDE, NO_ORDER]),
     at_a_point(Asked::VerdictInRegion, "verdict REGION", [A(&COUNT), A(&ENCLOSED_COUNT), A(&ARGUMENT), BESIDE]),
     Row::new(Asked::IntervalsInRegion, "intervals --param NAME REGION", [A(&ZEROS), A(&ENCLOSED_ZEROS), A(&FUNCTION_ZEROS), A(&CROSSINGS), BESIDE, A(&SAMPLES)]),
     at_a_point(Asked::RegionBound, "intervals --param BOUND", [A(&ZEROS), A(&ENCLOSED_ZEROS), A(&CROSSINGS), BESIDE]),
@@ -107,9 +106,9 @@ static ROWS: &[Row] = &[
     at_a_point(Asked::VerdictWithDamping, "verdict --damping 1/10", [A(&ROOTS), A(&ROOTS), UNDAMPED, UNDAMPED]),
     Row::new(Asked::IntervalsWithDamping, "intervals --param NAME --damping 1/10", [A(&ROOTS), A(&ROOTS), A(&ROOTS), UNDAMPED, UNDAMPED, NO_ORDER]),
     Row::new(Asked::MapWithDamping, "map -x NAME -y NAME --damping 1/10", [A(&RESULTANTS), A(&RESULTANTS), B(&REQUIRED_BOXES), UNDAMPED, UNDAMPED, NO_ORDER]).in_time(Time::Continuous),
-    Row::new(Asked::MapWithDampingDiscrete, "map -x NAME -y NAME --damping 1/10", [R(&NOT_IN_A_PLANE), R(&NOT_IN_A_PLANE), R(&NOT_IN_A_PLANE), NO_DELAY, NO_DELAY, NO_ORDER]).in_time(Time::Discrete),
+    Row::new(Asked::MapWithDampingDiscrete, "map -x NAME -y NAME --damping 1/10", [B(&SPIRAL_BOXES), B(&SPIRAL_BOXES), B(&SPIRAL_BOXES), NO_DELAY, NO_DELAY, NO_ORDER]).in_time(Time::Discrete),
     Row::new(Asked::ToleranceWithDamping, "tolerance --tol NAME=10% --damping 1/10", [A(&TENSOR), A(&TENSOR), A(&REQUIRED_BOXES), UNDAMPED, UNDAMPED, NO_ORDER]).in_time(Time::Continuous),
-    Row::new(Asked::ToleranceWithDampingDiscrete, "tolerance --tol NAME=10% --damping 1/10", [R(&NOT_OVER_A_BOX), R(&NOT_OVER_A_BOX), R(&NOT_OVER_A_BOX), BOX_ALONE, BOX_ALONE, NO_ORDER]).in_time(Time::Discrete),
+    Row::new(Asked::ToleranceWithDampingDiscrete, "tolerance --tol NAME=10% --damping 1/10", [A(&SPIRAL_BOXES), A(&SPIRAL_BOXES), A(&SPIRAL_BOXES), NO_DELAY, NO_DELAY, NO_ORDER]).in_time(Time::Discrete),
     at_a_point(Asked::VerdictWithDelayMargin, "verdict --delay-margin 1/1000", [A(&FREQUENCIES), A(&FREQUENCIES), OPEN_LOOP, BESIDE]),
     Row::new(Asked::IntervalsWithDelayMargin, "intervals --param NAME --delay-margin 1/1000", [A(&BORNE), R(&DELAY_BESIDE), R(&DELAY_BESIDE), P(&BORNE, &ONE_FACTOR), BESIDE, NO_ORDER]).in_time(Time::Continuous),
     Row::new(Asked::IntervalsWithDelayMarginDiscrete, "intervals --param NAME --delay-margin 1/1000", [P(&BORNE_SAMPLES, &NO_SAMPLE_TIME), P(&BORNE_SAMPLES, &MANY_SAMPLES), P(&BORNE_SAMPLES, &DELAY_OF_NUMBERS), NO_DELAY, NO_DELAY, NO_ORDER]).in_time(Time::Discrete),

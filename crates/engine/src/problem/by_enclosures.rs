@@ -252,4 +252,6 @@ fn in_disc(polynomial: Vec<Ball>, radius: &Rational) -> Vec<Ball> {
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
+mod tests_boxes;
+#[cfg(test)]
 mod tests_rates;

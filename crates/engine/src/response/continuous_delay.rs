@@ -4,12 +4,11 @@ use super::delay_boxes::{DelayAsked, DelayFamily, DelayedLoops, Delays, shares_o
 use super::family::Quotient;
 use super::opened::OpenedLoop;
 use super::requirement_boxes::OverPoints;
-use super::same_count::same_count;
 use crate::coverage::refusals::DELAY_BESIDE;
 use crate::error::Error;
 use crate::problem::OverDeadTime;
 use crate::stability::AtPoint;
-use crate::stability::boxes::{DelayedFunction, Family, corners};
+use crate::stability::boxes::{DelayedFunction, Family, corners, same_count};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
@@ -158,7 +157,8 @@ fn with(
     if !budget.enter(is_same)? {
         return Ok(OverPoints::Open { middle: None });
     }
-    same_count(family, sides, (cells, budget), |point| budget.enter(|| told(family, point)))
+    let is_stable = |point: &[Rational]| budget.enter(|| told(family, point));
+    Ok(OverPoints::of(same_count(family, sides, (cells, budget), is_stable)?))
 }
 
 /// Whether a point is stable; `None` where one walk along the imaginary axis does not tell.

@@ -10,6 +10,7 @@ use super::loop_functions::{LoopFunctions, dead_time, number_asked};
 use super::on_circle::twice_real;
 use super::opened::OpenedLoop;
 use super::requirement::{Requirement, Rule};
+use super::spiral_over_box::{BoxOnSpiral, Spiral, from_one};
 use super::taylor_along::{
     beyond_axis, binomial, combined, combined_to, of_octave, on_ray, on_wider_disc, to_half_plane,
 };
@@ -20,7 +21,7 @@ use crate::stability::Shape;
 use jurist_algebra::ball::{Ball, Elementary, MultiTaylorModel, exp};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::{Domain, MultiPoly, Poly};
+use jurist_algebra::poly::MultiPoly;
 use jurist_algebra::real::Real;
 use jurist_algebra::symbols::{Definition, ParametricSymbols};
 use std::cmp::Ordering;
@@ -49,6 +50,8 @@ enum Asks {
     OpenLoop(LoopFunctions),
     /// All roots in a sector: the coefficients of the closed loop, and the cosine of the sector's edge.
     Sector { coefficients: Vec<MultiPoly>, cosine: Rational },
+    /// All roots in a logarithmic spiral: the coefficients of the closed loop in `z` and in `z - 1`.
+    Spiral { coefficients: Vec<MultiPoly>, from_one: Vec<MultiPoly>, spiral: Box<Spiral> },
     /// All roots in a smaller disc: the coefficients of the closed loop, and the logarithm of its radius.
     Disc { coefficients: Vec<MultiPoly>, exponent: Rational },
     /// All roots in the region of the question: the coefficients of the closed loop, of the disc in `z - 1`, and what must not vanish where the
@@ -87,15 +90,19 @@ impl OverBox {
         let shape = problem.shape();
         let (symbols, asks) = match requirement.rule() {
             Rule::DeadTime(_) => return Ok(None),
-            Rule::Sector(_) if shape == Shape::UnitDisc => return Ok(None),
             Rule::Sector(_) | Rule::Modulus { .. } => {
                 let algebra = whole.algebra_over_symbols(budget)?;
                 let Some(d) = algebra.polynomial().filter(|_| algebra.symbols().delays().is_empty()) else {
                     return Ok(None);
                 };
                 let (p, _) = budget.enter(|| d.cleared())?;
-                let coefficients = (0..=d.formal_degree).map(|k| p.coeff(k)).collect();
+                let coefficients: Vec<MultiPoly> = (0..=d.formal_degree).map(|k| p.coeff(k)).collect();
                 let asks = match requirement.rule() {
+                    Rule::Sector(damping) if shape == Shape::UnitDisc => Asks::Spiral {
+                        from_one: budget.enter(|| from_one(&coefficients))?,
+                        coefficients,
+                        spiral: Box::new(Spiral::new(damping)),
+                    },
                     Rule::Sector(cosine) => Asks::Sector { coefficients, cosine: cosine.clone() },
                     Rule::Modulus { exponent } => Asks::Disc { coefficients, exponent: exponent.clone() },
                     _ => unreachable!("about roots"),
@@ -140,13 +147,8 @@ impl OverBox {
         let (p, denominator) = budget.enter(|| d.cleared())?;
         let divisors = problem.divisors(budget)?.into_iter().chain([denominator]).collect();
         let own: Vec<MultiPoly> = (0..=d.formal_degree).map(|k| p.coeff(k)).collect();
-        let one_more = Poly::new(vec![MultiPoly::one(), MultiPoly::one()]);
         let coefficients = match problem.shape() {
-            Shape::UnitDisc => {
-                let mut moved = budget.enter(|| Poly::new(own).compose(&one_more).into_coeffs())?;
-                moved.resize(d.formal_degree + 1, MultiPoly::zero());
-                moved
-            }
+            Shape::UnitDisc => budget.enter(|| from_one(&own))?,
             Shape::LeftHalfPlane => own,
         };
         let symbols = parametric_symbols(algebra.symbols())?;
@@ -190,6 +192,11 @@ impl OverBox {
             Asks::Sector { coefficients, cosine } => {
                 let square = on_ray(&at(coefficients), cosine, self.octave);
                 Asked::positive(&square).certain()?.then_some(Certain::Same)
+            }
+            Asks::Spiral { coefficients, from_one, spiral } => {
+                let own = BoxOnSpiral::new([&at(coefficients), &at(from_one)], spiral);
+                let is_met = own.count()? == coefficients.len() - 1;
+                Some(if is_met { Certain::Met } else { Certain::Unmet })
             }
             Asks::Disc { coefficients, exponent } => {
                 let radius = exp(&Ball::from_rational(exponent, bits));
@@ -316,9 +323,10 @@ impl OverBox {
     fn functions(&self) -> &[MultiPoly] {
         match &self.asks {
             Asks::OpenLoop(functions) => &functions.all,
-            Asks::Sector { coefficients, .. } | Asks::Disc { coefficients, .. } | Asks::Stable { coefficients, .. } => {
-                coefficients
-            }
+            Asks::Sector { coefficients, .. }
+            | Asks::Spiral { coefficients, .. }
+            | Asks::Disc { coefficients, .. }
+            | Asks::Stable { coefficients, .. } => coefficients,
         }
     }
 

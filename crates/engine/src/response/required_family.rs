@@ -2,7 +2,7 @@
 
 use super::requirement_boxes::{OverPoints, RequirementBoxes};
 use crate::stability::AtPoint;
-use crate::stability::boxes::{BoxProof, Family, Gradient, OpenReason, Outcome, Path};
+use crate::stability::boxes::{BoxLook, BoxProof, Family, Gradient, OpenReason, Outcome, Path};
 use crate::stability::subdivision::{BoxPart, Look, Order, Tally, decided, subdivide};
 use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
 use jurist_algebra::number::{Integer, Rational, Sign};
@@ -111,8 +111,7 @@ impl Family for RequiredFamily<'_> {
             if (is_last || tally.halved.is_multiple_of(TESTED_EVERY)) && self.told(&middle()) == Some(false) {
                 return Ok(Look::Open(Outcome::Refuted(middle())));
             }
-            let is_wide = |i: &usize| part.sides[*i][0] < part.sides[*i][1] && part.halvings[*i] < MOST_HALVINGS;
-            let axis = (0..part.sides.len()).filter(is_wide).min_by_key(|&i| part.halvings[i]);
+            let axis = axis_to_cut(part);
             let why = if is_last { OpenReason::Cells } else { OpenReason::Small };
             let open = || Look::Open(Outcome::Open { why, cell: part.sides.clone() });
             Ok(axis.filter(|_| !is_last).map_or_else(open, Look::Cut))
@@ -123,6 +122,23 @@ impl Family for RequiredFamily<'_> {
             Err(outcome) => outcome,
         })
     }
+
+    fn looks(&self) -> impl Fn(&BoxPart, &Budget) -> Result<BoxLook, Exhausted> {
+        |part, budget| {
+            checkpoint(WORK);
+            Ok(match self.boxes.look(&part.sides, budget)? {
+                OverPoints::All => BoxLook::Stable,
+                OverPoints::None => BoxLook::Unstable,
+                OverPoints::Open { .. } => BoxLook::Open(axis_to_cut(part).unwrap_or(0)),
+            })
+        }
+    }
+}
+
+/// The side that was halved least, of those that are wide.
+fn axis_to_cut(part: &BoxPart) -> Option<usize> {
+    let is_wide = |i: &usize| part.sides[*i][0] < part.sides[*i][1] && part.halvings[*i] < MOST_HALVINGS;
+    (0..part.sides.len()).filter(is_wide).min_by_key(|&i| part.halvings[i])
 }
 
 /// The requirement on the line `base + t step`.

@@ -83,9 +83,9 @@ impl Answer<Map> {
 
 fn not_in_a_plane(requirement: &Requirement) -> Error {
     let help = match requirement.rule() {
-        Rule::Modulus { .. } => "ask for a radius",
-        Rule::Sector(_) => "ask 'intervals' for one parameter: the curve of a discrete loop is not algebraic",
-        Rule::DeadTime(_) => "its curve is not algebraic: ask for boxes, '--method boxes' with windows of both axes",
+        Rule::Sector(_) | Rule::Modulus { .. } | Rule::DeadTime(_) => {
+            "its curve is not algebraic: ask for boxes, '--method boxes' with windows of both axes"
+        }
         _ => "ask 'verdict' with a value for every parameter",
     };
     NOT_IN_A_PLANE.diagnostic(&[("name", requirement.name()), ("help", help)]).into()

@@ -3,11 +3,10 @@
 use super::delay_boxes::{DelayAsked, DelayBoxes};
 use super::over_box::{Certain, OverBox};
 use super::requirement::{Requirement, Rule};
-use super::same_count::same_count;
 use crate::answer::Verdict;
 use crate::error::Error;
 use crate::problem::{Bound, Problem, Question, Region};
-use crate::stability::boxes::{BoxPolynomial, DelayedFunction, MovingPolynomial};
+use crate::stability::boxes::{BoxPolynomial, DelayedFunction, MovingPolynomial, same_count};
 use crate::stability::{AtPoint, RootCount, Shape, count_roots};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::matrix::CharacteristicPolynomial;
@@ -64,6 +63,17 @@ pub enum OverPoints {
         /// Of stability, whether the middle of the box is stable, where that is known.
         middle: Option<bool>,
     },
+}
+
+impl OverPoints {
+    /// Of what is the same for all points, where that is known.
+    pub(super) fn of(is_met: Option<bool>) -> OverPoints {
+        match is_met {
+            Some(true) => OverPoints::All,
+            Some(false) => OverPoints::None,
+            None => OverPoints::Open { middle: None },
+        }
+    }
 }
 
 /// What is asked.
@@ -176,11 +186,6 @@ impl RequirementBoxes {
             return delay.look(sides, budget);
         }
         let middle = || -> Vec<Rational> { sides.iter().map(|[low, high]| low.midpoint(high)).collect() };
-        let all_or_none = |is_met: Option<bool>| match is_met {
-            Some(true) => OverPoints::All,
-            Some(false) => OverPoints::None,
-            None => OverPoints::Open { middle: None },
-        };
         let known = match (self.by_family(sides, budget)?, &self.asked) {
             (Some(OverPoints::Open { .. }), Asked::Stability(LoopFamily::Delayed(_))) => {
                 return Ok(OverPoints::Open { middle: self.is_stable(&middle(), None, budget)? });
@@ -195,13 +200,13 @@ impl RequirementBoxes {
             (Some(Certain::Same), Asked::Stability(_)) => match self.is_stable(&middle(), None, budget)? {
                 // No root crosses; that the loop is defined at all points is more.
                 Some(true) if !budget.enter(|| self.is_defined(sides))? => OverPoints::Open { middle: Some(true) },
-                told => all_or_none(told),
+                told => OverPoints::of(told),
             },
             (Some(Certain::Same), Asked::Requirement { one, at }) => {
                 // A point that is undefined tells nothing of its neighbours.
                 match self.is_stable(&middle(), None, budget)? {
-                    Some(true) => all_or_none(self.is_met(&middle(), one, at.as_deref(), budget)?),
-                    other => all_or_none(other),
+                    Some(true) => OverPoints::of(self.is_met(&middle(), one, at.as_deref(), budget)?),
+                    other => OverPoints::of(other),
                 }
             }
             (None, Asked::Requirement { .. }) => OverPoints::Open { middle: None },
@@ -238,12 +243,12 @@ impl RequirementBoxes {
             return Ok(Some(OverPoints::None));
         }
         let is_stable = |middle: &[Rational]| self.is_stable(middle, None, budget);
-        Ok(Some(match family {
+        Ok(Some(OverPoints::of(match family {
             LoopFamily::Rational(family) => same_count(family.as_ref(), sides, (CELLS, budget), is_stable)?,
             LoopFamily::Moving(family) => same_count(family.as_ref(), sides, (CELLS, budget), is_stable)?,
             LoopFamily::Delayed(family) => same_count(family.as_ref(), sides, (CELLS, budget), is_stable)?,
             LoopFamily::Constants => return Ok(None),
-        }))
+        })))
     }
 
     /// Whether a stable point meets what is asked, by the look where that tells, else by the exact decision; `None` where that is not told.

@@ -9,14 +9,13 @@ use super::open_loop::OpenLoop;
 use super::opened::OpenedLoop;
 use super::parts::with_parts;
 use super::requirement_boxes::OverPoints;
-use super::same_count::same_count;
 use crate::answer::SYMBOL_BITS;
 use crate::coverage::refusals::{DELAY_OF_NUMBERS, MANY_SAMPLES, NO_SAMPLE_TIME};
 use crate::error::Error;
 use crate::model::{Cut, MoreDeadTime, Symbols};
 use crate::problem::{Problem, fixed_symbols, parametric_symbols};
 use crate::stability::Shape;
-use crate::stability::boxes::{BoxPolynomial, Family, MovingPolynomial};
+use crate::stability::boxes::{BoxPolynomial, Family, MovingPolynomial, same_count};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::Rational;
@@ -278,13 +277,13 @@ impl Delays for SampledDelay {
         let mut all: Vec<[Rational; 2]> = sides.iter().chain(own).cloned().collect();
         let middle = delays[0].midpoint(&delays[1]);
         let told = |point: &[Rational]| self.told(&point[..sides.len()], &middle, budget);
-        match family {
-            SampledFamily::Moving(family) => same_count(family.as_ref(), &all, (cells, budget), told),
+        Ok(OverPoints::of(match family {
+            SampledFamily::Moving(family) => same_count(family.as_ref(), &all, (cells, budget), told)?,
             SampledFamily::Polynomial(family, constants) => {
                 all.extend(constants.iter().cloned());
-                same_count(family.as_ref(), &all, (cells, budget), told)
+                same_count(family.as_ref(), &all, (cells, budget), told)?
             }
-        }
+        }))
     }
 }
 

@@ -23,7 +23,7 @@ pub(super) struct Complex {
 }
 
 impl Complex {
-    fn zero(bits: u64) -> Complex {
+    pub fn zero(bits: u64) -> Complex {
         Complex { re: Ball::zero(bits), im: Ball::zero(bits) }
     }
 
@@ -31,7 +31,7 @@ impl Complex {
         Complex { re: self.re.add(&other.re), im: self.im.add(&other.im) }
     }
 
-    fn times(&self, other: &Complex) -> Complex {
+    pub fn times(&self, other: &Complex) -> Complex {
         let re = self.re.mul(&other.re).sub(&self.im.mul(&other.im));
         let im = self.re.mul(&other.im).add(&self.im.mul(&other.re));
         Complex { re, im }
@@ -60,7 +60,8 @@ pub(super) struct Arc {
 }
 
 impl Arc {
-    fn halves(&self) -> [Arc; 2] {
+    /// The lower and the upper half.
+    pub fn parts(&self) -> [Arc; 2] {
         let first = &self.at << 1;
         let second = &first + &Integer::ONE;
         [first, second].map(|at| Arc { at, level: self.level + 1 })
@@ -108,19 +109,19 @@ pub(super) struct OnSpiral {
 
 /// Which number the powers are counted from.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Origin {
+pub(super) enum Origin {
     Zero,
     One,
 }
 
 impl Origin {
     /// The nearer one to the points at some angles, in parts of pi: of less than a quarter all are nearer to 1.
-    fn of(angles: &[Rational; 2]) -> Origin {
+    pub fn of(angles: &[Rational; 2]) -> Origin {
         if angles[1] <= Rational::dyadic(&Integer::ONE, 2) { Origin::One } else { Origin::Zero }
     }
 
     /// The distance from it.
-    fn to(self, z: &Complex) -> Complex {
+    pub fn to(self, z: &Complex) -> Complex {
         let one = Ball::from_integer(&Integer::ONE, z.re.bits());
         match self {
             Origin::Zero => z.clone(),
@@ -138,11 +139,21 @@ struct Coefficients {
 }
 
 /// The balls that depend on the precision alone.
-struct Constants {
-    bits: u64,
-    pi: Ball,
+pub(super) struct Constants {
+    pub bits: u64,
+    pub pi: Ball,
     /// `c`.
-    decay: Ball,
+    pub decay: Ball,
+}
+
+impl Constants {
+    /// Of a damping, with so many bits.
+    pub fn new(damping: &Rational, bits: u64) -> Constants {
+        let square = damping * damping;
+        let ratio = square.checked_div(&(Rational::ONE - &square)).expect("a damping is below 1");
+        let decay = Ball::from_rational(&ratio, bits).sqrt().expect("positive");
+        Constants { bits, pi: Ball::from_enclosure(&Enclosure::pi(bits + 4), bits), decay }
+    }
 }
 
 /// What a walk along the edge gave.
@@ -154,7 +165,7 @@ pub(super) enum Walk {
 }
 
 /// The edge is cut into `2^FIRST_LEVEL` arcs at first.
-const FIRST_LEVEL: u64 = 5;
+pub(super) const FIRST_LEVEL: u64 = 5;
 /// So far all open arcs are halved, however many.
 const EVERYWHERE: u64 = 8;
 
@@ -223,7 +234,7 @@ impl OnSpiral {
 
     /// Walks along the edge, halving arcs so often at most, and only while no more of them are open.
     pub fn walk(&self, values: &Values, bits: u64, halvings: u64, most_open: usize) -> Walk {
-        let constants = self.constants(bits);
+        let constants = Constants::new(&self.damping, bits);
         let first = (0..1i64 << FIRST_LEVEL).map(|k| Arc { at: Integer::from(k), level: FIRST_LEVEL });
         let known = [Origin::Zero, Origin::One].map(|origin| self.coefficients(origin, values, bits));
         let [Some(from_zero), Some(from_one)] = known else { return Walk::Open(first.collect()) };
@@ -241,7 +252,7 @@ impl OnSpiral {
             }
             let halved = |(arc, known): (Arc, Option<u8>)| match known {
                 Some(_) => vec![(arc, known)],
-                None => arc.halves().map(|half| (plane(&half), half)).map(|(p, half)| (half, p)).to_vec(),
+                None => arc.parts().map(|half| (plane(&half), half)).map(|(p, half)| (half, p)).to_vec(),
             };
             arcs = arcs.into_iter().flat_map(halved).collect();
         }
@@ -262,7 +273,7 @@ impl OnSpiral {
 
     /// Function and derivatives at an angle, in parts of pi, and a value; `None` where a coefficient is not defined.
     pub fn at_point(&self, angle: &Rational, value: &Rational, bits: u64) -> Option<Jet> {
-        let with = self.constants(bits);
+        let with = Constants::new(&self.damping, bits);
         let origin = Origin::of(&[angle.clone(), angle.clone()]);
         let coefficients = self.coefficients(origin, &Values::of(value), bits)?;
         Some(jet(&point(angle, &with), &coefficients, &with))
@@ -271,24 +282,17 @@ impl OnSpiral {
     /// Whether the function vanishes at most once in a box of angles (in parts of pi) and values: its derivatives are
     /// independent, whatever they are inside, which makes it one to one on a convex set.
     pub fn is_one_to_one(&self, angles: &[Rational; 2], values: &Values, bits: u64) -> bool {
-        let with = self.constants(bits);
+        let with = Constants::new(&self.damping, bits);
         let Some(coefficients) = self.coefficients(Origin::of(angles), values, bits) else { return false };
         let z = around(&point(&angles[0].midpoint(&angles[1]), &with), angles, &with);
         let Jet { by_angle, by_parameter, .. } = jet(&z, &coefficients, &with);
         let determinant = by_angle.re.mul(&by_parameter.im).sub(&by_angle.im.mul(&by_parameter.re));
         !determinant.contains_zero()
     }
-
-    fn constants(&self, bits: u64) -> Constants {
-        let square = &self.damping * &self.damping;
-        let ratio = square.checked_div(&(Rational::ONE - &square)).expect("a damping is below 1");
-        let decay = Ball::from_rational(&ratio, bits).sqrt().expect("positive");
-        Constants { bits, pi: Ball::from_enclosure(&Enclosure::pi(bits + 4), bits), decay }
-    }
 }
 
 /// `z` at an angle, in parts of pi.
-fn point(angle: &Rational, with: &Constants) -> Complex {
+pub(super) fn point(angle: &Rational, with: &Constants) -> Complex {
     let angle = Ball::from_rational(angle, with.bits).mul(&with.pi);
     let size = exp(&with.decay.mul(&angle).neg());
     let (cos, sin) = cos_sin(&angle);

@@ -6,7 +6,7 @@ use super::intervals::{heading, undecided_text};
 use super::layout::short;
 use super::real;
 use super::verdict::verdict_line;
-use crate::answer::{Answer, PointVerdict, ToleranceAnswer, ToleranceLimit, Verdict, WorstEnd};
+use crate::answer::{Answer, ExactFactor, PointVerdict, ToleranceAnswer, ToleranceLimit, Verdict, WorstEnd};
 use crate::problem::Problem;
 use crate::stability::AtPoint;
 use crate::stability::boxes::{BoxDecision, LargestFactor, Side, Witness};
@@ -67,6 +67,9 @@ impl Shown<'_> {
                 volume.boxes,
                 if volume.boxes == 1 { "box" } else { "boxes" }
             );
+            if let Some(stopped) = &volume.stopped {
+                let _ = writeln!(out, "                 stopped early: {stopped}");
+            }
         }
         if let Some(limit) = &self.answer.limit {
             out.push_str(&self.limit(limit));
@@ -173,17 +176,8 @@ impl Shown<'_> {
                 let _ = writeln!(out, "they can grow    {lower} <= factor at least; no worse point was found");
             }
         }
-        if let Some(proof) = &self.answer.exact {
-            let value = &proof.value;
-            let degree = value.algebraic().and_then(|v| v.polynomial().degree()).unwrap_or(0);
-            let kind = match value.exact() {
-                Some(exact) => format!("exactly {}", short(&exact)),
-                None => format!(
-                    "exactly the root {} of a polynomial of degree {degree}",
-                    value.decimal(self.digits.max(12))
-                ),
-            };
-            let _ = writeln!(out, "                 {kind} (proof: {} cells)", proof.tree.leaves());
+        if let Some(exact) = &self.answer.exact {
+            let _ = writeln!(out, "                 exactly {}", self.exactly(exact));
         }
         if let Some(domain) = &self.answer.domain_factor
             && factor.upper.as_ref().is_none_or(|upper| upper >= domain)
@@ -206,6 +200,22 @@ impl Shown<'_> {
             let _ = writeln!(out, "the margin is used by    {}", self.shares(shares));
         }
         out
+    }
+
+    /// `the root 2.61.. of a polynomial of degree 2 (proof: 5 cells)`
+    fn exactly(&self, exact: &ExactFactor) -> String {
+        let digits = self.digits.max(12);
+        let number = match (exact.value.exact(), exact.value.algebraic().and_then(|v| v.polynomial().degree())) {
+            (Some(number), _) => short(&number),
+            (None, Some(degree)) => {
+                format!("the root {} of a polynomial of degree {degree}", exact.value.decimal(digits))
+            }
+            (None, None) => format!("{}.., known to any digits", exact.value.decimal(digits)),
+        };
+        match &exact.proof {
+            Some(proof) => format!("{number} (proof: {} cells)", proof.tree.leaves()),
+            None => number,
+        }
     }
 
     /// `, 2 roots outside just beyond`

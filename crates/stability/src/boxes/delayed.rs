@@ -6,11 +6,13 @@
 use super::delayed_rounded::{RoundedLoop, on_line};
 use super::family::{Family, Gradient, Path, ROUGH_BITS};
 use super::line::{on_line as polynomials_on_line, rational_zero};
+use super::look::BoxLook;
 use super::polynomial::without_squares;
 use super::prove::Outcome;
 use crate::AtPoint;
 use crate::dead_time::{DeadTime, PlaneLoop};
 use crate::plane::boxes::BoxVerdict;
+use crate::subdivision::BoxPart;
 use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
 use jurist_algebra::number::{Integer, Rational, Sign};
 use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
@@ -67,7 +69,7 @@ pub struct DelayedFunction {
     /// The parameters inside of dead times.
     pub(super) inside: Vec<usize>,
     pub(super) order: usize,
-    rounded: RoundedLoop,
+    pub(super) rounded: RoundedLoop,
 }
 
 impl DelayedFunction {
@@ -234,6 +236,10 @@ impl Family for DelayedFunction {
     ) -> Result<bool, Exhausted> {
         Ok(matches!(self.proved(sides, known, (cells, false), budget)?, Outcome::Stable(_)))
     }
+
+    fn looks(&self) -> impl Fn(&BoxPart, &Budget) -> Result<BoxLook, Exhausted> {
+        |part, budget| self.look(&part.sides, budget)
+    }
 }
 
 /// The loop on the line `base + t step`.
@@ -326,6 +332,20 @@ impl Path for DelayedLine<'_> {
             .chain(WIDENED.iter().map(|&bits| &far * &(&Rational::ONE + &Rational::dyadic(&Integer::ONE, bits))));
         let counted = beyond.clone().find(|t| self.p.seen_at(&self.point(t)) == Some(false));
         Some((near, counted.unwrap_or(far)))
+    }
+
+    /// By counts, which tell more than floating point.
+    fn sharpened(&self, lo: &Rational, hi: &Rational, share: &Rational) -> (Rational, Rational) {
+        let (mut lo, mut hi) = (lo.clone(), hi.clone());
+        while &hi - &lo > &hi * share {
+            let middle = lo.midpoint(&hi);
+            match self.p.seen_at(&self.point(&middle)) {
+                Some(true) => lo = middle,
+                Some(false) => hi = middle,
+                None => break,
+            }
+        }
+        (lo, hi)
     }
 
     fn gradient(&self, lo: &Rational, hi: &Rational) -> Option<Gradient> {

@@ -41,7 +41,7 @@ const CELLS_IN_PART: usize = 300;
 const FARTHEST: i64 = 6;
 
 /// A part is not halved more often along one parameter.
-const MOST_HALVINGS: u64 = 40;
+const MOST_HALVINGS: u64 = 64;
 
 /// Parts of the parameters alone, cut where the highest power of `s` may not outweigh the others.
 const MOST_BOXES: usize = 64;
@@ -311,7 +311,7 @@ fn parameters(mut sides: Vec<[Rational; 2]>) -> Vec<[Rational; 2]> {
 }
 
 /// The range of the Bernstein coefficients, in which that of the values is.
-fn range_of(p: &MultiPoly, sides: &[[Rational; 2]]) -> [Rational; 2] {
+pub(super) fn range_of(p: &MultiPoly, sides: &[[Rational; 2]]) -> [Rational; 2] {
     let bundle = Bundle::new(&[p], sides.len());
     let all = expand(&bundle, sides);
     let over = Rational::from(&common_factor(&bundle, sides));

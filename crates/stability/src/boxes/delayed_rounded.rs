@@ -144,6 +144,11 @@ impl RoundedLoop {
         (kept && right == Some(0) && self.times.iter().all(|time| time.at(x) >= 0.0), nearest)
     }
 
+    /// The frequency at which a point is nearest to the limit.
+    pub fn nearest_approximate(&self, x: &[f64]) -> f64 {
+        self.at(x).right().1
+    }
+
     /// Which of what must not vanish has another sign.
     pub fn changed_approximate(&self, x: &[f64], signs: &[Sign]) -> Option<usize> {
         self.certain.iter().zip(signs).position(|(f, sign)| f.at(x).partial_cmp(&0.0) != Some(*sign))

@@ -13,8 +13,9 @@
 //! determinant vanishes too, which [`super::tangent`] turns into a polynomial in the factor.
 
 use super::determinants::{derivatives, product};
-use super::factor::{LargestFactor, ToleranceProblem};
+use super::factor::ToleranceProblem;
 use super::family::Path;
+use super::largest::LargestFactor;
 use super::polynomial::Bundle;
 use super::prove::{Cell, Closing, Outcome, closed_by_constant, closed_by_sign, closed_by_vector, keeps_sign};
 use super::search::ray;

@@ -1,9 +1,11 @@
 //! What the search and the bracket ask of a loop with tolerances, whatever its characteristic function is.
 
 use super::line::{Line, unit};
+use super::look::BoxLook;
 use super::polynomial::{BoxPolynomial, Bundle};
-use super::prove::{Closing, Outcome, closed_by_constant, closed_by_vector, not_stable_near, prove, signs_at};
+use super::prove::{Closing, Outcome, closed_by_constant, closed_by_vector, look, not_stable_near, prove, signs_at};
 use crate::AtPoint;
+use crate::subdivision::BoxPart;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational, Sign};
 use jurist_algebra::poly::algebraic::simplest_between;
@@ -80,6 +82,9 @@ pub trait Family {
     ) -> Result<bool, Exhausted> {
         Ok(matches!(self.prove(sides, known, cells, budget)?, Outcome::Stable(_)))
     }
+
+    /// Looks at boxes, one after another: what is learned of one may serve the next.
+    fn looks(&self) -> impl Fn(&BoxPart, &Budget) -> Result<BoxLook, Exhausted>;
 }
 
 /// How what vanishes at a crossing depends on the parameters.
@@ -177,6 +182,11 @@ pub trait Path {
         let is_right = self.is_good(&near) && !self.is_good(&far);
         let (lo, hi) = if is_right { (near, far) } else { (lo, hi) };
         Some(halved(lo, hi, bits, |t| self.is_good(t)))
+    }
+
+    /// A crossing's stretch, narrowed to so large a share of its end, as far as that is told.
+    fn sharpened(&self, lo: &Rational, hi: &Rational, _share: &Rational) -> (Rational, Rational) {
+        (lo.clone(), hi.clone())
     }
 
     /// A rational point in `(lo, hi]` that is not stable.
@@ -290,5 +300,9 @@ impl Family for BoxPolynomial {
             }),
             outcome => Ok(outcome),
         }
+    }
+
+    fn looks(&self) -> impl Fn(&BoxPart, &Budget) -> Result<BoxLook, Exhausted> {
+        |part, budget| budget.enter(|| look(self, &part.sides, budget))?
     }
 }

@@ -7,6 +7,7 @@
 //! [Farouki2012](jurist_algebra::bibliography#farouki2012)).
 
 mod delayed;
+mod delayed_look;
 mod delayed_prove;
 mod delayed_rounded;
 mod determinants;
@@ -14,8 +15,11 @@ mod exact;
 mod factor;
 mod families;
 mod family;
+mod largest;
 mod line;
+mod look;
 mod moving;
+mod moving_look;
 mod moving_prove;
 mod multiplier;
 mod parts;
@@ -36,9 +40,11 @@ mod window;
 
 pub use delayed::DelayedFunction;
 pub use exact::{CriticalCell, ExactProof, Place};
-pub use factor::{BoxDecision, LargestFactor, ToleranceProblem, Witness};
+pub use factor::{BoxDecision, ToleranceProblem};
 pub use family::{Family, Gradient, Path};
+pub use largest::{LargestFactor, Witness};
 pub use line::on_line;
+pub use look::{BoxLook, same_count};
 pub use moving::MovingPolynomial;
 pub use parts::corners;
 pub use polynomial::BoxPolynomial;

@@ -5,8 +5,11 @@
 
 use super::family::{Family, Gradient, Path, pulls_of};
 use super::line::{on_line, pair_function, rational_zero};
+use super::look::BoxLook;
+use super::moving_look::Known;
 use super::polynomial::{BoxPolynomial, Bundle};
 use super::prove::{Outcome, closed_by_constant, closed_by_vector, scale_of};
+use crate::subdivision::BoxPart;
 use crate::{AtPoint, Shape, is_hurwitz_routh};
 use jurist_algebra::ball::{Ball, Elementary, Series};
 use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
@@ -17,7 +20,7 @@ use jurist_algebra::symbols::ParametricSymbols;
 use std::collections::BTreeMap;
 
 /// Bits after the point of coefficients at a point.
-const POINT_BITS: u64 = 256;
+pub(super) const POINT_BITS: u64 = 256;
 
 /// A box is cut into so many parts at most.
 const MOST_PARTS: usize = 2000;
@@ -301,6 +304,11 @@ impl Family for MovingPolynomial {
             Outcome::Open { .. } => self.proved(sides, known, (&closed_by_vector, cells), budget),
             outcome => Ok(outcome),
         }
+    }
+
+    fn looks(&self) -> impl Fn(&BoxPart, &Budget) -> Result<BoxLook, Exhausted> {
+        let known = Known::of(self);
+        move |part, budget| budget.enter(|| known.look(&part.sides, budget))?
     }
 }
 

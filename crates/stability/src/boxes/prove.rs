@@ -1,6 +1,8 @@
 //! The proof that a whole box is stable.
 
+use super::look::BoxLook;
 use super::multiplier::{Sought, affine_multiplier};
+use super::parts::middle;
 use super::polynomial::{BoxPolynomial, Bundle, Excluded};
 use super::reason::OpenReason;
 use super::separate::separating_vector_within;
@@ -230,6 +232,40 @@ pub(super) fn prove(
             Outcome::Stable(BoxProof { certain, scale, weight, pair: Tree::of(steps, sides.len()), beside: 0 })
         }
         Err(outcome) => outcome,
+    })
+}
+
+/// Frequencies of one box are halved into so many parts at most, where it is looked at alone.
+const FREQUENCIES: usize = 48;
+
+/// Whether a box is stable everywhere or nowhere: without zeros of the pair and of the certain polynomials it has one number of stable roots,
+/// which its middle tells. Frequencies alone are halved.
+///
+/// Cost: the Bernstein coefficients of the pair.
+pub(super) fn look(p: &BoxPolynomial, sides: &[[Rational; 2]], budget: &Budget) -> Result<BoxLook, Exhausted> {
+    let middle = middle(sides);
+    let known = signs_at(p, &middle);
+    let scale = known.as_ref().map_or(0, |(_, scale)| *scale);
+    let (tensor, _) = Tensor::of_pair(&p.pair(), sides, FrequencyScale(2 * scale));
+    let open = BoxLook::Open(tensor.steepest_parameter());
+    let Some((signs, _)) = known else { return Ok(open) };
+    for ((_, f), sign) in p.certain.iter().zip(signs) {
+        if keeps_sign(&Bundle::new(&[f], sides.len()), sides, sign, 1, budget)?.is_err() {
+            return Ok(open);
+        }
+    }
+    let frequency = sides.len();
+    let look = |cell: &mut Cell, tally: Tally| {
+        if closed_by_constant(cell, tally.looks()).is_ok() {
+            return Ok(Look::Decided(()));
+        }
+        let axis = cell.tensor.best_axis_of(&[frequency]).filter(|_| tally.cells() < FREQUENCIES);
+        Ok(axis.map_or(Look::Open(()), Look::Cut))
+    };
+    Ok(match subdivide([Cell::whole(tensor)], Order::Depth, budget, look)? {
+        Ok(_) if p.is_stable_at(&middle) => BoxLook::Stable,
+        Ok(_) => BoxLook::Unstable,
+        Err(()) => open,
     })
 }
 

@@ -259,6 +259,13 @@ impl<'a, F: Family> Search<'a, F> {
         self.simplify();
     }
 
+    /// Narrows the stretch of the best crossing to a share of its end.
+    pub(super) fn sharpen(&mut self, share: &Rational) {
+        let Some(best) = &self.best else { return };
+        let (lo, hi) = self.line(&best.direction).sharpened(&best.lo, &best.hi, share);
+        self.best = Some(Crossing { direction: best.direction.clone(), lo, hi });
+    }
+
     /// Takes simple numbers where they serve as well: for coordinates inside, and for the factor itself.
     fn simplify(&mut self) {
         let Some(best) = self.best.clone() else { return };

@@ -1,20 +1,14 @@
 //! Which share of a box is stable, by halving it.
 
-use super::factor::ToleranceProblem;
-use super::parts::middle;
-use super::polynomial::Bundle;
-use super::prove::{Cell, closed_by_constant, keeps_sign, signs_at};
-use super::sides::at_factor;
-use super::tensor::{FrequencyScale, Tensor};
+use super::family::Family;
+use super::look::BoxLook;
+use super::sides::{Side, at_factor};
 use crate::subdivision::{BoxPart, Look, Order, Tally, subdivide};
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Stop};
 use jurist_algebra::number::{Integer, Rational};
 
 /// More parameters leave too much undecided in any time.
 pub const MOST_PARAMETERS: usize = 6;
-
-/// Frequencies of one box are halved into so many parts at most.
-const FREQUENCIES: usize = 48;
 
 /// No more boxes are looked at.
 const MOST_BOXES: usize = 1 << 16;
@@ -37,70 +31,64 @@ pub struct BoxVolume {
     pub undecided: Rational,
     /// The number of boxes that were decided.
     pub boxes: usize,
+    /// What stopped the subdivision before so little was undecided as was asked for; `None` where nothing did.
+    pub stopped: Option<Stop>,
 }
 
-impl ToleranceProblem<'_> {
+impl BoxVolume {
     /// How much of the box of a factor is stable: boxes are halved, the largest first, until at most the share `goal` of the
-    /// volume is undecided, or the budget runs out. A box without zeros of the pair and of the certain polynomials has one
-    /// number of stable roots, which its midpoint tells.
+    /// volume is undecided, or the budget runs out, which leaves more of it undecided.
     ///
-    /// The number of boxes grows exponentially with the parameters; more than [`MOST_PARAMETERS`] make no sense. Cost: the
-    /// Bernstein coefficients of the pair for each box.
+    /// The number of boxes grows exponentially with the parameters; more than [`MOST_PARAMETERS`] make no sense. Cost: a look at each box
+    /// ([`Family::looks`]).
     ///
-    /// # Errors
-    /// None at present; a budget that runs out leaves more undecided.
-    pub fn volume(&self, factor: &Rational, goal: &Rational, budget: &Budget) -> Result<BoxVolume, Exhausted> {
+    /// ```
+    /// use jurist_algebra::limits::Budget;
+    /// use jurist_algebra::number::Rational;
+    /// use jurist_engine::model::{Model, ParameterBuilder, Time};
+    /// use jurist_stability::boxes::{BoxPolynomial, BoxVolume, Side};
+    /// let parameter = |name| ParameterBuilder::new(name).nominal("1");
+    /// let builder = Model::builder(Time::Continuous).parameter(parameter("a")).parameter(parameter("b"));
+    /// let (model, _) = builder.characteristic("s^2 + a*s + b").build()?;
+    /// let problem = model.ask().free("a").free("b").problem()?;
+    /// let budget = Budget::unlimited();
+    /// let p = BoxPolynomial::new(problem.algebra(&budget)?.polynomial().unwrap(), problem.shape());
+    /// // a and b from -1 to 3: stable where both are positive, which is the share (3/4)^2.
+    /// let sides = [(); 2].map(|()| Side::scaled(1.into(), [2.into(), 2.into()]));
+    /// let volume = BoxVolume::of(&p, &sides, &1.into(), &"1/100".parse().unwrap(), &budget);
+    /// let share = Rational::new(9.into(), 16.into());
+    /// assert!(volume.stable <= share && share <= &volume.stable + &volume.undecided);
+    /// # Ok::<(), jurist_engine::error::Error>(())
+    /// ```
+    pub fn of<F: Family>(p: &F, sides: &[Side], factor: &Rational, goal: &Rational, budget: &Budget) -> BoxVolume {
         budget.step("halving the box");
+        let looks = p.looks();
         let mut volume = BoxVolume { undecided: Rational::ONE, ..BoxVolume::default() };
         let look = |part: &mut BoxPart, tally: Tally| {
             budget.advance(tally.decided as u64, (tally.decided + tally.waiting + 1) as u64);
             if volume.undecided <= *goal || tally.decided + tally.waiting + 1 >= MOST_BOXES {
-                return Ok(Look::Open(()));
+                let many = Stop::Boxes { undecided: (tally.waiting + 1) as u64, halvings: part.halvings.iter().sum() };
+                return Ok(Look::Open((volume.undecided > *goal).then_some(many)));
             }
-            let is_stable = match budget.enter(|| self.verdict_of(&part.sides, budget))? {
-                Ok(is_stable) => is_stable,
-                Err(Undecided { axis }) => return Ok(Look::Cut(axis)),
-            };
             let share = Rational::dyadic(&Integer::ONE, part.halvings.iter().map(|&h| u64::from(h)).sum());
-            volume.boxes += 1;
+            let own = match looks(part, budget)? {
+                BoxLook::Stable => &mut volume.stable,
+                BoxLook::Unstable => &mut volume.unstable,
+                BoxLook::Open(axis) if part.sides[axis][0] < part.sides[axis][1] => return Ok(Look::Cut(axis)),
+                // Nothing is left to be halved.
+                BoxLook::Open(_) => return Ok(Look::Decided(())),
+            };
+            *own += &share;
             volume.undecided -= &share;
-            *(if is_stable { &mut volume.stable } else { &mut volume.unstable }) += &share;
+            volume.boxes += 1;
             Ok(Look::Decided(()))
         };
-        // A budget that runs out leaves the rest undecided.
-        let whole = BoxPart::whole(at_factor(&self.sides, factor));
-        let _ = subdivide([whole], Order::Breadth, budget, look);
-        Ok(volume)
-    }
-
-    /// Whether a box is stable everywhere or nowhere, or along which axis to halve it.
-    fn verdict_of(&self, sides: &[[Rational; 2]], budget: &Budget) -> Result<bool, Undecided> {
-        let (tensor, _) = Tensor::of_pair(&self.p.pair(), sides, FrequencyScale(2 * self.scale));
-        let undecided = Undecided { axis: tensor.steepest_parameter() };
-        let middle = middle(sides);
-        let Some((signs, _)) = signs_at(self.p, &middle) else { return Err(undecided) };
-        for ((_, f), sign) in self.p.certain.iter().zip(signs) {
-            let kept = keeps_sign(&Bundle::new(&[f], sides.len()), sides, sign, 1, budget);
-            if !matches!(kept, Ok(Ok(_))) {
-                return Err(undecided);
-            }
-        }
-        let frequency = sides.len();
-        let look = |cell: &mut Cell, tally: Tally| {
-            if closed_by_constant(cell, tally.looks()).is_ok() {
-                return Ok(Look::Decided(()));
-            }
-            let axis = cell.tensor.best_axis_of(&[frequency]).filter(|_| tally.cells() < FREQUENCIES);
-            Ok(axis.map_or(Look::Open(()), Look::Cut))
+        let ended = subdivide([BoxPart::whole(at_factor(sides, factor))], Order::Breadth, budget, look);
+        let stopped = match ended {
+            Ok(Ok(_)) => None,
+            Ok(Err(many)) => many,
+            Err(exhausted) => Some(exhausted.stop),
         };
-        match subdivide([Cell::whole(tensor)], Order::Depth, budget, look) {
-            Ok(Ok(_)) => Ok(self.p.is_stable_at(&middle)),
-            _ => Err(undecided),
-        }
+        BoxVolume { stopped, ..volume }
     }
-}
-
-/// Along which axis a box is halved that is not decided.
-struct Undecided {
-    axis: usize,
 }

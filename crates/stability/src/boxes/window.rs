@@ -2,19 +2,10 @@
 
 use super::family::Family;
 use super::moving::MovingPolynomial;
-use super::prove::{closed_by_vector, scale_of};
+use super::moving_look::{Everywhere, Known};
 use crate::plane::boxes::{BoxMap, BoxVerdict, Place, Seen, Window, subdivided};
-use crate::symbolic::certain_count;
-use crate::{RootCount, Shape};
-use jurist_algebra::ball::{Ball, MultiTaylorModel, Series};
-use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
-use jurist_algebra::number::{Integer, Rational, Sign};
-use std::collections::HashMap;
-use std::hash::Hash;
-use std::sync::{Arc, Mutex, PoisonError};
-
-/// Cells of frequency and parameters after which a box is rather halved.
-const CELLS: usize = 96;
+use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
 
 impl MovingPolynomial {
     /// Whether both of two parameters are inside of functions.
@@ -24,9 +15,7 @@ impl MovingPolynomial {
 
     /// Cuts a window of its two parameters into boxes until the share of the undecided area is at most `goal` (0 to 1).
     ///
-    /// A box is decided where Taylor models show that no root comes to the boundary and nothing that must not vanish changes its sign:
-    /// then the number of roots outside is that in the middle, of which enclosed coefficients are certain. Of a box of which that
-    /// is not seen, `otherwise` may know more.
+    /// Of a box of which nothing is seen, `otherwise` may know more.
     ///
     /// Cost: Taylor models of every function for each side of boxes in a parameter that is inside of functions, and up to some hundred
     /// cells of tensors for each box.
@@ -45,86 +34,16 @@ impl MovingPolynomial {
             // Undefined, a root on the boundary, or degree lost, for all values of both.
             return BoxMap::nowhere_stable(window);
         }
-        let known = Known { p: self, models: Memory::default(), points: Memory::default() };
+        let known = Known::of(self);
         subdivided(window, goal, budget, |place, _: Option<&()>| {
             let Window { x, y } = place.window(window);
-            let seen = match known.verdict_in(&[x, y], budget)? {
-                Some(verdict) => Seen::Decided(verdict),
+            let seen = match known.everywhere(&[x, y], budget)? {
+                Some(Everywhere::Outside(0)) => Seen::Decided(BoxVerdict::Stable),
+                Some(Everywhere::Outside(outside)) => Seen::Decided(BoxVerdict::Unstable { outside: Some(outside) }),
+                Some(Everywhere::Meaningless) => Seen::Decided(BoxVerdict::Unstable { outside: None }),
                 None => otherwise(place).unwrap_or(Seen::Cut(place.wider())),
             };
             Ok((seen, None))
         })
-    }
-}
-
-/// What was found for a key; `None` where there is nothing.
-struct Memory<K, V>(Mutex<HashMap<K, Option<Arc<V>>>>);
-
-impl<K, V> Default for Memory<K, V> {
-    fn default() -> Self {
-        Memory(Mutex::default())
-    }
-}
-
-impl<K: Eq + Hash, V> Memory<K, V> {
-    fn get(&self, key: K, find: impl FnOnce() -> Option<V>) -> Option<Arc<V>> {
-        let known = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(found) = known().get(&key) {
-            return found.clone();
-        }
-        let found = find().map(Arc::new);
-        known().insert(key, found.clone());
-        found
-    }
-}
-
-/// A loop with what is known of its functions on sides and at points: one is looked up for many boxes.
-struct Known<'p> {
-    p: &'p MovingPolynomial,
-    models: Memory<Vec<[Rational; 2]>, Vec<Vec<MultiTaylorModel>>>,
-    points: Memory<Vec<Rational>, Vec<Vec<Series>>>,
-}
-
-impl Known<'_> {
-    /// What is the same at all points of a box; `None` where that is not seen.
-    fn verdict_in(&self, sides: &[[Rational; 2]; 2], budget: &Budget) -> Result<Option<BoxVerdict>, Exhausted> {
-        let [x, y] = sides;
-        if self.p.has_no_meaning_in(sides) {
-            return Ok(Some(BoxVerdict::Unstable { outside: None }));
-        }
-        let middle = [x, y].map(|[low, high]| low.midpoint(high));
-        let Some((count, signs, scale)) = self.certain_at(&middle) else { return Ok(None) };
-        // Another count or sign at a corner tells at once that a boundary is here.
-        for (i, j) in [(0, 0), (1, 1), (0, 1), (1, 0)] {
-            let corner = self.certain_at(&[x[i].clone(), y[j].clone()]);
-            if corner.is_some_and(|found| (found.0, &found.1) != (count, &signs)) {
-                return Ok(None);
-            }
-        }
-        checkpoint(200);
-        let inside: Vec<[Rational; 2]> = self.p.inside.iter().map(|&i| sides[i].clone()).collect();
-        let Some(models) = self.models.get(inside, || self.p.models(sides)) else { return Ok(None) };
-        if !self.p.keeps_count(sides, &models, (&signs, scale), (&closed_by_vector, CELLS), budget)? {
-            return Ok(None);
-        }
-        Ok(Some(match count.outside {
-            // What is presupposed is among what keeps its sign.
-            _ if !self.p.has_a_meaning_at(&middle) => BoxVerdict::Unstable { outside: None },
-            0 => BoxVerdict::Stable,
-            outside => BoxVerdict::Unstable { outside: Some(outside) },
-        }))
-    }
-
-    /// The root count at a point, the signs of what must not vanish, and the scale of frequencies; `None` where enclosed coefficients do
-    /// not tell.
-    fn certain_at(&self, point: &[Rational; 2]) -> Option<(RootCount, Vec<Sign>, i64)> {
-        let inside = self.p.inside.iter().map(|&i| point[i].clone()).collect();
-        let parts = self.points.get(inside, || self.p.parts_at_point(point))?;
-        let values = self.p.enclosed(point, &parts);
-        let (coefficients, beside) = values.split_at(self.p.formal_degree() + 1);
-        let signs = beside.iter().map(|b| b.sign().filter(|s| s.is_ne())).collect::<Option<Vec<Sign>>>()?;
-        let count = certain_count(coefficients, Shape::LeftHalfPlane)?;
-        let middles: Vec<Integer> = coefficients.iter().map(Ball::middle_units).collect();
-        Some((count, signs, scale_of(&middles)))
     }
 }

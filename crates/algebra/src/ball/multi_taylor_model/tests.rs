@@ -131,3 +131,15 @@ fn models_of_parts_hold_what_the_whole_ones_do() {
     let none = whole.nothing();
     assert_eq!(none.along(&whole.lines(&inner)), none);
 }
+
+#[test]
+fn values_at_corners_are_those_of_the_polynomial() {
+    let lines = [("3/2", "1/2"), ("1/3", "1/8")].map(|(m, r)| (ball(&number(m)), ball(&number(r))));
+    let [x, y]: [MultiTaylorModel; 2] = MultiTaylorModel::linear(&lines, 4).try_into().unwrap();
+    let f = x.mul(&y).exp().mul(&x).sub(&y);
+    for [u, v] in [[0, 0], [1, -1], [-1, -1], [0, 1], [-1, 0]] {
+        let expected = value(&f, &[Rational::from(i64::from(u)), Rational::from(i64::from(v))]);
+        let found = f.at_corner(&[u, v]);
+        assert!(found.intersection(&expected).is_some() && found.width_units() <= expected.width_units());
+    }
+}

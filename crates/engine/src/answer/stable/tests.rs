@@ -63,6 +63,7 @@ fn agrees(set: &StableSet, model: &Arc<Model>, name: &str, values: &[Rational]) 
 
 /// Both axes reach the circle nearly at once, and so do all products of roots of one with roots of the other.
 #[test]
+#[ignore = "long: CI runs it"]
 fn nearly_equal_axes_are_decided_each_alone_and_the_nominal_value_is_not_in_a_bracket() {
     let model = axes("0.8", "0.8001", "13");
     let set = set_of(model.ask().free("L"));
@@ -74,6 +75,7 @@ fn nearly_equal_axes_are_decided_each_alone_and_the_nominal_value_is_not_in_a_br
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn a_parameter_whose_nominal_value_is_zero_is_looked_at_outward_from_there() {
     let model = axes("0.8", "0.9", "13");
     let set = set_of(model.ask().free("w"));

@@ -2,15 +2,15 @@
 
 use super::held::Truth;
 use super::required::{nearer, worse};
-use super::{ToleranceAnswer, ToleranceRequest, WorstEnd};
+use super::{ExactFactor, ToleranceAnswer, ToleranceRequest, WorstEnd};
 use crate::answer::Answer;
-use crate::coverage::refusals::ONLY_THE_BOX;
+use crate::coverage::refusals::DECAY;
 use crate::error::{Code, Diagnostic, Error};
 use crate::problem::Problem;
 use crate::response::Requirement;
 use crate::stability::boxes::{
-    BoxDecision, BoxPolynomial, BoxVolume, ExactProof, Family, LargestFactor, MOST_PARAMETERS, OpenReason, Side,
-    ToleranceProblem, ray,
+    BoxDecision, BoxPolynomial, BoxVolume, Family, LargestFactor, MOST_PARAMETERS, OpenReason, Side, ToleranceProblem,
+    ray,
 };
 use crate::stability::{AtPoint, Range};
 use jurist_algebra::limits::Budget;
@@ -25,6 +25,9 @@ const END_SHARE: (u32, u32) = (1, 3);
 
 /// The part of the time that may be spent on the bracket of the largest factor.
 const BRACKET_SHARE: (u32, u32) = (4, 5);
+
+/// The part of the time that may be spent on the volume: what was found has to be said.
+const VOLUME_SHARE: (u32, u32) = (9, 10);
 
 /// What is asked, and who is told of the box before the rest is known.
 #[derive(Clone, Copy)]
@@ -67,7 +70,6 @@ impl Problem {
             return self.tolerance_of(&p, &Truth::of_points(self), sides, asked, budget);
         }
         if let Some(p) = self.moving_family(budget)? {
-            refuse_exact(request)?;
             return self.tolerance_of(&p, &Truth::of_points(self), sides, asked, budget);
         }
         let truth = Truth::of(self, budget)?;
@@ -133,7 +135,9 @@ impl Problem {
                 false => BoxDecision::not_stable_at(nominal, at.clone()),
                 true => BoxDecision::Undecided { why: OpenReason::Constants, cell: Vec::new() },
             };
-            return Ok(self.answered(sides, at, decision));
+            let bare = self.bare(sides, at, decision);
+            let volume = volume(p, &all, request, budget);
+            return Ok(Answer::new(Arc::clone(self), ToleranceAnswer { volume, ..bare }));
         };
         let polynomial = p.as_polynomial().and_then(|p| ToleranceProblem::new(p, all.clone()));
         if let Some(polynomial) = polynomial.as_ref().filter(|boxes| boxes.coefficients().is_none()) {
@@ -215,14 +219,11 @@ impl Problem {
         };
         let exact = match (&worst, &cells, &polynomial) {
             (Some(worst), Some(cells), Some(boxes)) if request.exact && truth.is_exact() => {
-                boxes.exact(&factor, &worst.end, cells, budget)?
+                boxes.exact(&factor, &worst.end, cells, budget)?.map(ExactFactor::from)
             }
             _ => None,
         };
-        let volume = match &polynomial {
-            Some(boxes) => self.volume(boxes, request, budget)?,
-            None => None,
-        };
+        let volume = volume(p, &all, request, budget);
         let decision = agreed(decision, &factor, exact.as_ref());
         let value = ToleranceAnswer {
             sides,
@@ -238,16 +239,6 @@ impl Problem {
             binding,
         };
         Ok(Answer::new(Arc::clone(self), value))
-    }
-
-    fn volume(
-        &self,
-        boxes: &ToleranceProblem,
-        request: &ToleranceRequest,
-        budget: &Budget,
-    ) -> Result<Option<BoxVolume>, Error> {
-        let Some(undecided) = &request.volume else { return Ok(None) };
-        Ok(Some(boxes.volume(&Rational::ONE, undecided, budget)?))
     }
 
     fn answered(
@@ -336,12 +327,12 @@ impl Problem {
 }
 
 /// The decision about the box itself, where the bracket says more.
-pub(super) fn agreed(decision: BoxDecision, factor: &LargestFactor, exact: Option<&ExactProof>) -> BoxDecision {
+pub(super) fn agreed(decision: BoxDecision, factor: &LargestFactor, exact: Option<&ExactFactor>) -> BoxDecision {
     match decision {
         BoxDecision::Stable(_) => decision,
         // The exact factor is in the bracket around 1, and not above 1.
         BoxDecision::Undecided { .. }
-            if exact.is_some_and(|proof| proof.value.compare_rational(&Rational::ONE).is_le()) =>
+            if exact.is_some_and(|exact| exact.value.compare_rational(&Rational::ONE).is_le()) =>
         {
             BoxDecision::NotStable { witness: None }
         }
@@ -377,6 +368,17 @@ fn bounded_by(decision: &BoxDecision, mut factor: LargestFactor, sides: &[Side])
     factor
 }
 
+/// The share of the box that is stable, where that is asked for.
+pub(super) fn volume(
+    p: &impl Family,
+    sides: &[Side],
+    request: &ToleranceRequest,
+    budget: &Budget,
+) -> Option<BoxVolume> {
+    let part = budget.share(VOLUME_SHARE.0, VOLUME_SHARE.1);
+    request.volume.as_ref().map(|undecided| BoxVolume::of(p, sides, &Rational::ONE, undecided, &part))
+}
+
 /// The volume of a box of many parameters, refused before any work.
 fn refuse_volume(parameters: usize, request: &ToleranceRequest) -> Result<(), Error> {
     if request.volume.is_none() || parameters <= MOST_PARAMETERS {
@@ -391,19 +393,9 @@ fn refuse_volume(parameters: usize, request: &ToleranceRequest) -> Result<(), Er
 /// What is not asked of loops with dead time.
 fn refuse_beside_dead_time(request: &ToleranceRequest) -> Result<(), Error> {
     if request.requirements.iter().all(Requirement::needs_cut) {
-        return refuse_exact(request);
+        return Ok(());
     }
-    Err(ONLY_THE_BOX.diagnostic(&[("what", "requirements on settling are")]).into())
-}
-
-/// What is not asked of loops with functions of parameters.
-fn refuse_exact(request: &ToleranceRequest) -> Result<(), Error> {
-    let what = match (&request.volume, request.exact) {
-        (Some(_), _) => "the volume of a box is",
-        (_, true) => "the factor as an algebraic number is",
-        _ => return Ok(()),
-    };
-    Err(ONLY_THE_BOX.diagnostic(&[("what", what)]).into())
+    Err(DECAY.diagnostic(&[("what", "tolerances")]).into())
 }
 
 /// Requirements are not looked at by these questions.

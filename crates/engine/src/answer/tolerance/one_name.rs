@@ -1,8 +1,8 @@
 //! The tolerance of one name beside functions and dead time: the stable sets up and down from the nominal value tell it whole.
 
-use super::decide::Asked;
+use super::decide::{Asked, volume};
 use super::held::Truth;
-use super::{ToleranceAnswer, WorstEnd};
+use super::{ExactFactor, ToleranceAnswer, WorstEnd};
 use crate::answer::Answer;
 use crate::error::Error;
 use crate::problem::Problem;
@@ -67,7 +67,7 @@ impl Problem {
                 domain_factor: domain,
                 ..self.bare(sides, at.clone(), stable())
             };
-            return Ok(Some(self.answer_of_one(found, asked)));
+            return Ok(Some(self.answer_of_one(found, p, asked, budget)));
         };
         let mut factor = budget.enter(|| LargestFactor::before(&worst.end.value, vec![direction], gap))?;
         let (base, step) = ray(&sides, factor.direction.as_deref().unwrap_or_default());
@@ -82,13 +82,27 @@ impl Problem {
             true => stable(),
             false => BoxDecision::NotStable { witness: factor.witness.clone() },
         };
-        let bare = self.bare(sides, at.clone(), decision);
-        let found = ToleranceAnswer { factor: Some(factor), worst: Some(*worst), domain_factor: domain, ..bare };
-        Ok(Some(self.answer_of_one(found, asked)))
+        let exact = ExactFactor { value: worst.end.value.clone(), proof: None };
+        let found = ToleranceAnswer {
+            factor: Some(factor),
+            exact: asked.request.exact.then_some(exact),
+            worst: Some(*worst),
+            domain_factor: domain,
+            ..self.bare(sides, at.clone(), decision)
+        };
+        Ok(Some(self.answer_of_one(found, p, asked, budget)))
     }
 
-    /// The answer, without what was not asked for.
-    fn answer_of_one(self: &Arc<Self>, found: ToleranceAnswer, asked: Asked<'_>) -> Answer<ToleranceAnswer> {
+    /// The answer, without what was not asked for, and with the volume where that was.
+    fn answer_of_one(
+        self: &Arc<Self>,
+        found: ToleranceAnswer,
+        p: &impl Family,
+        asked: Asked<'_>,
+        budget: &Budget,
+    ) -> Answer<ToleranceAnswer> {
+        let volume = volume(p, &found.sides, asked.request, budget);
+        let found = ToleranceAnswer { volume, ..found };
         let value = match asked.request.factor {
             true => found,
             false => ToleranceAnswer { factor: None, worst: None, domain_factor: None, ..found },

@@ -64,7 +64,8 @@ impl Problem {
             asked.add_delays(&delay)?;
             return Ok(asked.found);
         }
-        if base.as_polynomial().is_none() {
+        let is_on_spiral = matches!(requirement.rule(), Rule::Sector(_)) && self.shape() == Shape::UnitDisc;
+        if base.as_polynomial().is_none() || is_on_spiral {
             let at = request.at.as_deref();
             let boxes = RequirementBoxes::of(self, requirement, at, &asked.nominal(), budget)?;
             let boxes = boxes.ok_or_else(|| not_over_a_box(requirement, "ask 'verdict' at points"))?;
@@ -134,12 +135,6 @@ impl Problem {
     ) -> Result<Vec<FamilyOfLoops>, Error> {
         let (whole, shape) = (self.without_region(), self.shape());
         match requirement.rule() {
-            Rule::Sector(_) if shape == Shape::UnitDisc => {
-                return Err(not_over_a_box(
-                    requirement,
-                    "the curve of a discrete loop is not algebraic: ask for a radius",
-                ));
-            }
             Rule::Sector(_) | Rule::Modulus { .. } => {
                 let Some(d) = whole.algebra_over_symbols(budget)?.polynomial() else { return Ok(Vec::new()) };
                 let (p, denominator) = budget.enter(|| d.cleared())?;

@@ -43,6 +43,11 @@ impl Problem {
             // Who needs it meets the error again.
             _ => return Ok(None),
         }
+        self.coefficients_by_values(&radius, budget)
+    }
+
+    /// Algebra of which nothing but values is known, in a disc of this radius; `None` where the loop is not of this form.
+    pub(super) fn coefficients_by_values(&self, radius: &Rational, budget: &Budget) -> Result<Option<Algebra>, Error> {
         if self.model().hyperperiod() > 1 {
             return Ok(None);
         }
@@ -57,7 +62,7 @@ impl Problem {
         let Some(InNumbers { closed_loop, sample_time, symbols }) = found.filter(is_held) else { return Ok(None) };
         budget.step("coefficients by enclosures");
         let of = Held { system: &closed_loop, sample_time: sample_time.as_ref(), symbols: &symbols };
-        Ok(budget.enter(|| of.algebra(&OfNames::of(&of, kept), &radius))?)
+        Ok(budget.enter(|| of.algebra(&OfNames::of(&of, kept), radius))?)
     }
 
     /// The loop cut open, by values. `None` where the cut is at a gain, where the open loop has a direct feedthrough or the closed loop decouples, or is not

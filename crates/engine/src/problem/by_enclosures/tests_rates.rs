@@ -37,6 +37,7 @@ fn both(problem: &Problem) -> Option<[Ends; 2]> {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn a_gain_of_the_fast_loop_has_the_set_of_the_exact_polynomial() {
     let slow =
         ["gain = 2\nevery = 2", "transfer = '1/(4*(z - 1))'\nevery = 3\nphase = 1", "transfer = '1/z'\nevery = 4"];

@@ -255,6 +255,15 @@ impl Requirement {
         matches!(self.rule, Rule::DeadTime(_))
     }
 
+    /// Whether it begins or ceases to be met on a curve that is not algebraic: a map of it is made of boxes.
+    pub(crate) fn has_no_curve(&self, time: Time) -> bool {
+        match self.rule {
+            Rule::DeadTime(_) | Rule::Modulus { .. } => true,
+            Rule::Sector(_) => time == Time::Discrete,
+            Rule::Factors(_) | Rule::Turned { .. } | Rule::Circle(_) => false,
+        }
+    }
+
     /// Whether it is about the open loop at a cut.
     pub(crate) fn needs_cut(&self) -> bool {
         !matches!(self.rule, Rule::Sector(_) | Rule::Modulus { .. })

@@ -5,13 +5,13 @@ use super::plan::Plan;
 use super::question::{RegionBound, title};
 use super::requirements::RequirementAsked;
 use super::{AllValues, Answered, End, FrequencyOfPair, RootsByPlace, Undecided, schema_name};
-use crate::answer::{Answer, LimitSide, RequiredBox, ToleranceAnswer, ToleranceLimit, WorstEnd};
+use crate::answer::{Answer, ExactFactor, LimitSide, RequiredBox, ToleranceAnswer, ToleranceLimit, WorstEnd};
 use crate::model::Time;
 use crate::problem::Problem;
 use crate::show::bounded::at_most;
 use crate::show::real;
 use crate::show::tolerance::{sign_name, verdict_of};
-use crate::stability::boxes::{BoxDecision, ExactProof, LargestFactor, Witness};
+use crate::stability::boxes::{BoxDecision, LargestFactor, Witness};
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::{Rational, to_decimal};
 use serde::{Deserialize, Serialize};
@@ -171,6 +171,8 @@ pub struct VolumeShares {
     pub undecided: Exact,
     /// The number of boxes that were decided.
     pub boxes: usize,
+    /// What ended the subdivision before at most 1 % was undecided; `null` where nothing did.
+    pub stopped: Option<String>,
 }
 
 /// The range of one parameter.
@@ -238,7 +240,7 @@ fn found(problem: &Problem, answer: &ToleranceAnswer, digits: usize) -> Toleranc
             lower: (&f.lower).into(),
             upper: f.upper.as_ref().map(Exact::from),
             decimal: at_most(&f.lower, digits),
-            exact: answer.worst.as_ref().zip(answer.exact.as_ref()).map(|(w, proof)| exact_end(w, proof, digits)),
+            exact: answer.worst.as_ref().zip(answer.exact.as_ref()).map(|(w, exact)| exact_end(w, exact, digits)),
             domain: answer.domain_factor.as_ref().map(Exact::from),
         }),
         worst: factor.and_then(|f| worst(problem, answer, f, digits)),
@@ -255,6 +257,7 @@ fn found(problem: &Problem, answer: &ToleranceAnswer, digits: usize) -> Toleranc
             unstable: (&v.unstable).into(),
             undecided: (&v.undecided).into(),
             boxes: v.boxes,
+            stopped: v.stopped.as_ref().map(ToString::to_string),
         }),
         cells,
         undecided,
@@ -280,11 +283,11 @@ fn end_of(worst: &WorstEnd, digits: usize) -> End {
 }
 
 /// The end of the worst line, or where a parameter is inside of its side the factor at which zeros meet, which is not above it.
-fn exact_end(worst: &WorstEnd, proof: &ExactProof, digits: usize) -> End {
-    if worst.end.value.is_same(&proof.value) {
+fn exact_end(worst: &WorstEnd, exact: &ExactFactor, digits: usize) -> End {
+    if worst.end.value.is_same(&exact.value) {
         return end_of(worst, digits);
     }
-    let end = crate::stability::End::new(proof.value.clone(), worst.end.causes.clone(), None);
+    let end = crate::stability::End::new(exact.value.clone(), worst.end.causes.clone(), None);
     End::new(&end, &worst.problem, digits)
 }
 
