@@ -3,10 +3,17 @@
 use super::{Answer, Verdict};
 use crate::error::Error;
 use crate::problem::{EnclosedParts, Problem, Question, Region};
-use crate::stability::{Cause, End, StableSet, stable_set, stable_set_of_parts};
+use crate::stability::{Cause, End, Range, StableSet, UndecidedBracket, stable_set, stable_set_of_parts};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use std::sync::Arc;
+
+/// A domain from 0 is looked at by values from this share of the nominal value on, in bits.
+const START_BITS: u64 = 10;
+
+/// Why it is not looked at before.
+const NEAR_ZERO: &str =
+    "not looked at: near zero roots come together, and of so long a loop nothing but values is known";
 
 impl Question {
     /// For which values of the one free parameter the loop is stable, all others at their set or nominal values.
@@ -115,7 +122,22 @@ impl Problem {
             return Ok(None);
         }
         let Some(p) = of.symbolic(budget)? else { return Ok(None) };
-        Ok(Some(stable_set_of_parts(&[p], &self.parameter().domain, self.shape(), budget)?))
+        let (domain, start) = (&self.parameter().domain, self.start_of_values());
+        let Some(start) = start.filter(|start| domain.upper.as_ref().is_none_or(|upper| start < upper)) else {
+            return Ok(Some(stable_set_of_parts(&[p], domain, self.shape(), budget)?));
+        };
+        let range = Range::between(Some(start.clone()), domain.upper.clone());
+        let found = stable_set_of_parts(&[p], &range, self.shape(), budget)?;
+        let before = UndecidedBracket::new(domain.lower.clone(), Some(start), NEAR_ZERO);
+        Ok(Some(StableSet::from_intervals(Vec::new(), vec![before]).followed_by(found, None)))
+    }
+
+    /// Where a domain that begins at 0 is looked at by values: at 0 itself roots come together, as they do at a sample time of 0, and values do not tell how.
+    fn start_of_values(&self) -> Option<Rational> {
+        let free = self.parameter();
+        let scale = free.nominal.clone().filter(|x| x.sign().is_gt()).unwrap_or(Rational::ONE);
+        let begins_at_zero = free.domain.lower.as_ref().is_some_and(Rational::is_zero);
+        begins_at_zero.then(|| &scale * &Rational::dyadic(&1.into(), START_BITS))
     }
 
     /// The stable set by exact polynomials.
