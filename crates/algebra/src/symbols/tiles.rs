@@ -137,7 +137,7 @@ fn on_part(
     let least = found.iter().map(largest).max().unwrap_or(Integer::ZERO) >> SMALL_BITS;
     let is_fine = |model: &MultiTaylorModel| {
         let rest = model.rest_units();
-        *rest <= least || &(rest << FINE_BITS) <= &largest(model)
+        *rest <= least || rest << FINE_BITS <= largest(model)
     };
     found.iter().all(is_fine).then(|| found.iter().map(|model| model.with_bits(bits)).collect())
 }

@@ -274,6 +274,6 @@ impl Question {
             };
             sides.push(Side::scaled(nominal, widths));
         }
-        Problem::tolerance(&problem, sides, Asked { request, told }, budget)
+        Problem::tolerance(&problem.in_boxes(budget)?, sides, Asked { request, told }, budget)
     }
 }
