@@ -8,12 +8,14 @@ use crate::number::{Integer, Rational};
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Models have at most so many coefficients, and this degree at most.
-const TERMS: usize = 60;
+/// Models have at most so many coefficients, and this degree at most. With 60 and steps of one octave the largest factor of two tolerances of a plant of order 8
+/// took ten times as long.
+const TERMS: usize = 100;
 const DEGREE: usize = 16;
 
-/// Boxes of the grid are tried from those of half the size of the values down, each an octave shorter.
-const STEPS: i64 = 16;
+/// Boxes of the grid are tried from those of half the size of the values down, each so many octaves shorter.
+const STEP: i64 = 2;
+const STEPS: i64 = 12;
 
 /// Models over a box serve for a part where they leave out less than this share of the function there, in bits: with a thousandth of what the function
 /// varies in a part, factors of tolerances were not found to six digits.
@@ -108,7 +110,7 @@ fn unit(octave: i64) -> Rational {
 fn side_of((middle, around): &(Rational, Rational), step: i64) -> Option<Side> {
     let size = middle.abs() + around;
     let exponent = |x: &Rational| x.numerator().bit_length() as i64 - x.denominator().bit_length() as i64;
-    let octave = if size.is_zero() { 0 } else { exponent(&size) - 1 } - step;
+    let octave = if size.is_zero() { 0 } else { exponent(&size) - 1 } - STEP * step;
     // A side of a unit fits into two of the grid's; rounding is to stay inside.
     let units = |x: &Rational| x * &unit(-octave);
     let margin = Rational::dyadic(&Integer::ONE, MARGIN_BITS);
@@ -158,7 +160,7 @@ mod tests {
                 assert!(&middle - &most <= &line.0 - &line.1 && &line.0 + &line.1 <= &middle + &most);
                 lengths.push(half);
             }
-            assert!(lengths.windows(2).all(|pair| pair[0] == &pair[1] * &Rational::from(2)));
+            assert!(lengths.windows(2).all(|pair| pair[0] == &pair[1] * &Rational::from(4)));
             assert_eq!(lengths.is_empty(), line.0.is_zero(), "{middle} {around}");
         }
     }
