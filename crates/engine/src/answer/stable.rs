@@ -3,17 +3,10 @@
 use super::{Answer, Verdict};
 use crate::error::Error;
 use crate::problem::{EnclosedParts, Problem, Question, Region};
-use crate::stability::{Cause, End, Range, StableSet, UndecidedBracket, stable_set, stable_set_of_parts};
+use crate::stability::{Cause, End, StableSet, stable_set, stable_set_of_parts};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use std::sync::Arc;
-
-/// A domain from 0 is looked at by values from this share of the nominal value on, in bits.
-const START_BITS: u64 = 10;
-
-/// Why it is not looked at before.
-const NEAR_ZERO: &str =
-    "not looked at: near zero roots come together, and of so long a loop nothing but values is known";
 
 impl Question {
     /// For which values of the one free parameter the loop is stable, all others at their set or nominal values.
@@ -117,27 +110,17 @@ impl Problem {
 
     /// The same where the parameter is inside of functions: its values are all that is known of the coefficients.
     fn stable_set_by_values(self: &Arc<Self>, budget: &Budget) -> Result<Option<StableSet>, Error> {
+        // At 0 roots come together, as at a sample time of 0, and without end functions die away: values do not tell how.
+        let domain = &self.parameter().domain;
+        let is_bounded = domain.lower.as_ref().is_some_and(|lower| !lower.is_zero()) && domain.upper.is_some();
         let of = self.in_boxes(budget)?;
-        if Arc::ptr_eq(self, &of) {
+        if !is_bounded || Arc::ptr_eq(self, &of) {
             return Ok(None);
         }
         let Some(p) = of.symbolic(budget)? else { return Ok(None) };
-        let (domain, start) = (&self.parameter().domain, self.start_of_values());
-        let Some(start) = start.filter(|start| domain.upper.as_ref().is_none_or(|upper| start < upper)) else {
-            return Ok(Some(stable_set_of_parts(&[p], domain, self.shape(), budget)?));
-        };
-        let range = Range::between(Some(start.clone()), domain.upper.clone());
-        let found = stable_set_of_parts(&[p], &range, self.shape(), budget)?;
-        let before = UndecidedBracket::new(domain.lower.clone(), Some(start), NEAR_ZERO);
-        Ok(Some(StableSet::from_intervals(Vec::new(), vec![before]).followed_by(found, None)))
-    }
-
-    /// Where a domain that begins at 0 is looked at by values: at 0 itself roots come together, as they do at a sample time of 0, and values do not tell how.
-    fn start_of_values(&self) -> Option<Rational> {
-        let free = self.parameter();
-        let scale = free.nominal.clone().filter(|x| x.sign().is_gt()).unwrap_or(Rational::ONE);
-        let begins_at_zero = free.domain.lower.as_ref().is_some_and(Rational::is_zero);
-        begins_at_zero.then(|| &scale * &Rational::dyadic(&1.into(), START_BITS))
+        let found = stable_set_of_parts(&[p], domain, self.shape(), budget)?;
+        // What values do not tell exact polynomials may.
+        Ok(Some(found).filter(|found| found.undecided().is_empty()))
     }
 
     /// The stable set by exact polynomials.
