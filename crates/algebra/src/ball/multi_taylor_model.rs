@@ -4,8 +4,8 @@ use super::flow::exponential_of;
 use super::implicit::{Approximate, implicit};
 use super::solutions::{Scaled, Summed, solutions_by_taylor};
 use super::{Ball, Elementary, Enclosed, exp};
-use crate::limits::checkpoint;
-use crate::number::{Integer, Rational};
+use crate::number::Integer;
+use raw_sum::RawSum;
 use std::sync::Arc;
 
 /// The monomials in some variables up to a total degree, by degree, and the places of their products.
@@ -117,61 +117,6 @@ impl MultiTaylorModel {
     /// A bound of the sum of the absolute values of all that is left out, in units of the last place.
     pub fn rest_units(&self) -> &Integer {
         &self.rest
-    }
-
-    /// The line that this is, of which nothing but rounding is left out: its middle and how far it goes around it; `None` of any other function.
-    pub fn as_line(&self) -> Option<(Rational, Rational)> {
-        let last = self.monomials.starts.get(2).copied().unwrap_or(self.coefficients.len());
-        let is_line = self.coefficients[last.min(self.coefficients.len())..].iter().all(Integer::is_zero);
-        let number = |units: &Integer| Rational::dyadic(units, self.bits);
-        is_line.then(|| (number(&self.coefficients[0]), number(&self.around())))
-    }
-
-    /// The same function of lines within the polydisc, which may be in other variables.
-    ///
-    /// Cost: as many products with a line as there are coefficients.
-    ///
-    /// # Panics
-    /// Unless there is a line for each variable, with the bits of this function.
-    pub fn along(&self, lines: &[MultiTaylorModel]) -> MultiTaylorModel {
-        let terms: Vec<(&[u32], &Integer)> = self.terms().filter(|(_, c)| !c.is_zero()).collect();
-        let mut out = horner(&terms, lines, &lines[0]);
-        // What is left out is no larger there.
-        out.rest += &self.rest;
-        out
-    }
-
-    /// The value where each coordinate is -1, 0 or 1.
-    pub fn at_corner(&self, coordinates: &[i8]) -> Ball {
-        let sum = self.terms().fold(Integer::ZERO, |sum, (e, c)| {
-            let mut powers = coordinates.iter().zip(e).filter(|(_, e)| **e > 0);
-            match powers.clone().any(|(u, _)| *u == 0) {
-                true => sum,
-                false if powers.by_ref().filter(|(u, e)| **u < 0 && **e % 2 == 1).count() % 2 == 1 => sum - c,
-                false => sum + c,
-            }
-        });
-        Ball::from_units(&sum - &self.rest, &sum + &self.rest, self.bits)
-    }
-
-    /// With other bits after the point.
-    pub fn with_bits(&self, bits: u64) -> MultiTaylorModel {
-        self.rescaled(bits, 0)
-    }
-
-    /// The number of bits after the point.
-    pub fn value_bits(&self) -> u64 {
-        self.bits
-    }
-
-    /// The difference from a number.
-    pub fn less(&self, number: &Ball) -> MultiTaylorModel {
-        self.sub(&self.constant(number))
-    }
-
-    /// Times a power of two.
-    pub fn shifted(&self, exponent: i64) -> MultiTaylorModel {
-        self.rescaled(self.bits, exponent)
     }
 
     fn with(&self, coefficients: Vec<Integer>, rest: Integer) -> MultiTaylorModel {
@@ -322,65 +267,6 @@ fn ratio_up(a: &Integer, b: &Integer, bits: u64) -> Integer {
     -(-(a << bits)).div_mod_floor(b).0
 }
 
-/// The sum of terms in the first so many lines.
-fn horner(terms: &[(&[u32], &Integer)], lines: &[MultiTaylorModel], like: &MultiTaylorModel) -> MultiTaylorModel {
-    let Some((last, others)) = lines.split_last() else {
-        let sum = terms.iter().fold(Integer::ZERO, |sum, (_, c)| sum + *c);
-        return like.constant(&Ball::from_units(sum.clone(), sum, like.bits));
-    };
-    let power = |e: &[u32]| e[others.len()];
-    let highest = terms.iter().map(|(e, _)| power(e)).max().unwrap_or(0);
-    (0..=highest).rev().fold(like.nothing(), |sum, k| {
-        let own: Vec<(&[u32], &Integer)> = terms.iter().filter(|(e, _)| power(e) == k).copied().collect();
-        let sum = if sum.is_nothing() { sum } else { last.mul(&sum) };
-        if own.is_empty() { sum } else { sum.add(&horner(&own, others, like)) }
-    })
-}
-
-/// A sum of products with twice the bits after the point.
-struct RawSum {
-    coefficients: Vec<Integer>,
-    left_out: Integer,
-}
-
-impl RawSum {
-    fn of(like: &MultiTaylorModel) -> RawSum {
-        RawSum { coefficients: vec![Integer::ZERO; like.coefficients.len()], left_out: Integer::ZERO }
-    }
-
-    fn add_product(&mut self, one: &MultiTaylorModel, other: &MultiTaylorModel) {
-        let monomials = &one.monomials;
-        let filled = other.coefficients.iter().rposition(|c| !c.is_zero()).map_or(0, |i| i + 1);
-        for (a, places) in one.coefficients.iter().zip(&monomials.products).filter(|(a, _)| !a.is_zero()) {
-            checkpoint((4 * places.len().min(filled)) as u64);
-            for (b, &place) in other.coefficients[..filled].iter().zip(places) {
-                if !b.is_zero() {
-                    self.coefficients[place as usize].add_mul_assign(a, b);
-                }
-            }
-        }
-        let (a, b) = (one.sizes(), other.sizes());
-        for (i, a) in a.iter().enumerate() {
-            for b in &b[monomials.degree + 1 - i.min(monomials.degree)..] {
-                if i > 0 {
-                    self.left_out.add_mul_assign(a, b);
-                }
-            }
-        }
-        if !other.rest.is_zero() {
-            self.left_out.add_mul_assign(&a.iter().fold(one.rest.clone(), |sum, a| sum + a), &other.rest);
-        }
-        if !one.rest.is_zero() {
-            self.left_out.add_mul_assign(&b.iter().fold(Integer::ZERO, |sum, b| sum + b), &one.rest);
-        }
-    }
-
-    fn model(self, like: &MultiTaylorModel) -> MultiTaylorModel {
-        let coefficients = self.coefficients.into_iter().map(|c| c >> like.bits).collect();
-        like.with(coefficients, up(self.left_out, like.bits) + like.roundings())
-    }
-}
-
 impl Enclosed for MultiTaylorModel {
     fn nothing(&self) -> MultiTaylorModel {
         self.with(vec![Integer::ZERO; self.coefficients.len()], Integer::ZERO)
@@ -499,6 +385,9 @@ impl Elementary for MultiTaylorModel {
         implicit(self, start, self.monomials.degree + 1, f)
     }
 }
+
+mod along;
+mod raw_sum;
 
 #[cfg(test)]
 mod tests;

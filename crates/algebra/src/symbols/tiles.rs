@@ -8,7 +8,8 @@ use crate::number::{Integer, Rational};
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Models have at most so many coefficients, and this degree at most.
+/// Models have at most so many coefficients, and this degree at most. With 60 and steps of one octave the largest factor of two tolerances of a plant of order 8
+/// took ten times as long.
 const TERMS: usize = 100;
 const DEGREE: usize = 16;
 
@@ -16,7 +17,8 @@ const DEGREE: usize = 16;
 const STEP: i64 = 2;
 const STEPS: i64 = 12;
 
-/// Models over a box serve for a part where they leave out less than this share of the function there, in bits.
+/// Models over a box serve for a part where they leave out less than this share of the function there, in bits: with a thousandth of what the function
+/// varies in a part, factors of tolerances were not found to six digits.
 const FINE_BITS: u64 = 20;
 
 /// The same as a share of the greatest of all functions: some are zero.
@@ -137,7 +139,7 @@ fn on_part(
     let least = found.iter().map(largest).max().unwrap_or(Integer::ZERO) >> SMALL_BITS;
     let is_fine = |model: &MultiTaylorModel| {
         let rest = model.rest_units();
-        *rest <= least || &(rest << FINE_BITS) <= &largest(model)
+        *rest <= least || rest << FINE_BITS <= largest(model)
     };
     found.iter().all(is_fine).then(|| found.iter().map(|model| model.with_bits(bits)).collect())
 }

@@ -110,12 +110,17 @@ impl Problem {
 
     /// The same where the parameter is inside of functions: its values are all that is known of the coefficients.
     fn stable_set_by_values(self: &Arc<Self>, budget: &Budget) -> Result<Option<StableSet>, Error> {
+        // At 0 roots come together, as at a sample time of 0, and without end functions die away: values do not tell how.
+        let domain = &self.parameter().domain;
+        let is_bounded = domain.lower.as_ref().is_some_and(|lower| !lower.is_zero()) && domain.upper.is_some();
         let of = self.in_boxes(budget)?;
-        if Arc::ptr_eq(self, &of) {
+        if !is_bounded || Arc::ptr_eq(self, &of) {
             return Ok(None);
         }
         let Some(p) = of.symbolic(budget)? else { return Ok(None) };
-        Ok(Some(stable_set_of_parts(&[p], &self.parameter().domain, self.shape(), budget)?))
+        let found = stable_set_of_parts(&[p], domain, self.shape(), budget)?;
+        // What values do not tell exact polynomials may.
+        Ok(Some(found).filter(|found| found.undecided().is_empty()))
     }
 
     /// The stable set by exact polynomials.

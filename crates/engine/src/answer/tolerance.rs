@@ -341,6 +341,6 @@ impl Question {
             request.side(free, value)
         });
         let sides = sides.collect::<Result<Vec<_>, Error>>()?;
-        Problem::tolerance(&problem, sides, Asked { request, told }, budget)
+        Problem::tolerance(&problem.in_boxes(budget)?, sides, Asked { request, told }, budget)
     }
 }

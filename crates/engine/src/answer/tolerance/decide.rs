@@ -43,10 +43,6 @@ impl Problem {
         asked: Asked<'_>,
         budget: &Budget,
     ) -> Result<Answer<ToleranceAnswer>, Error> {
-        let in_boxes = self.in_boxes(budget)?;
-        if !Arc::ptr_eq(self, &in_boxes) {
-            return in_boxes.tolerance(sides, asked, budget);
-        }
         let request = asked.request;
         refuse_beside_requirements(request)?;
         refuse_volume(sides.len(), request)?;
