@@ -7,6 +7,7 @@ use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, BoxRequest, MapMethod, MapOrBoxes, ToleranceAnswer, ToleranceRequest, Verdict};
 use jurist_engine::error::{Code, Error};
 use jurist_engine::model::Model;
+use jurist_engine::problem::Region;
 use jurist_engine::stability::boxes::BoxDecision;
 use jurist_engine::stability::plane::boxes::BoxVerdict;
 use jurist_engine::stability::{AtPoint, Range};
@@ -257,6 +258,42 @@ fn a_limit_holds_for_all_values_of_the_others() {
     // K = -1: a root at s = 0, whatever the others are.
     assert!(lower.safe > number("-1") && lower.unsafe_at == Some(number("-1")), "{}", lower.safe);
     assert_eq!(upper.worst.unwrap().end.causes.to_string(), "complex pair");
+}
+
+/// `c s + K exp(-s)` with the decay 1/5: from `K/c = exp(-1/5)/5`, with a real root there, to `exp(-1/5)/(5 cos w)`, `tan w = 5 w`.
+#[test]
+fn a_decay_rate_holds_for_all_values_beside_a_dead_time() {
+    let model =
+        function("K = { nominal = '1/2' }\nc = { nominal = 1 }\ntheta = { nominal = 1 }", "c*s + K*exp(-theta*s)");
+    let decaying = || model.ask().within(Region::half_plane(number("1/5")));
+    let w = (0..200).fold(1.4, |w: f64, _| (5.0 * w).atan());
+    let ends = [0.2 * (-0.2f64).exp(), 0.2 * (-0.2f64).exp() / w.cos()];
+    for (k, c, known) in [
+        // (1/2 + f/20)/(1 - f/10), and (1/2 - f/20)/(1 + f/10).
+        ("-0%..+10%", "10%", (ends[1] - 0.5) / (0.05 + 0.1 * ends[1])),
+        ("-10%..+0%", "10%", (0.5 - ends[0]) / (0.05 + 0.1 * ends[0])),
+        ("-10%..+0%", "0%", (0.5 - ends[0]) / 0.05),
+    ] {
+        let answer = decaying().tolerance(&request(&[("K", k), ("c", c)], "1e-6"), &Budget::unlimited()).unwrap();
+        let factor = answer.value().factor.as_ref().expect("a factor");
+        let [low, high] = [&factor.lower, factor.upper.as_ref().expect("an end")].map(Rational::to_f64_approximate);
+        assert!(low <= known + 1e-9 && known <= high + 1e-9 && high - low < 1e-5, "{low} {known} {high}");
+        assert!(factor.witness.is_some());
+    }
+    let answer = decaying().tolerance(&request(&[("K", "10%")], "1e-6").exact(), &Budget::unlimited()).unwrap();
+    let exact = answer.value().exact.as_ref().expect("the end of the line").value.refined_to_digits(12).enclosure().0;
+    assert!((exact.to_f64_approximate() - (0.5 - ends[0]) / 0.05).abs() < 1e-9, "{exact}");
+    // K from 0 to 1, c from 0.8 to 1.2: the share of a rectangle between two lines from the origin.
+    let volume = request(&[("K", "100%"), ("c", "20%")], "1e-3").volume(number("1/20"));
+    let volume = decaying().tolerance(&volume, &Budget::unlimited()).unwrap().into_value().volume.unwrap();
+    let at = |i: u32| 0.8 + 0.4 * (f64::from(i) + 0.5) / 1000.0;
+    let share = (0..1000).map(|i| (ends[1] * at(i)).min(1.0) - ends[0] * at(i)).sum::<f64>() / 1000.0;
+    let [stable, undecided] = [&volume.stable, &volume.undecided].map(Rational::to_f64_approximate);
+    assert!(stable <= share + 1e-6 && share <= stable + undecided + 1e-6, "{stable} {share} {undecided}");
+    match decaying().tolerance(&request(&[("theta", "5%")], "1e-3"), &Budget::unlimited()) {
+        Err(Error::Refused(list)) => assert_eq!(list.diagnostics()[0].code, Code::DeadTime),
+        other => panic!("{other:?}"),
+    }
 }
 
 #[test]

@@ -2,12 +2,17 @@
 
 use super::delayed_terms::DelayedTerms;
 use super::resolved::Problem;
+use crate::coverage::refusals::DECAY;
 use crate::error::Error;
 use crate::stability::boxes::DelayedFunction;
+use jurist_algebra::ball::{Ball, exp};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction};
+
+/// Factors `exp(decay tau)` are enclosed with so many bits after the point.
+const FACTOR_BITS: u64 = 160;
 
 impl Problem {
     /// The loop with dead time in all free parameters, around a usual point; `None` for any other loop, and where it is undefined or vanishes
@@ -24,6 +29,43 @@ impl Problem {
             let found = DelayedTerms::of(polynomial, usual.len(), time_of, add)?;
             let times = delays.iter().map(|(_, time)| time.clone()).collect();
             Ok(DelayedFunction::new(found.terms, times, found.poles, usual))
+        })?
+    }
+}
+
+impl Problem {
+    /// The loop whose roots are to decay as the region says: [`Problem::delayed_family`], where each factor `exp(decay tau)` of a delayed part is one more
+    /// parameter, after the others, between the bounds that are returned.
+    ///
+    /// # Errors
+    /// As [`Problem::delayed_family`]; `E-dead-time` where a decay rate is asked for and a dead time depends on a parameter.
+    pub(crate) fn delayed_family_in_region(
+        &self,
+        usual: &[Rational],
+        budget: &Budget,
+    ) -> Result<Option<(DelayedFunction, Vec<[Rational; 2]>)>, Error> {
+        let Some(decay) = self.region().decay() else {
+            return Ok(self.delayed_family(usual, budget)?.map(|family| (family, Vec::new())));
+        };
+        let Some((polynomial, delays)) = self.over_delays_in_region(budget)? else { return Ok(None) };
+        if delays.iter().any(|(_, time)| !time.is_constant()) {
+            return Err(DECAY.diagnostic(&[("what", "a tolerance of the dead time")]).into());
+        }
+        let time_of = |variable: usize| delays.iter().find(|(own, _)| *own == variable).map(|(_, time)| time);
+        budget.enter(|| {
+            let mut found = DelayedTerms::of(polynomial, usual.len(), time_of, add)?;
+            let (mut all, mut bounds) = (usual.to_vec(), Vec::new());
+            for (time, part) in found.terms.iter_mut().filter(|(time, _)| !time.is_zero()) {
+                let factor = MultiPoly::variable(all.len());
+                part.iter_mut().for_each(|c| *c = c.times(&factor));
+                let exponent = decay * &time.as_constant().expect("a number");
+                let value = exp(&Ball::from_rational(&exponent, FACTOR_BITS));
+                all.push(value.lower().midpoint(&value.upper()));
+                bounds.push([value.lower(), value.upper()]);
+            }
+            let times = delays.iter().map(|(_, time)| time.clone()).collect();
+            let family = DelayedFunction::new(found.terms, times, found.poles, &all);
+            Ok(family.map(|family| (family, bounds)))
         })?
     }
 }

@@ -24,12 +24,21 @@ impl Problem {
     /// As [`Problem::algebra_over_symbols`]; `E-dead-time` for a decay rate, which cannot be asked of `what`, and for other functions
     /// beside dead time.
     pub(super) fn over_delays(&self, what: &str, budget: &Budget) -> Result<Option<OverDelays<'_>>, Error> {
+        let found = self.over_delays_in_region(budget)?;
+        if found.is_some() && self.region().bound() != super::Region::of(self.time()).bound() {
+            return Err(DECAY.diagnostic(&[("what", what)]).into());
+        }
+        Ok(found)
+    }
+
+    /// The same whatever decay rate is asked for: powers of `s` are counted from there, and a delay has one more factor, `exp(decay tau)`.
+    ///
+    /// # Errors
+    /// As [`Problem::over_delays`], but for the decay rate.
+    pub(super) fn over_delays_in_region(&self, budget: &Budget) -> Result<Option<OverDelays<'_>>, Error> {
         let algebra = self.algebra_over_symbols(budget)?;
         let delays = algebra.symbols().delays();
         let Some(polynomial) = algebra.polynomial().filter(|_| !delays.is_empty()) else { return Ok(None) };
-        if self.region().bound() != super::Region::of(self.time()).bound() {
-            return Err(DECAY.diagnostic(&[("what", what)]).into());
-        }
         if algebra.symbols().iter().count() > delays.len() {
             return Err(BESIDE_DEAD_TIME.diagnostic(&[]).into());
         }

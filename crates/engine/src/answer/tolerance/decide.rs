@@ -59,11 +59,12 @@ impl Problem {
         if !algebra.symbols().delays().is_empty() {
             self.refuse_undamped(&request.requirements, budget)?;
             refuse_beside_dead_time(request)?;
-            let Some(p) = self.delayed_family(&nominal, budget)? else {
+            let Some((p, constants)) = self.delayed_family_in_region(&nominal, budget)? else {
                 let decision = BoxDecision::NotStable { witness: None };
                 return Ok(self.answered(sides, AtPoint::Zero, decision));
             };
-            return self.tolerance_of(&p, &Truth::of_points(self), sides, asked, budget);
+            let truth = Truth::beside_constants(self, &constants);
+            return self.tolerance_of(&p, &truth, sides, asked, budget);
         }
         if let Some(p) = self.moving_family(budget)? {
             return self.tolerance_of(&p, &Truth::of_points(self), sides, asked, budget);
@@ -178,7 +179,7 @@ impl Problem {
         let most = ends.chain(&domain_factor).min().cloned();
         let mut earlier = earlier.into_iter();
         let factor = boxes.bracket(search, known, &|_| request.gap.clone(), most.as_ref(), &part)?;
-        let factor = truth.factor(p, factor, budget)?;
+        let factor = truth.factor(&boxes, p, factor, budget)?;
         let decision = agreed(decision, &factor, None);
         let factor = bounded_by(&decision, factor, &sides);
         let (mut decision, mut factor) = (decision, Some(factor));

@@ -6,7 +6,9 @@
 use crate::answer::{DelayedRoots, Verdict};
 use crate::error::Error;
 use crate::problem::Problem;
-use crate::stability::boxes::{BoxDecision, Family, LargestFactor, OpenReason, Side, Witness, corners};
+use crate::stability::boxes::{
+    BoxDecision, Family, LargestFactor, OpenReason, Side, ToleranceProblem, Witness, corners,
+};
 use crate::stability::{AtPoint, RootCount};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
@@ -39,13 +41,18 @@ impl<'a> Truth<'a> {
         }
         let table = problem.fixed_symbols(budget)?;
         let values = budget.enter(|| table.values(SYMBOL_BITS))?;
-        let side = |ball: &jurist_algebra::ball::Ball| {
-            let (low, high) = (ball.lower(), ball.upper());
-            let middle = low.midpoint(&high);
-            let widths = [&middle - &low, &high - &middle];
+        let bounds: Vec<[Rational; 2]> = values.iter().map(|ball| [ball.lower(), ball.upper()]).collect();
+        Ok(Truth::beside_constants(problem, &bounds))
+    }
+
+    /// Of a loop with constants between these bounds as further parameters.
+    pub fn beside_constants(problem: &'a Arc<Problem>, bounds: &[[Rational; 2]]) -> Self {
+        let side = |[low, high]: &[Rational; 2]| {
+            let middle = low.midpoint(high);
+            let widths = [&middle - low, high - &middle];
             Side::fixed(middle, widths)
         };
-        Ok(Truth { problem, symbols: values.iter().map(side).collect(), is_exact: false })
+        Truth { problem, symbols: bounds.iter().map(side).collect(), is_exact: false }
     }
 
     /// Whether everything is rational.
@@ -146,18 +153,30 @@ impl<'a> Truth<'a> {
     }
 
     /// The bracket with the true constants, for the parameters alone.
-    pub fn factor(&self, p: &impl Family, mut found: LargestFactor, budget: &Budget) -> Result<LargestFactor, Error> {
+    pub fn factor<F: Family>(
+        &self,
+        boxes: &ToleranceProblem<'_, F>,
+        p: &F,
+        mut found: LargestFactor,
+        budget: &Budget,
+    ) -> Result<LargestFactor, Error> {
         if self.is_exact {
             return Ok(found);
         }
         let free = self.problem.free().len();
-        let witness = match found.witness.take() {
-            None => None,
-            Some(witness) => match self.confirmed(p, witness, budget) {
-                Err(Error::Stopped(_)) => None,
-                confirmed => confirmed?,
-            },
+        let confirmed = |witness: Witness| match self.confirmed(p, witness, budget) {
+            Err(Error::Stopped(_)) => Ok(None),
+            confirmed => confirmed,
         };
+        let mut witness = found.witness.take().map(confirmed).transpose()?.flatten();
+        // With a constant in the middle of its enclosure a root may be on the boundary: one just beyond is told.
+        if witness.is_none()
+            && !self.symbols.is_empty()
+            && let Some((factor, point)) = boxes.just_beyond(&found)
+        {
+            witness = confirmed(Witness::uncounted(point))?;
+            found.upper = Some(factor);
+        }
         if witness.is_none() {
             (found.upper, found.direction, found.shares) = (None, None, None);
         }

@@ -49,7 +49,7 @@ impl Problem {
                 (&request.gap * &share).max(least).min(request.gap.clone())
             };
             let factor = boxes.bracket(boxes.searched(budget)?, None, &gap, most.as_ref(), budget)?;
-            let mut factor = truth.factor(p, factor, budget)?;
+            let mut factor = truth.factor(&boxes, p, factor, budget)?;
             let is_undefined = factor.witness.as_ref().is_some_and(|witness| witness.at == Some(AtPoint::Undefined));
             if is_undefined && most.as_ref().is_some_and(|most| factor.lower >= *most) {
                 // Beyond the domain there is no loop, as with a negative dead time.

@@ -67,7 +67,7 @@ impl Problem {
                 domain_factor: domain,
                 ..self.bare(sides, at.clone(), stable())
             };
-            return Ok(Some(self.answer_of_one(found, p, asked, budget)));
+            return Ok(Some(self.answer_of_one(found, (p, truth), asked, budget)));
         };
         let mut factor = budget.enter(|| LargestFactor::before(&worst.end.value, vec![direction], gap))?;
         let (base, step) = ray(&sides, factor.direction.as_deref().unwrap_or_default());
@@ -90,18 +90,18 @@ impl Problem {
             domain_factor: domain,
             ..self.bare(sides, at.clone(), decision)
         };
-        Ok(Some(self.answer_of_one(found, p, asked, budget)))
+        Ok(Some(self.answer_of_one(found, (p, truth), asked, budget)))
     }
 
     /// The answer, without what was not asked for, and with the volume where that was.
     fn answer_of_one(
         self: &Arc<Self>,
         found: ToleranceAnswer,
-        p: &impl Family,
+        (p, truth): (&impl Family, &Truth),
         asked: Asked<'_>,
         budget: &Budget,
     ) -> Answer<ToleranceAnswer> {
-        let volume = volume(p, &found.sides, asked.request, budget);
+        let volume = volume(p, &truth.beside(&found.sides), asked.request, budget);
         let found = ToleranceAnswer { volume, ..found };
         let value = match asked.request.factor {
             true => found,
