@@ -49,7 +49,7 @@ impl Problem {
         };
         let Some((polynomial, delays)) = self.over_delays_in_region(budget)? else { return Ok(None) };
         if delays.iter().any(|(_, time)| !time.is_constant()) {
-            return Err(DECAY.diagnostic(&[("what", "a tolerance of the dead time")]).into());
+            return Err(DECAY.diagnostic(&[("what", "values of a dead time")]).into());
         }
         let time_of = |variable: usize| delays.iter().find(|(own, _)| *own == variable).map(|(_, time)| time);
         budget.enter(|| {
