@@ -290,6 +290,16 @@ fn a_decay_rate_holds_for_all_values_beside_a_dead_time() {
     let share = (0..1000).map(|i| (ends[1] * at(i)).min(1.0) - ends[0] * at(i)).sum::<f64>() / 1000.0;
     let [stable, undecided] = [&volume.stable, &volume.undecided].map(Rational::to_f64_approximate);
     assert!(stable <= share + 1e-6 && share <= stable + undecided + 1e-6, "{stable} {share} {undecided}");
+    // The same two lines in a map by boxes.
+    let side = |low: &str, high: &str| Range::between(Some(number(low)), Some(number(high)));
+    let window = BoxRequest::new([side("0", "1"), side("0.8", "1.2")], number("1/10"));
+    let problem = decaying().free("K").free("c").plane_problem().unwrap();
+    let MapOrBoxes::Boxes(map) = problem.map_by(MapMethod::Auto, &window, 6, &Budget::unlimited()).unwrap() else {
+        panic!("boxes were expected");
+    };
+    let areas = &map.value().boxes.areas;
+    let [stable, undecided] = [&areas.stable, &areas.undecided].map(|area| area.to_f64_approximate() / 0.4);
+    assert!(stable <= share + 1e-6 && share <= stable + undecided + 1e-6 && undecided <= 0.1, "{stable} {share}");
     match decaying().tolerance(&request(&[("theta", "5%")], "1e-3"), &Budget::unlimited()) {
         Err(Error::Refused(list)) => assert_eq!(list.diagnostics()[0].code, Code::DeadTime),
         other => panic!("{other:?}"),

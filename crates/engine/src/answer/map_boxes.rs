@@ -366,6 +366,14 @@ impl Problem {
                 let plane = self.symbolic_plane(budget)?.expect("one parameter is inside of functions");
                 Ok(family.boxes(&window, goal, &share(), plane.at_lower_end(&window)))
             }
+            CoefficientRing::DeadTime if self.region().decay().is_some() => {
+                let window = window?;
+                let middle = [&window.x, &window.y].map(|[low, high]| low.midpoint(high));
+                Ok(match self.delayed_family_in_region(&middle, budget)? {
+                    Some((family, constants)) => family.boxes(&window, &constants, goal, &share()),
+                    None => BoxMap::nowhere_stable(&window),
+                })
+            }
             CoefficientRing::DeadTime | CoefficientRing::DeadTimeBesideFunctions | CoefficientRing::VaryingOrder => {
                 let plane = self.delayed_plane(budget)?.expect("a loop with dead time");
                 Ok(plane.boxes(&window?, goal, &share())?)

@@ -97,7 +97,7 @@ static ROWS: &[Row] = &[
     at_a_point(Asked::VerdictInRegion, "verdict REGION", [A(&COUNT), A(&ENCLOSED_COUNT), A(&ARGUMENT), BESIDE]),
     Row::new(Asked::IntervalsInRegion, "intervals --param NAME REGION", [A(&ZEROS), A(&ENCLOSED_ZEROS), A(&FUNCTION_ZEROS), A(&CROSSINGS), BESIDE, A(&SAMPLES)]),
     at_a_point(Asked::RegionBound, "intervals --param BOUND", [A(&ZEROS), A(&ENCLOSED_ZEROS), A(&CROSSINGS), BESIDE]),
-    Row::new(Asked::MapInRegion, "map -x NAME -y NAME REGION", [A(&DECOMPOSITION), A(&DECOMPOSITION), B(&FUNCTION_BOXES), R(&DECAY), BESIDE, NO_ORDER]),
+    Row::new(Asked::MapInRegion, "map -x NAME -y NAME REGION", [A(&DECOMPOSITION), A(&DECOMPOSITION), B(&FUNCTION_BOXES), P(&DELAYED_BOXES, &DECAY), BESIDE, NO_ORDER]),
     Row::new(Asked::ToleranceInRegion, "tolerance --tol NAME=10% REGION", [A(&TENSOR), A(&TENSOR), A(&FUNCTION_TENSOR), P(&DELAYED_TENSOR, &DECAY), BESIDE, NO_ORDER]),
     at_a_point(Asked::VerdictWithMargins, "verdict --modulus-margin 1/100", [A(&FREQUENCIES), A(&FREQUENCIES), OPEN_LOOP, BESIDE]),
     Row::new(Asked::IntervalsWithMargins, "intervals --param NAME --modulus-margin 1/100", [A(&RESULTANTS), A(&ENCLOSED_RESULTANTS), A(&ENCLOSED_RESULTANTS), BOXES_WITH_DEAD_TIME, BESIDE, NO_ORDER]),

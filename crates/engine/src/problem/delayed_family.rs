@@ -14,6 +14,9 @@ use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction};
 /// Factors `exp(decay tau)` are enclosed with so many bits after the point.
 const FACTOR_BITS: u64 = 160;
 
+/// A family with the bounds of its last parameters, which are constants.
+pub(crate) type BesideConstants = (DelayedFunction, Vec<[Rational; 2]>);
+
 impl Problem {
     /// The loop with dead time in all free parameters, around a usual point; `None` for any other loop, and where it is undefined or vanishes
     /// for all values.
@@ -43,13 +46,13 @@ impl Problem {
         &self,
         usual: &[Rational],
         budget: &Budget,
-    ) -> Result<Option<(DelayedFunction, Vec<[Rational; 2]>)>, Error> {
+    ) -> Result<Option<BesideConstants>, Error> {
         let Some(decay) = self.region().decay() else {
             return Ok(self.delayed_family(usual, budget)?.map(|family| (family, Vec::new())));
         };
         let Some((polynomial, delays)) = self.over_delays_in_region(budget)? else { return Ok(None) };
         if delays.iter().any(|(_, time)| !time.is_constant()) {
-            return Err(DECAY.diagnostic(&[("what", "a tolerance of the dead time")]).into());
+            return Err(DECAY.diagnostic(&[("what", "values of a dead time")]).into());
         }
         let time_of = |variable: usize| delays.iter().find(|(own, _)| *own == variable).map(|(_, time)| time);
         budget.enter(|| {

@@ -3,8 +3,10 @@
 use super::delayed::DelayedFunction;
 use super::delayed_prove::range_of;
 use super::look::{BoxLook, MOST_CORNERS, same_count};
+use super::moving_look::Everywhere;
 use super::parts::{corners, middle};
 use crate::AtPoint;
+use crate::plane::boxes::{BoxMap, BoxVerdict, Seen, Window, subdivided};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
@@ -14,25 +16,50 @@ const PARTS: usize = 24;
 
 impl DelayedFunction {
     /// Whether all points of a box are stable, or none is, or along which side to halve it.
+    pub(super) fn look(&self, sides: &[[Rational; 2]], budget: &Budget) -> Result<BoxLook, Exhausted> {
+        Ok(match self.everywhere(sides, budget)? {
+            Some(Everywhere::Outside(0)) => BoxLook::Stable,
+            Some(_) => BoxLook::Unstable,
+            None => {
+                let side = self.side_without_meaning(sides).unwrap_or_else(|| self.steepest_side_approximate(sides));
+                BoxLook::Open(side)
+            }
+        })
+    }
+
+    /// What is the same at all points of a box, but for a set without volume; `None` where that is not seen.
     ///
     /// Cost: counts at the middle and some corners; where they are the same, parts of frequency and parameters.
-    pub(super) fn look(&self, sides: &[[Rational; 2]], budget: &Budget) -> Result<BoxLook, Exhausted> {
+    fn everywhere(&self, sides: &[[Rational; 2]], budget: &Budget) -> Result<Option<Everywhere>, Exhausted> {
         if budget.enter(|| self.has_no_meaning_in(sides))? {
-            return Ok(BoxLook::Unstable);
+            return Ok(Some(Everywhere::Meaningless));
         }
-        let open =
-            BoxLook::Open(self.side_without_meaning(sides).unwrap_or_else(|| self.steepest_side_approximate(sides)));
         let is_same = || {
             let own = self.right_of_axis(&middle(sides))?;
             let mut corners = corners(sides).take(MOST_CORNERS);
             corners.all(|corner| self.right_of_axis(&corner) == Some(own)).then_some(own)
         };
         // Further roots cross where a loop is not stable: a proof that they do not takes long to fail.
-        let Some(own) = budget.enter(is_same)? else { return Ok(open) };
-        Ok(match same_count(self, sides, (PARTS, budget), |_| Ok(Some(own == 0)))? {
-            Some(true) => BoxLook::Stable,
-            Some(false) => BoxLook::Unstable,
-            None => open,
+        let Some(own) = budget.enter(is_same)? else { return Ok(None) };
+        let is_seen = same_count(self, sides, (PARTS, budget), |_| Ok(Some(true)))?;
+        Ok(is_seen.map(|_| Everywhere::Outside(own)))
+    }
+
+    /// Cuts a window of the first two parameters into boxes until the share of the undecided area is at most `goal` (0 to 1); the others are
+    /// constants between these bounds.
+    ///
+    /// Cost: a look at each box.
+    pub fn boxes(&self, window: &Window, constants: &[[Rational; 2]], goal: &Rational, budget: &Budget) -> BoxMap {
+        subdivided(window, goal, budget, |place, _: Option<&()>| {
+            let Window { x, y } = place.window(window);
+            let sides: Vec<[Rational; 2]> = [x, y].into_iter().chain(constants.iter().cloned()).collect();
+            let seen = match self.everywhere(&sides, budget)? {
+                Some(Everywhere::Outside(0)) => Seen::Decided(BoxVerdict::Stable),
+                Some(Everywhere::Outside(outside)) => Seen::Decided(BoxVerdict::Unstable { outside: Some(outside) }),
+                Some(Everywhere::Meaningless) => Seen::Decided(BoxVerdict::Unstable { outside: None }),
+                None => Seen::Cut(place.wider()),
+            };
+            Ok((seen, None))
         })
     }
 

@@ -102,7 +102,14 @@ pub struct Areas {
 
 impl BoxMap {
     /// One box that holds no stable point.
-    pub(crate) fn nowhere_stable(window: &Window) -> BoxMap {
+    ///
+    /// ```
+    /// use jurist_stability::plane::boxes::{BoxMap, Window};
+    /// let side = [0, 1].map(jurist_algebra::number::Rational::from);
+    /// let map = BoxMap::nowhere_stable(&Window { x: side.clone(), y: side });
+    /// assert!(map.areas.stable.is_zero() && map.areas.undecided.is_zero());
+    /// ```
+    pub fn nowhere_stable(window: &Window) -> BoxMap {
         let whole = PlaneBox { window: window.clone(), verdict: BoxVerdict::Unstable { outside: None } };
         BoxMap::new(window.clone(), Vec::new(), vec![whole], None)
     }
