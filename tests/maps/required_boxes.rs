@@ -184,19 +184,6 @@ fn a_requirement_that_is_known_by_hand() {
     assert!(least <= number("2") && number("2") <= most && least > number("1.9"), "{least} {most}");
 }
 
-/// A requirement that boxes do not decide is refused in words, not left undecided.
-#[test]
-fn a_damping_of_discrete_loops_is_refused() {
-    let model = diagram("discrete", ["K", "L"], "K + L*T/(z - 1)", "1/(0.5*s + 1)", true);
-    let problem = keeping(&model, &["K", "L"]).plane_problem().unwrap();
-    let side = || Range::between(Some(0.into()), Some(1.into()));
-    let request = BoxRequest::new([side(), side()], number("1/10"));
-    let damping = Requirement::damping(number("1/10")).unwrap();
-    let found = problem.required_map_by((MapMethod::Boxes, &request), (&[damping], Some("u")), 6, &Budget::unlimited());
-    let Err(Error::Refused(all)) = found else { panic!("a set was found") };
-    assert!(format!("{all}").contains("damping"), "{all}");
-}
-
 /// `K L/s` bears `pi/(2 K L)`: as long as 1 below a hyperbola, of which the window from 0 to 2 holds the area `pi/2 (1 + ln(8/pi))`.
 #[test]
 #[ignore = "long: CI runs it"]

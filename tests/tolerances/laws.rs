@@ -146,6 +146,10 @@ proptest! {
         });
         let Some(end) = &around.expect("stable at the nominal point").upper else { return Ok(()) };
         prop_assert!(end.value.compare_rational(&factor.lower).is_gt(), "{}", mask);
+        // A bracket that says why it is wide is none that is near to the end, as with (1.8, 1.1, 2) within (36, 35, 79) %.
+        if factor.open.is_some() {
+            return Ok(());
+        }
         let gap = Rational::new(1.into(), 1000.into());
         prop_assert!(factor.upper.as_ref().is_some_and(|upper| reaches(end, upper, &gap)));
     }

@@ -136,11 +136,11 @@ mod tests {
             for at in [-4i64, -1, 0, 3, 4] {
                 let there = |i: usize, j: usize| ball(a[3 * i + j] * unit(3 * i + j), 8).add(&ball(b[3 * i + j], 8).mul(&ball(at, 16)));
                 let exact = exponential(&BallMatrix::from_fn(3, there));
-                for k in 0..9 {
-                    let value = found[k].terms().fold(zero.clone(), |sum, (e, c)| {
+                for (k, model) in found.iter().enumerate() {
+                    let value = model.terms().fold(zero.clone(), |sum, (e, c)| {
                         sum.add(&ball(at, 4).power(u64::from(e[0])).mul(&Ball::from_units(c.clone(), c.clone(), BITS)))
                     });
-                    prop_assert!(value.widened(found[k].rest_units()).intersection(exact.at(k / 3, k % 3)).is_some());
+                    prop_assert!(value.widened(model.rest_units()).intersection(exact.at(k / 3, k % 3)).is_some());
                 }
             }
             let series = |k: usize| Series::linear(&ball(a[k] * unit(k), 8), &ball(b[k], 8), 3);

@@ -107,6 +107,9 @@ pub(super) fn values_of<S: Elementary>(table: &[(String, Definition)], parameter
     Some(known.values)
 }
 
+/// Constants of up to so many bits are divided by as their inverses.
+const LARGEST_DIVISOR: u64 = 20;
+
 /// The value of a rational function where its variables have these; `None` where the denominator may vanish.
 pub(super) fn quotient<S: Elementary>(f: &RationalFunction, values: &[S], like: &S) -> Option<S> {
     let at = |p: &MultiPoly| match p.as_constant() {
@@ -115,11 +118,12 @@ pub(super) fn quotient<S: Elementary>(f: &RationalFunction, values: &[S], like: 
     };
     match f.denominator().as_constant() {
         Some(c) if c.is_one() => Some(at(f.numerator())),
-        Some(c) => {
+        // Numbers have bits after the point: the inverse of a large one has few that count.
+        Some(c) if c.bit_length() <= LARGEST_DIVISOR => {
             let over = Rational::new(Integer::ONE, c);
             Some(at(f.numerator()).times(&like.constant(&Ball::from_rational(&over, like.bits()))))
         }
-        None => at(f.numerator()).over(&at(f.denominator())),
+        _ => at(f.numerator()).over(&at(f.denominator())),
     }
 }
 
