@@ -8,7 +8,6 @@ use crate::helpers::thorough::{count, is_tried};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, BoxRequest, MapBoxes, MapMethod, MapOrBoxes, Verdict};
-use jurist_engine::error::Error;
 use jurist_engine::model::Model;
 use jurist_engine::problem::Region;
 use jurist_engine::response::{OverPoints, RequiredBox, Requirement, RequirementBoxes};
