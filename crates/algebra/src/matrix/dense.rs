@@ -131,7 +131,10 @@ impl<R: Domain> Matrix<R> {
         Matrix { rows: self.rows, columns: self.columns, entries: self.entries.iter().map(f).collect() }
     }
 
-    /// The same where an image may be missing: the first reason for it.
+    /// The same where an image may be missing.
+    ///
+    /// # Errors
+    /// The first reason why one is.
     pub fn try_map<S: Domain, E>(&self, f: impl FnMut(&R) -> Result<S, E>) -> Result<Matrix<S>, E> {
         let entries = self.entries.iter().map(f).collect::<Result<_, E>>()?;
         Ok(Matrix { rows: self.rows, columns: self.columns, entries })
