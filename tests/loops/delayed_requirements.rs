@@ -109,7 +109,9 @@ fn sets_agree_with_decisions_at_points() {
                 found.undecided.iter().any(reaches)
             };
             let all = found.intervals.iter().flat_map(|i| [&i.lower, &i.upper]).flatten();
-            let near: Vec<Rational> = all.map(|end| end.value().refined_to_digits(20).enclosure().0).collect();
+            // Decisions at long numbers take long.
+            let digits = count(9, 20);
+            let near: Vec<Rational> = all.map(|end| end.value().refined_to_digits(digits).enclosure().0).collect();
             for end in &near {
                 ends += 1;
                 for step in [ratio(-1, 1_000_000), ratio(1, 1_000_000)] {

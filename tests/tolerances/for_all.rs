@@ -14,7 +14,7 @@ use jurist_engine::model::Model;
 use jurist_engine::response::{AllOf, MapForAll};
 use jurist_engine::stability::boxes::BoxDecision;
 
-/// `K/(s (c s + 1)(s + 1))`, a lag that is held, a lag with dead time, and an integrator of which `c` is the sample time.
+/// `K/(s (c s + 1)(s + 1))`, a lag that is held, a lag with dead time, and an integrator that is held for a sample time `c`.
 const LOOPS: [&str; 4] = [
     "time = 'continuous'\nparameters = { K = '1/4', c = 1 }\nloop.characteristic = 's*(c*s + 1)*(s + 1) + K'\n",
     "time = 'discrete'\nsample_time = '1/2'\nparameters = { K = '1/4', c = 1 }\nloop = { inputs = ['r'], outputs = ['y'] }\n\

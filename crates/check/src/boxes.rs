@@ -198,7 +198,7 @@ pub(super) fn check(model: &str, json: &Json, statement: &Json, clock: &Clock) -
     Ok(Proved { statement: s.in_words(), kind: "tolerance" })
 }
 
-/// The factors of a certificate, none of which has a zero in the box.
+/// The factors of a certificate. They have no zero in the box.
 fn factors_without_zero(json: &Json, sides: &[[Q; 2]], ground: &Ground, clock: &Clock) -> Result<Vec<Multi>, String> {
     let mut known = Vec::new();
     for factor in list(json, "'factors'")? {

@@ -210,7 +210,7 @@ impl Multi {
         Ok(Some(quotient))
     }
 
-    /// The quotient by what is known to divide.
+    /// The quotient of a polynomial by a divisor of it.
     pub fn quotient(&self, divisor: &Multi, clock: &Clock) -> Result<Multi, String> {
         self.divided(divisor, clock)?.ok_or_else(|| "internal: a divisor does not divide".into())
     }

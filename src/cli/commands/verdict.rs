@@ -11,6 +11,7 @@ use crate::cli::requirements::{RequirementOptions, refuse_theorems};
 use crate::cli::status::{Error, Outcome, Status};
 use crate::cli::written::certify;
 use clap::Args;
+use jurist_algebra::limits::Exhausted;
 use jurist_engine::answer::Verdict;
 use jurist_engine::coverage::Asked;
 use jurist_engine::show::documents;
@@ -40,27 +41,16 @@ impl Runs for Options {
         let problem = question.problem()?;
         let question = asked.list.iter().fold(Asked::Verdict, |asked, r| asked.with_requirement(r, problem.time()));
         context.explain(&self.decision.explain, output, &problem, question)?;
+        let open = |stopped: &Exhausted| {
+            context.undecided(output, stopped, || None, || documents::Verdict::new(&problem, Err(stopped)))
+        };
         let found = match decided(problem.requirements_met(&asked.list, asked.at.as_deref(), &context.budget))? {
             Ok(found) => found,
-            Err(stopped) => {
-                return context.undecided(
-                    output,
-                    &stopped,
-                    || None,
-                    || documents::Verdict::new(&problem, Err(&stopped)),
-                );
-            }
+            Err(stopped) => return open(&stopped),
         };
         let answer = match decided(problem.verdict(&context.budget))? {
             Ok(answer) => answer,
-            Err(stopped) => {
-                return context.undecided(
-                    output,
-                    &stopped,
-                    || None,
-                    || documents::Verdict::new(&problem, Err(&stopped)),
-                );
-            }
+            Err(stopped) => return open(&stopped),
         };
         context.warn(None, problem.warnings());
         if let Some(file) = self.coq.as_ref().filter(|_| WRITES) {

@@ -40,7 +40,7 @@ pub enum Definition {
     },
     /// The duty ratio of a periodic orbit.
     Duty(Box<DutyRatio>),
-    /// A coefficient of the characteristic polynomial of a matrix of functions, of which nothing but its values is known.
+    /// A coefficient of the characteristic polynomial of a matrix of functions. Its values are known, its form is not.
     Family(FamilyValue),
 }
 

@@ -138,7 +138,7 @@ pub(super) struct Evaluation<'d, S> {
 }
 
 impl<'d, S: Elementary> Evaluation<'d, S> {
-    /// With these values of the first variables; another number says of which kind all are.
+    /// Begins with the values of the first variables. All other values are numbers of the same kind as `like`.
     pub fn new(values: Vec<S>, like: &S) -> Self {
         Evaluation { values, like: like.clone(), rows: Vec::new(), families: Vec::new() }
     }
@@ -223,4 +223,28 @@ fn is_too_large<S: Elementary>(coefficients: &[S], time: &S) -> bool {
     });
     let rate = Rational::from(2).pow(octaves.max().unwrap_or(0).max(0)).expect("two is not zero");
     size(time) * rate > Rational::from(LARGEST)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ball::Series;
+
+    /// The inverse of a number with 240 bits has no digit 112 bits after the point.
+    #[test]
+    fn a_quotient_of_long_numbers_keeps_its_digits() {
+        let long = Integer::from(3).pow(150);
+        let f = RationalFunction::new(
+            MultiPoly::variable(0).scaled_by(&long.clone()),
+            MultiPoly::constant(&long + &Integer::ONE),
+        );
+        let third = Ball::from_rational(&Rational::new(1.into(), 3.into()), 112);
+        let x = Series::constant(&third, 1);
+        let value = quotient(&f.unwrap(), std::slice::from_ref(&x), &x).unwrap();
+        let value = &value.coefficients()[0];
+        assert!(value.width_units().bit_length() < 8, "{value:?}");
+        // 3^149/(3^150 + 1)
+        let exact = Rational::new(Integer::from(3).pow(149), &long + &Integer::ONE);
+        assert!(value.lower() <= exact && exact <= value.upper());
+    }
 }

@@ -3,7 +3,7 @@
 use crate::samples::Plant;
 use crate::truth::is_true;
 use crate::writer::{Asked, LIMITS, written};
-use crate::{INPUT, SIGNAL, loop_of, other, phase};
+use crate::{INPUT, SIGNAL, is_thorough, loop_of, other, phase};
 use jurist_check::check;
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -171,9 +171,12 @@ fn changed(certificate: &str, draw: &mut Draw) -> String {
 
 /// `JURIST_CHANGES=1000` looks at so many changes.
 #[test]
-#[ignore = "long: CI runs it"]
 fn what_is_accepted_of_changed_certificates_is_true() {
-    let count = std::env::var("JURIST_CHANGES").ok().and_then(|n| n.parse().ok()).unwrap_or(60);
+    let count = std::env::var("JURIST_CHANGES").ok().and_then(|n| n.parse().ok()).unwrap_or(if is_thorough() {
+        60
+    } else {
+        20
+    });
     let (mut draw, mut told) = (Draw(7), 0);
     let all: Vec<(Plant, String)> = asked()
         .into_iter()
@@ -252,7 +255,7 @@ fn random(draw: &mut Draw) -> (Plant, Asked) {
 /// `JURIST_LOOPS=1000` looks at so many loops; all of the usual ones are looked at with `JURIST_THOROUGH`, as in CI.
 #[test]
 fn what_is_said_of_random_loops_is_true() {
-    let usual = if std::env::var_os("JURIST_THOROUGH").is_some() { 40 } else { 16 };
+    let usual = if is_thorough() { 40 } else { 16 };
     let count = std::env::var("JURIST_LOOPS").ok().and_then(|n| n.parse().ok()).unwrap_or(usual);
     let (mut draw, mut seen) = (Draw(11), [0; 3]);
     for _ in 0..count {

@@ -91,7 +91,7 @@ pub fn body_page(
     Ok(document(&title, &format!("{}{SLICES_STYLE}", style()), &body, true))
 }
 
-/// The pictures of all slices, of which one is shown, and what the script needs of each.
+/// The pictures of all slices and the data of each for the script. The page shows one picture.
 fn drawn_slices(
     answer: &Answer<Body>,
     contents: &[Option<MapContents<'_>>],

@@ -1,5 +1,6 @@
 //! Tolerances: whether every point of a box is stable, and by how much the box can grow.
 
+mod bounds;
 mod decide;
 mod held;
 mod limit;

@@ -163,7 +163,7 @@ impl Model {
         Evaluated::of(closed_loop, sample_time, symbols, budget)
     }
 
-    /// The value of an expression in constants and parameters, all of which have values.
+    /// The value of an expression. All its constants and parameters have values.
     ///
     /// Cost: an operation on rational functions for each operator of the expression and of the model's constants.
     ///

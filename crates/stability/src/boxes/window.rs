@@ -15,7 +15,7 @@ impl MovingPolynomial {
 
     /// Cuts a window of its two parameters into boxes until the share of the undecided area is at most `goal` (0 to 1).
     ///
-    /// Of a box of which nothing is seen, `otherwise` may know more.
+    /// `otherwise` is asked about a box that stays open.
     ///
     /// Cost: Taylor models of every function for each side of boxes in a parameter that is inside of functions, and up to some hundred
     /// cells of tensors for each box.

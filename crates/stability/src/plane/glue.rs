@@ -102,7 +102,7 @@ fn glued(
     Ok((regions.groups(), joins))
 }
 
-/// Stable cells, of which some are known to be parts of one region.
+/// Stable cells. Some are known to be parts of one region.
 struct Regions {
     cells: Vec<(usize, usize)>,
     /// For each cell another one of its region, or itself.
@@ -146,7 +146,7 @@ impl Regions {
         }
     }
 
-    /// The pairs of cells beside the wall behind a strip of which it is not known whether they are connected; `heights` are clear ones.
+    /// The pairs of cells beside the wall behind a strip whose connection is not known. `heights` are clear heights.
     fn apart(&self, strip: usize, heights: &BTreeSet<(usize, usize)>) -> Vec<(usize, usize)> {
         let side = |strip: usize| self.cells.iter().enumerate().filter(move |c| c.1.0 == strip).map(|c| (c.0, c.1.1));
         let pairs = side(strip).flat_map(|a| side(strip + 1).map(move |b| (a, b)));

@@ -6,7 +6,7 @@ use super::MultiTaylorModel;
 use crate::number::{Integer, Rational};
 
 impl MultiTaylorModel {
-    /// The line that this is, of which nothing but rounding is left out: its middle and how far it goes around it; `None` of any other function.
+    /// The middle and the reach of a model that is a line but for rounding; `None` of any other function.
     pub fn as_line(&self) -> Option<(Rational, Rational)> {
         let last = self.monomials.starts.get(2).copied().unwrap_or(self.coefficients.len());
         let is_line = self.coefficients[last.min(self.coefficients.len())..].iter().all(Integer::is_zero);

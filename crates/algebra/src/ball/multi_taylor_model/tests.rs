@@ -119,7 +119,7 @@ fn models_of_parts_hold_what_the_whole_ones_do() {
         let exact = exp(&a.mul(&b)).mul(&a).sub(&b);
         assert!(value(&part, &[u, v]).intersection(&exact).is_some());
     }
-    // The same lines in three variables, of which the first is another one.
+    // The same lines in three variables: another one comes first.
     let like =
         MultiTaylorModel::linear(&[(ball(&number("0")), ball(&number("1"))), inner[0].clone(), inner[1].clone()], 4);
     let again = whole.along(&like[1..]);

@@ -1,5 +1,6 @@
 //! The answer about a box, step by step: a point that is not stable, a proof, the largest factor.
 
+use super::bounds::{agreed, bounded_by};
 use super::held::Truth;
 use super::required::{nearer, worse};
 use super::{ExactFactor, ToleranceAnswer, ToleranceRequest, WorstEnd};
@@ -76,6 +77,36 @@ impl Problem {
         self.tolerance_of(&p, &truth, sides, asked, budget)
     }
 
+    /// The answer where not even the nominal values of the tolerances are good for all values of the other names' ranges.
+    fn spoilt_by_ranges<F: Family>(
+        self: &Arc<Self>,
+        (p, truth): (&F, &Truth),
+        sides: &[Side],
+        asked: Asked<'_>,
+        budget: &Budget,
+    ) -> Result<Option<Answer<ToleranceAnswer>>, Error> {
+        if sides.iter().all(Side::grows) {
+            return Ok(None);
+        }
+        let request = ToleranceRequest {
+            tolerances: Vec::new(),
+            for_all: Vec::new(),
+            limit: None,
+            exact: false,
+            volume: None,
+            factor: !asked.request.requirements.is_empty(),
+            ..asked.request.clone()
+        };
+        let ranges = sides.iter().map(Side::without_tolerance).collect();
+        let found = self.tolerance_of(p, truth, ranges, Asked { request: &request, told: &|_| () }, budget)?;
+        let ToleranceAnswer { decision, required, nominal, .. } = found.into_value();
+        if decision.is_stable() {
+            return Ok(None);
+        }
+        let value = ToleranceAnswer { required, ..self.bare(sides.to_vec(), nominal, decision) };
+        Ok(Some(Answer::new(Arc::clone(self), value)))
+    }
+
     /// The answer about a family of loops.
     fn tolerance_of<F: Family>(
         self: &Arc<Self>,
@@ -85,30 +116,9 @@ impl Problem {
         asked: Asked<'_>,
         budget: &Budget,
     ) -> Result<Answer<ToleranceAnswer>, Error> {
-        if sides.iter().any(|side| !side.grows()) {
-            let request = ToleranceRequest::new::<String>([])
-                .require(asked.request.requirements.clone(), asked.request.at.clone());
-            let request = if request.requirements.is_empty() { request.box_alone() } else { request };
-            let ranges = sides.iter().map(Side::without_tolerance).collect();
-            let alone = self.tolerance_of_box(p, truth, ranges, Asked { request: &request, told: &|_| () }, budget)?;
-            let ToleranceAnswer { decision, required, nominal, .. } = alone.into_value();
-            if !decision.is_stable() {
-                let value = ToleranceAnswer { required, ..self.bare(sides, nominal, decision) };
-                return Ok(Answer::new(Arc::clone(self), value));
-            }
+        if let Some(spoilt) = self.spoilt_by_ranges((p, truth), &sides, asked, budget)? {
+            return Ok(spoilt);
         }
-        self.tolerance_of_box(p, truth, sides, asked, budget)
-    }
-
-    /// The answer about a family of loops where all sides that do not grow are good without the others.
-    fn tolerance_of_box<F: Family>(
-        self: &Arc<Self>,
-        p: &F,
-        truth: &Truth,
-        sides: Vec<Side>,
-        asked: Asked<'_>,
-        budget: &Budget,
-    ) -> Result<Answer<ToleranceAnswer>, Error> {
         let request = asked.request;
         let all = truth.beside(&sides);
         let degree = self.algebra_over_symbols(budget)?.formal_degree();
@@ -321,48 +331,6 @@ impl Problem {
         let zeros = cells.iter().flat_map(|cells| &cells.zeros).filter_map(Real::algebraic).cloned().collect();
         Ok(end.map(|end| (WorstEnd { problem, end }, zeros)))
     }
-}
-
-/// The decision about the box itself, where the bracket says more.
-pub(super) fn agreed(decision: BoxDecision, factor: &LargestFactor, exact: Option<&ExactFactor>) -> BoxDecision {
-    match decision {
-        BoxDecision::Stable(_) => decision,
-        // The exact factor is in the bracket around 1, and not above 1.
-        BoxDecision::Undecided { .. }
-            if exact.is_some_and(|exact| exact.value.compare_rational(&Rational::ONE).is_le()) =>
-        {
-            BoxDecision::NotStable { witness: None }
-        }
-        _ if factor.upper.as_ref().is_some_and(|upper| *upper <= Rational::ONE) => {
-            let known = match decision {
-                BoxDecision::NotStable { witness } => witness,
-                _ => None,
-            };
-            BoxDecision::NotStable { witness: factor.witness.clone().or(known) }
-        }
-        _ => decision,
-    }
-}
-
-/// The factor of a box that is not stable is 1 at most: where nothing nearer is known, the point that shows it bounds the factor.
-fn bounded_by(decision: &BoxDecision, mut factor: LargestFactor, sides: &[Side]) -> LargestFactor {
-    if let BoxDecision::NotStable { witness: Some(witness) } = decision
-        && factor.upper.is_none()
-        && factor.lower < Rational::ONE
-    {
-        let share = |(side, x): (&Side, &Rational)| {
-            let offset = x - side.nominal();
-            offset.checked_div(&side.widths()[usize::from(offset.sign().is_gt())]).unwrap_or(Rational::ZERO)
-        };
-        let direction: Vec<Rational> = sides.iter().zip(&witness.point).map(share).collect();
-        let upper = direction.iter().map(Rational::abs).max().filter(|upper| *upper > factor.lower);
-        if let Some(upper) = upper.filter(|upper| *upper <= Rational::ONE) {
-            factor.direction =
-                Some(direction.iter().map(|x| x.checked_div(&upper).unwrap_or(Rational::ZERO)).collect());
-            (factor.upper, factor.witness) = (Some(upper), Some(witness.clone()));
-        }
-    }
-    factor
 }
 
 /// The share of the box that is stable, where that is asked for.

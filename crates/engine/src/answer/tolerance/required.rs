@@ -1,6 +1,7 @@
 //! Requirements over a box: each is the stability of a family of polynomials over the box with one side more.
 
-use super::decide::{agreed, too_many};
+use super::bounds::agreed;
+use super::decide::too_many;
 use super::held::Truth;
 use super::{RequiredBox, ToleranceRequest};
 use crate::coverage::refusals::{MARGINS_IN_ONE, NOT_OVER_A_BOX};

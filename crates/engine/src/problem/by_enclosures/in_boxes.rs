@@ -1,5 +1,5 @@
-//! Algebra for boxes of a loop behind holds whose exact polynomials would be long: each coefficient is a symbol of which values are known, at
-//! points and as Taylor models.
+//! Algebra for boxes of a loop behind holds whose exact polynomials would be long. Each coefficient is a symbol. Its values are known, at points and as
+//! Taylor models.
 
 use super::{WORK_BEFORE, is_too_long};
 use crate::error::Error;
@@ -14,8 +14,8 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 impl Problem {
-    /// The same problem for a question that is decided in boxes: with coefficients of which only values are known where a loop behind holds has
-    /// long exact ones.
+    /// The same problem for a question that is decided in boxes. Where a loop behind holds has long exact coefficients, they are replaced by
+    /// symbols whose values are known.
     ///
     /// Cost: less than a second of exact algebra on the first call, and the closed loop without a characteristic polynomial.
     ///
@@ -46,7 +46,7 @@ impl Problem {
         self.coefficients_by_values(&radius, budget)
     }
 
-    /// Algebra of which nothing but values is known, in a disc of this radius; `None` where the loop is not of this form.
+    /// Algebra whose coefficients are known by their values, in a disc of this radius; `None` where the loop is not of this form.
     pub(super) fn coefficients_by_values(&self, radius: &Rational, budget: &Budget) -> Result<Option<Algebra>, Error> {
         if self.model().hyperperiod() > 1 {
             return Ok(None);
@@ -281,7 +281,7 @@ impl Held<'_> {
         }
         let ((constant, of_open), (back, of_back)) = (names.split(&system.a)?, names.split(&returned)?);
         let nothing = RationalMatrix::zeros(n, n);
-        // Of each slope what it is a coefficient of: D0 or N, and of which gain.
+        // For each slope: whether it belongs to D0 or to N, and its gain.
         let gains = || names.gains.iter().copied().map(Some);
         let parts = gains().zip(of_open).map(|(gain, m)| (false, gain, m));
         let parts = parts.chain([(true, None, back)]).chain(gains().zip(of_back).map(|(gain, m)| (true, gain, m)));
