@@ -2,7 +2,7 @@
 //!
 //! `cargo run --example loop_in_code`
 
-use jurist::{BlockBuilder, Budget, Error, Model, ParameterBuilder, Rational, Region, Time};
+use jurist::{Ask, BlockBuilder, Budget, Error, Model, ParameterBuilder, Rational, Region, Time};
 
 fn main() -> Result<(), Error> {
     let (model, warnings) = Model::builder(Time::Discrete)

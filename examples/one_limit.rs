@@ -2,7 +2,7 @@
 //!
 //! `cargo run --example one_limit`
 
-use jurist::{Budget, Error, Model, Source, documents};
+use jurist::{Ask, Budget, Error, Model, Source, documents};
 
 const MODEL: &str = r#"
 title = "first-order plant, proportional controller, one sample of delay"

@@ -5,7 +5,7 @@
 //! a finite union of open intervals whose ends are algebraic numbers, each with its cause.
 //!
 //! ```
-//! use jurist::{Budget, Model, Source};
+//! use jurist::{Ask, Budget, Model, Source};
 //!
 //! let text = r#"
 //!     time = "discrete"
@@ -69,15 +69,15 @@ pub use jurist_engine::answer::{
     Analysis, Answer, Body, BoxRequest, Frequency, Map, MapBoxes, MapLimit, MapMethod, MapOrBoxes, ParametricTable,
     PointTable, PointVerdict, RegionExtent, SliceValues, ToleranceAnswer, ToleranceRequest, Verdict,
 };
-pub use jurist_engine::error::{Code, Diagnostic, Diagnostics, Error, Label, Severity, Source, Span};
-pub use jurist_engine::model::{
-    BlockBuilder, ClosedLoop, Constant, Cut, Expression, LoopLine, Model, ModelBuilder, Parameter, ParameterBuilder,
-    Time, Tolerance, TransferFunction,
-};
-pub use jurist_engine::problem::{Algebra, Bound, Free, Problem, Question, Region};
+pub use jurist_engine::problem::{Algebra, Ask, Bound, Free, Problem, Question, Region};
 pub use jurist_engine::response::{Extreme, Margins, Norm, OpenLoop, PeakToPeak, Place, Requirement, Value};
 pub use jurist_engine::show::documents;
 pub use jurist_engine::show::notation::Notation;
+pub use jurist_model::error::{Code, Diagnostic, Diagnostics, Error, Label, Severity, Source, Span};
+pub use jurist_model::{
+    BlockBuilder, ClosedLoop, Constant, Cut, Expression, LoopLine, Model, ModelBuilder, Parameter, ParameterBuilder,
+    Time, Tolerance, TransferFunction,
+};
 pub use jurist_stability::{
     AlgebraicInterval, Boundary, Cause, Causes, ClassicalTest, ComplexPair, Condition, End, HalfSizePair, IntervalSet,
     JuryTable, ParametricPolynomial, Range, RealInterval, RootCount, RouthTable, Shape, StableInterval, StableSet,
@@ -112,9 +112,9 @@ pub mod _documentation {
     #[doc(inline)]
     pub use jurist_check::{grammar, proved};
     #[doc(inline)]
-    pub use jurist_engine::error::code_list;
+    pub use jurist_model::error::code_list;
     #[doc(inline)]
-    pub use jurist_engine::model::examples;
+    pub use jurist_model::examples;
 
     #[doc = include_str!("performance.md")]
     pub mod performance {}

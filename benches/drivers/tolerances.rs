@@ -12,7 +12,7 @@ use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Rational, to_decimal};
 use jurist_engine::error::Source;
 use jurist_engine::model::Model;
-use jurist_engine::problem::Problem;
+use jurist_engine::problem::{Ask, Problem};
 use jurist_engine::stability::boxes::{BoxDecision, BoxPolynomial, Side, ToleranceProblem};
 use std::sync::Arc;
 use std::time::{Duration, Instant};

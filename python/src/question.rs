@@ -1,7 +1,7 @@
 //! Questions as texts: values, domains, the region.
 
 use crate::wait::Patience;
-use jurist::{Code, Diagnostic, Error, Model, Question, Range, Rational, Region, parse_number};
+use jurist::{Ask, Code, Diagnostic, Error, Model, Question, Range, Rational, Region, parse_number};
 use pyo3::prelude::*;
 
 /// What is asked besides what is free. Numbers are texts, so that they stay exact.

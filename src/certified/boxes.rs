@@ -40,7 +40,7 @@ const MOST_WORK: u64 = 40_000_000_000;
 ///
 /// ```
 /// use jurist::certified::certify_boxes;
-/// use jurist::{BoxRequest, Budget, MapMethod, MapOrBoxes, Model, Range};
+/// use jurist::{Ask, BoxRequest, Budget, MapMethod, MapOrBoxes, Model, Range};
 /// let side = |low: &str, high: &str| Range::between(low.parse().ok(), high.parse().ok());
 /// let request = BoxRequest::new([side("1/12000", "1/10000"), side("100", "110")], "1/10".parse().unwrap());
 /// let problem = Model::drive().ask().free("T").free("K_pwm").plane_problem()?;
@@ -72,7 +72,7 @@ pub struct CertifiedBoxes {
 ///
 /// ```standalone_crate
 /// use jurist::certified::certify_boxes;
-/// use jurist::{BoxRequest, Budget, Limits, MapMethod, MapOrBoxes, Model, Range, Source, check};
+/// use jurist::{Ask, BoxRequest, Budget, Limits, MapMethod, MapOrBoxes, Model, Range, Source, check};
 /// let text = std::fs::read_to_string("examples/dc-servo.toml").unwrap();
 /// let (model, _) = Model::from_toml(&Source::new("dc-servo.toml", &text))?;
 /// let side = |low: &str, high: &str| Range::between(low.parse().ok(), high.parse().ok());

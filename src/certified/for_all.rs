@@ -290,7 +290,7 @@ pub(super) fn leaf(
 ///
 /// ```standalone_crate
 /// use jurist::certified::certify_requirements;
-/// use jurist::{Budget, Limits, Model, Requirement, Source, check};
+/// use jurist::{Ask, Budget, Limits, Model, Requirement, Source, check};
 /// let text = "time = 'continuous'\nparameters.K = 1\nloop = { inputs = ['r'], outputs = ['y'] }\n\
 ///     [[block]]\nname = 'P'\ninput = 'r - y'\noutput = 'y'\ntransfer = 'K/(s*(s + 1))'\n";
 /// let (model, _) = Model::from_toml(&Source::new("loop.toml", text))?;

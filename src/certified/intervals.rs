@@ -8,7 +8,7 @@ use jurist_algebra::number::{Rational, parse_number, to_scientific};
 use jurist_algebra::real::Real;
 use jurist_engine::answer::Answer;
 use jurist_engine::error::{Code, Error};
-use jurist_engine::problem::Problem;
+use jurist_engine::problem::{Ask, Problem};
 use jurist_engine::prove::ForAllClaim;
 use jurist_engine::response::{AllOf, RequiredEnd, RequiredSet, Requirement};
 use jurist_engine::stability::plane::boxes::{BoxVerdict, PlaneBox, Window};
@@ -43,7 +43,7 @@ const LEFT_BITS_OF_REQUIREMENTS: u64 = 20;
 ///
 /// ```
 /// use jurist::certified::certify_intervals;
-/// use jurist::{Budget, Model};
+/// use jurist::{Ask, Budget, Model};
 /// let answer = Model::drive().ask().free("K_pwm").stable_set(&Budget::unlimited())?;
 /// assert!(certify_intervals(&answer, &Budget::unlimited())?.window.is_none(), "an exact one");
 /// # Ok::<(), jurist::Error>(())
@@ -68,7 +68,7 @@ pub struct CertifiedIntervals {
 ///
 /// ```standalone_crate
 /// use jurist::certified::certify_intervals;
-/// use jurist::{Budget, Limits, Model, Source, check};
+/// use jurist::{Ask, Budget, Limits, Model, Source, check};
 /// let text = std::fs::read_to_string("examples/dc-servo.toml").unwrap();
 /// let (model, _) = Model::from_toml(&Source::new("dc-servo.toml", &text))?;
 /// let answer = model.ask().free("T").stable_set(&Budget::unlimited())?;
@@ -135,7 +135,7 @@ fn by_boxes(answer: &Answer<StableSet>, budget: &Budget) -> Result<Option<Certif
 ///
 /// ```standalone_crate
 /// use jurist::certified::certify_required_intervals;
-/// use jurist::{Budget, Limits, Model, Requirement, Source, check};
+/// use jurist::{Ask, Budget, Limits, Model, Requirement, Source, check};
 /// let text = "time = 'continuous'\nparameters.K = 1\nloop = { inputs = ['r'], outputs = ['y'] }\n\
 ///     [[block]]\nname = 'P'\ninput = 'r - y'\noutput = 'y'\ntransfer = 'K/(s*(s + 1))'\n";
 /// let (model, _) = Model::from_toml(&Source::new("loop.toml", text))?;

@@ -6,7 +6,7 @@ use jurist_algebra::number::Rational;
 use jurist_check::{Limits, check};
 use jurist_engine::answer::{Answer, ToleranceAnswer};
 use jurist_engine::error::{Code, Diagnostic, Error};
-use jurist_engine::problem::Problem;
+use jurist_engine::problem::{Ask, Problem};
 use jurist_engine::prove::ForAllClaim;
 use jurist_engine::response::{AllOf, Requirement};
 use jurist_engine::stability::boxes::{BoxDecision, Side, Witness};
@@ -22,7 +22,7 @@ const STEPS_BEYOND: [(i64, i64); 3] = [(1, 1), (1_000_001, 1_000_000), (1001, 10
 ///
 /// ```
 /// use jurist::certified::certify_tolerance;
-/// use jurist::{Budget, Model, ToleranceRequest};
+/// use jurist::{Ask, Budget, Model, ToleranceRequest};
 /// let request = ToleranceRequest::new([("R_a", "20%".parse()?), ("L_a", "20%".parse()?)]);
 /// let answer = Model::drive().ask().tolerance(&request, &Budget::unlimited()).unwrap();
 /// assert_eq!(certify_tolerance(&answer, None, &Budget::unlimited()).unwrap().factor, None, "an exact one");
@@ -46,7 +46,7 @@ pub struct CertifiedTolerance {
 ///
 /// ```standalone_crate
 /// use jurist::certified::certify_tolerance;
-/// use jurist::{Budget, Limits, Model, Source, ToleranceRequest, check};
+/// use jurist::{Ask, Budget, Limits, Model, Source, ToleranceRequest, check};
 /// let text = std::fs::read_to_string("examples/dc-servo.toml").unwrap();
 /// let (model, _) = Model::from_toml(&Source::new("servo.toml", &text))?;
 /// let request = ToleranceRequest::new([("T_m", "20%".parse().unwrap())]);

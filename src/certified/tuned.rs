@@ -1,5 +1,6 @@
 //! Certificates of best gains, and that there are none.
 
+use jurist_engine::problem::Ask;
 mod cells;
 mod guess;
 
@@ -38,7 +39,7 @@ const TOWARDS_TYPED: [u64; 4] = [10, 7, 4, 0];
 ///
 /// ```
 /// use jurist::certified::certify_tune;
-/// use jurist::{Budget, Limits, Model, Source, check};
+/// use jurist::{Ask, Budget, Limits, Model, Source, check};
 /// use jurist_engine::response::Requirements;
 /// use jurist_tune::{answer::TuneAnswer, asked::{Asked, Gain}};
 /// let text = "time = 'continuous'\nparameters.K = 1\nloop.characteristic = 's^3 + 3*s^2 + 2*s + K'\n";

@@ -13,7 +13,7 @@ use super::output::{note, plain};
 use crate::references::{Number, Resolved};
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Error, Source, Span};
 use jurist_engine::model::{LoopLine, Model, source_from_bytes};
-use jurist_engine::problem::{DECAY, Question, RADIUS, Region};
+use jurist_engine::problem::{Ask, DECAY, Question, RADIUS, Region};
 use jurist_engine::show::layout::visible;
 use jurist_engine::stability::Range;
 use std::ffi::{OsStr, OsString};

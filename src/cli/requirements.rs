@@ -96,8 +96,8 @@ impl RequirementOptions {
         }
         let values = question.clone().problem()?.set().to_vec();
         let mut asked = match self.alone {
-            true => model.further_requirements(&further, &values, &context.budget)?,
-            false => model.requirements(&further, &values, &context.budget)?,
+            true => Requirements::without_section(model, &further, &values, &context.budget)?,
+            false => Requirements::of(model, &further, &values, &context.budget)?,
         };
         // A region that the command line gives is the question's own.
         asked.regional.retain(|(name, _)| match name.as_str() {
@@ -132,7 +132,7 @@ impl RequirementOptions {
         if !further.is_empty() {
             let values = question.clone().problem()?.set().to_vec();
             for (name, text) in further {
-                let more = model.requirements(&[(name, &text)], &values, &context.budget)?;
+                let more = Requirements::of(model, &[(name, &text)], &values, &context.budget)?;
                 let place = asked.list.iter().rposition(|r| r.name() == name).map_or(asked.list.len(), |k| k + 1);
                 asked.list.splice(place..place, more.list.into_iter().filter(|r| r.name() == name));
             }

@@ -1,5 +1,6 @@
 //! Hand-made certificates, wrong and broken ones, and the imports of the check.
 
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::parse_number;
 use jurist_check::format::{Json, MAX_DEPTH};

@@ -1,6 +1,7 @@
 //! The files for Coq: their text, the names in them, and what is refused. Whether Coq takes them is asked by `.ci/proofs`.
 
 use crate::helpers::model::{example_text, read};
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::error::Error;

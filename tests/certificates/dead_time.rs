@@ -4,6 +4,7 @@ use crate::helpers::certificates::checkers::{accept, python, reject};
 use crate::helpers::certificates::{emitted, mutations};
 use crate::helpers::model::read;
 use crate::helpers::number::number;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_check::format::Json;
 use jurist_check::{Limits, Step, check};

@@ -7,7 +7,7 @@ use crate::helpers::model::read;
 use crate::helpers::number::{number, ratio};
 use crate::helpers::thorough::tried;
 use jurist::certified::{certify_boxes, certify_required_intervals, certify_requirements, certify_tolerance};
-use jurist::{Budget, Rational, Requirement, ToleranceRequest};
+use jurist::{Ask, Budget, Rational, Requirement, ToleranceRequest};
 use jurist_check::{Limits, Step, check};
 use jurist_engine::answer::BoxRequest;
 use jurist_engine::response::{AllOf, MapForAll};

@@ -5,6 +5,7 @@ use crate::helpers::certificates::{emitted, emitted_if_any, with};
 use crate::helpers::model::{example_text, read};
 use crate::helpers::number::number;
 use crate::helpers::thorough::count;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_check::format::Json;

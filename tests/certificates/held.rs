@@ -6,6 +6,7 @@ use crate::helpers::certificates::{emitted, emitted_if_any, mutations, with_coun
 use crate::helpers::model::read;
 use crate::helpers::number::number;
 use crate::helpers::thorough::{count, tried};
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_check::format::Json;
 use jurist_check::{Limits, Step, check};

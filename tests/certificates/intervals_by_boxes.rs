@@ -4,8 +4,8 @@ use crate::helpers::certificates::checkers::{PYTHON_EVERY, accept, reject, rejec
 use crate::helpers::model::{path, read};
 use crate::helpers::number::number;
 use crate::helpers::program::{jurist, jurist_with_input};
-use jurist::Budget;
 use jurist::certified::certify_intervals;
+use jurist::{Ask, Budget};
 use jurist_algebra::number::Rational;
 use jurist_check::{Limits, Step, check};
 use std::time::Duration;

@@ -8,7 +8,7 @@ use crate::helpers::program::{jurist, jurist_with_input};
 use crate::helpers::random::Random;
 use crate::helpers::thorough::tried;
 use jurist::certified::certify_boxes;
-use jurist::{BoxRequest, MapBoxes, MapMethod, MapOrBoxes};
+use jurist::{Ask, BoxRequest, MapBoxes, MapMethod, MapOrBoxes};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_check::format::Json;

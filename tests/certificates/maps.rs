@@ -6,6 +6,7 @@ use crate::helpers::model::{example_text, path, read};
 use crate::helpers::number::number;
 use crate::helpers::program::jurist;
 use crate::helpers::random::Random;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_check::format::Json;

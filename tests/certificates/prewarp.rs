@@ -7,6 +7,7 @@ use crate::helpers::certificates::{emitted, emitted_if_any, verdict_emitted, wit
 use crate::helpers::model::{example_text, read};
 use crate::helpers::number::number;
 use crate::helpers::thorough::tried;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_check::{Limits, Step, check};

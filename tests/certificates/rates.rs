@@ -5,6 +5,7 @@ use crate::helpers::certificates::{emitted, verdict_emitted};
 use crate::helpers::model::{example_text, read};
 use crate::helpers::random::Random;
 use crate::loops::rates::{Cascade, position};
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_check::Step;
 use jurist_engine::error::Code;

@@ -5,6 +5,7 @@ use crate::helpers::model::read;
 use crate::helpers::number::number;
 use crate::helpers::program::jurist_with_input;
 use crate::helpers::thorough::is_tried;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_check::Step;
 use std::collections::BTreeSet;

@@ -2,6 +2,7 @@
 
 use crate::helpers::certificates::MODELS;
 use crate::helpers::model::{example_text, read};
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use std::process::{Command, Stdio};
 

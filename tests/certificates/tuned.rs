@@ -6,7 +6,7 @@ use crate::helpers::model::read;
 use crate::helpers::number::{number, ratio};
 use crate::helpers::random::Random;
 use jurist::certified::certify_tune;
-use jurist::{Budget, Error, Rational, Requirement};
+use jurist::{Ask, Budget, Error, Rational, Requirement};
 use jurist_check::{Limits, check};
 use jurist_engine::problem::Region;
 use jurist_engine::response::Requirements;

@@ -3,6 +3,7 @@
 
 use crate::helpers::model::read;
 use crate::helpers::random::Random;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_engine::error::{Code, Source};
 use jurist_engine::model::Model;

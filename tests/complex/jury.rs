@@ -6,6 +6,7 @@ use crate::helpers::model::read;
 use crate::helpers::number::ratio;
 use crate::helpers::program::jurist_with_input;
 use crate::helpers::random::Random;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Rational, Sign};
 use jurist_engine::answer::Verdict;

@@ -3,6 +3,7 @@
 use super::table::{machine, turned};
 use crate::helpers::model::read;
 use crate::helpers::program::jurist_with_input;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_engine::error::{Code, Source};
 use jurist_engine::model::Model;

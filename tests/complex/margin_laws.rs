@@ -4,6 +4,7 @@ use super::margins::Open;
 use super::table::{machine, turned};
 use crate::helpers::model::read;
 use crate::helpers::program::jurist_with_input;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_engine::answer::Verdict;

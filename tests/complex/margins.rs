@@ -6,6 +6,7 @@ use crate::helpers::model::read;
 use crate::helpers::number::ratio;
 use crate::helpers::random::Random;
 use crate::helpers::thorough;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::real::Real;

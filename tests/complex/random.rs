@@ -5,6 +5,7 @@ use super::oracle::{Loop, is_hurwitz, is_schur, plus};
 use crate::helpers::model::{load, read};
 use crate::helpers::number::ratio;
 use crate::helpers::random::Random;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_engine::answer::{Answer, ToleranceRequest};

@@ -2,6 +2,7 @@
 //! on both sides of each end.
 
 use crate::helpers::model::read;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_engine::answer::Answer;
 use jurist_engine::stability::StableSet;

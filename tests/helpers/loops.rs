@@ -1,6 +1,7 @@
 //! Stable sets of whole loops.
 
 use super::number::number;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::real::Real;

@@ -1,5 +1,6 @@
 //! Models from text, from files, and from one polynomial.
 
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_engine::error::{Code, Source};

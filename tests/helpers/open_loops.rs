@@ -1,6 +1,7 @@
 //! Loops cut open: models of them, and their margins.
 
 use super::model::load;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::Answer;

@@ -1,5 +1,6 @@
 //! Whether a loop meets a requirement at a point, decided by other means than crossings.
 
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, Poly, UniPoly};

@@ -2,6 +2,7 @@
 //! where roots of its boundaries coincide only for what these constants are.
 
 use crate::helpers::model::load;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_engine::stability::{End, StableSet};
 use proptest::collection::vec;

@@ -1,6 +1,7 @@
 //! Laws of margins, on generated loops: each margin against a second way.
 
 use crate::helpers::model::read;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, Poly, UniPoly};

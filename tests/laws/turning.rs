@@ -1,5 +1,6 @@
 //! The phase of an open loop, continued exactly, against the sum of the angles of all its factors in floating point.
 
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::error::Source;

@@ -5,12 +5,13 @@ use crate::helpers::number::{number, ratio};
 use crate::helpers::program::jurist_with_input;
 use crate::helpers::random::Random;
 use crate::helpers::thorough::tried;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, UniPoly};
 use jurist_engine::error::Error;
 use jurist_engine::model::Model;
-use jurist_engine::response::{RequiredSet, Requirement};
+use jurist_engine::response::{RequiredSet, Requirement, Requirements};
 use jurist_engine::show::diagnostics::render_error;
 use jurist_engine::stability::{Range, Shape, is_stable};
 
@@ -27,7 +28,7 @@ fn text_of(time: &str, transfer: &str) -> String {
 }
 
 fn requirement(model: &Model, name: &str, value: &str) -> Requirement {
-    let asked = model.requirements(&[(name, value)], &[], &Budget::unlimited()).unwrap_or_else(|e| panic!("{e}"));
+    let asked = Requirements::of(model, &[(name, value)], &[], &Budget::unlimited()).unwrap_or_else(|e| panic!("{e}"));
     asked.list.into_iter().next().expect("no region")
 }
 
@@ -359,13 +360,13 @@ fn a_box_that_grows_to_a_gain_of_zero_has_its_requirement_decided() {
 #[test]
 fn mistakes_in_a_requirement_have_their_place_in_its_text() {
     let model = loop_with(CONTINUOUS, "K/(s + 1)");
-    let said = |model: &Model, further: &[(&str, &str)]| match model
-        .requirements(further, &[], &Budget::unlimited())
-        .unwrap_err()
-    {
-        Error::Refused(diagnostics) => render_error(&diagnostics, false),
-        other => panic!("{other}"),
-    };
+    let said =
+        |model: &Model, further: &[(&str, &str)]| match Requirements::of(model, further, &[], &Budget::unlimited())
+            .unwrap_err()
+        {
+            Error::Refused(diagnostics) => render_error(&diagnostics, false),
+            other => panic!("{other}"),
+        };
     let unknown = said(&model, &[("disk_margin", " 2*abc")]);
     assert!(unknown.contains("E-unknown-name") && unknown.contains("disk_margin:1:3"), "{unknown}");
     let zero = said(&model, &[("phase_margin", "1/0 deg")]);

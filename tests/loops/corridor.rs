@@ -1,5 +1,6 @@
 //! A question is evaluated once, its boundaries are isolated once, and all that is written comes of one answer.
 
+use jurist::Ask;
 use jurist_algebra::limits::{Budget, Progress};
 use jurist_check::{Limits, check};
 use jurist_engine::model::Model;

@@ -3,10 +3,11 @@
 use crate::helpers::model::load;
 use crate::helpers::number::number;
 use crate::helpers::open_loops::{margins_of, stable};
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::model::Model;
-use jurist_engine::response::{DelayMargin, PhaseMargin, Place, Requirement};
+use jurist_engine::response::{DelayMargin, PhaseMargin, Place, Requirement, Requirements};
 use jurist_engine::show::real;
 
 /// `K exp(-tau s)/(s (s/2 + 1))`.
@@ -81,7 +82,7 @@ fn a_delay_margin_is_required_of_a_loop_with_dead_time() {
     let model = positioner("2", "0.3");
     let problem = model.ask().problem().unwrap();
     let met = |seconds: &str| {
-        let asked = model.requirements(&[("delay_margin", seconds)], &[], &Budget::unlimited()).unwrap();
+        let asked = Requirements::of(&model, &[("delay_margin", seconds)], &[], &Budget::unlimited()).unwrap();
         let found = problem.requirements_met(&asked.list, None, &Budget::unlimited()).unwrap();
         (found[0].met, found[0].value(6).unwrap())
     };

@@ -1,5 +1,6 @@
 //! The paper's drive: the conditions of its table, each for itself, against its stable sets.
 
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_engine::model::Model;
 

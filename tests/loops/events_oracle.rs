@@ -8,6 +8,7 @@ use crate::helpers::loops::agrees_with_radius;
 use crate::helpers::model::read;
 use crate::helpers::random::Random;
 use crate::helpers::thorough::count;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use nalgebra::{Complex, DMatrix, DVector};
 

@@ -3,6 +3,7 @@
 use crate::helpers::loops::{assert_changes_sign, stable_set_of, with};
 use crate::helpers::model::{example, load};
 use crate::helpers::number::number;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::Verdict;
@@ -25,7 +26,7 @@ fn every_example_loads_without_a_warning_and_is_stable_at_nominal() {
 
 #[test]
 fn every_example_is_on_the_page_of_examples() {
-    let page = include_str!("../../crates/engine/src/model/examples.md");
+    let page = include_str!("../../crates/model/src/examples.md");
     for entry in std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/examples")).unwrap() {
         let name = entry.unwrap().file_name().into_string().unwrap();
         assert!(!name.ends_with(".toml") || page.contains(&name), "{name} is not on the page");

@@ -3,6 +3,7 @@
 
 use crate::helpers::model::load;
 use crate::helpers::open_loops::{margins_of, stable};
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::parse_number;
 use jurist_engine::response::Requirement;

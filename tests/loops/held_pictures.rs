@@ -3,6 +3,7 @@
 use crate::helpers::model::load;
 use crate::helpers::number::number;
 use crate::helpers::program::{json, jurist, jurist_with_input};
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_engine::stability::{Shape, count_roots};
 use serde_json::Value;

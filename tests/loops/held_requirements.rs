@@ -5,6 +5,7 @@ use crate::helpers::model::{example, load};
 use crate::helpers::number::{number, ratio};
 use crate::helpers::program::jurist;
 use crate::helpers::random::Random;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::Answer;

@@ -2,6 +2,7 @@
 
 use crate::helpers::budget::{cancelled_at, endless_model};
 use crate::helpers::model::load;
+use jurist::Ask;
 use jurist_algebra::limits::{Budget, Stop};
 use jurist_engine::error::{Error, Source};
 use jurist_engine::model::Model;

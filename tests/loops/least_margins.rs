@@ -5,6 +5,7 @@ use crate::helpers::number::{number, ratio};
 use crate::helpers::program::jurist;
 use crate::helpers::random::Random;
 use crate::helpers::thorough::count;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_engine::model::Model;

@@ -2,8 +2,8 @@
 
 use crate::helpers::program::{jurist, jurist_with_input};
 use crate::helpers::thorough::count;
-use jurist::{Budget, Model, Rational, Source};
-use jurist_engine::response::RequiredSet;
+use jurist::{Ask, Budget, Model, Rational, Source};
+use jurist_engine::response::{RequiredSet, Requirement};
 use serde_json::Value;
 
 /// The phase margin of `K/(s (s + 1))` is `p` at `K = cos p/sin^2 p`; the modulus margin of `K/s` is 1, and its gain margin has no bound.
@@ -34,7 +34,7 @@ fn margins_at_points_beside_each_end_agree() {
         [[block]]\nname = 'P'\ninput = 'u'\noutput = 'y'\ntransfer = '(z + 1/3)/(z*(z - 3/4))'\n";
     let (model, _) = Model::from_toml(&Source::new("loop.toml", text)).unwrap();
     let budget = Budget::unlimited();
-    let margins = model.usual_margins(&budget).unwrap();
+    let margins = Requirement::usual_margins(&model, &budget).unwrap();
     let ranges = model.ask().free("K").problem().unwrap().margin_ranges(&margins, None, &budget).unwrap();
     let mut ends = 0;
     for level in &ranges.value().levels {
@@ -75,7 +75,7 @@ fn a_parameter_as_the_cut_is_the_gain_of_the_loop() {
              [[block]]\nname = 'P'\ninput = 'u'\noutput = 'y'\ntransfer = '{transfer}'\n{held}"
         );
         let (model, _) = Model::from_toml(&Source::new("loop.toml", &text)).unwrap();
-        let margins = model.usual_margins(&budget).unwrap();
+        let margins = Requirement::usual_margins(&model, &budget).unwrap();
         for name in ["K", "a"] {
             // A name inside of functions beside a gain with a value is refused.
             if name == "a" && !held.is_empty() {

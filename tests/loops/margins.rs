@@ -3,6 +3,7 @@
 use crate::helpers::model::{example, load};
 use crate::helpers::number::number;
 use crate::helpers::open_loops::{SERVO_AS_TYPED, loop_of, margins_of, stable};
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::Answer;

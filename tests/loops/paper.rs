@@ -1,6 +1,7 @@
 //! The derivation of the paper (Gürbüz and Akpınar 2002), step by step, with every gain symbolic.
 
 use crate::helpers::model::{characteristic, keeping, load};
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::poly::RationalFunction;
 use jurist_engine::model::Model;

@@ -2,6 +2,7 @@
 //! for the minimum at sixty digits.
 
 use crate::helpers::model::{example, read};
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_engine::model::{Model, Time};

@@ -4,6 +4,7 @@
 use crate::helpers::model::{example_text, load, read};
 use crate::helpers::number::ratio;
 use crate::helpers::program::{jurist, jurist_with_input};
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::Verdict;

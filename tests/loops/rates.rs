@@ -5,6 +5,7 @@ use crate::helpers::loops::agrees_with_radius;
 use crate::helpers::model::{example_text, read};
 use crate::helpers::program::jurist_with_input;
 use crate::helpers::random::Random;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::error::{Code, Source};

@@ -5,12 +5,13 @@ use crate::helpers::number::{number, ratio};
 use crate::helpers::open_loops::{CONDITIONAL, RESONANT, SERVO};
 use crate::helpers::random::Random;
 use crate::helpers::required::{Known, is_met};
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::real::Real;
 use jurist_engine::answer::Answer;
 use jurist_engine::model::Model;
-use jurist_engine::response::{RequiredEnd, RequiredSet, Requirement};
+use jurist_engine::response::{RequiredEnd, RequiredSet, Requirement, Requirements};
 
 fn required(model: &Model, name: &str, at: Option<&str>, requirements: &[Requirement]) -> Answer<RequiredSet> {
     let problem = model.ask().free(name).problem().unwrap();
@@ -132,7 +133,7 @@ fn a_settling_time_is_a_radius_that_is_not_algebraic() {
     let model = load(text);
     let budget = Budget::unlimited();
     let problem = model.ask().free("K").problem().unwrap();
-    let asked = model.requirements(&[], problem.set(), &budget).unwrap();
+    let asked = Requirements::of(&model, &[], problem.set(), &budget).unwrap();
     assert_eq!(asked.list[0].text(), "settling_time <= 4");
     let answer = required(&model, "K", None, &asked.list);
     let [only] = answer.value().intervals.as_slice() else { panic!("{answer:?}") };
@@ -149,7 +150,7 @@ fn a_settling_time_is_a_radius_that_is_not_algebraic() {
     let text = "time = 'continuous'\n[parameters]\nK = { nominal = 2, min = 0 }\n[loop]\ncharacteristic = 's^2 + 4*s + K'\n\
                 [require]\nsettling_time = 4\ndecay = 0.25\n";
     let model = load(text);
-    let asked = model.requirements(&[], &[], &budget).unwrap();
+    let asked = Requirements::of(&model, &[], &[], &budget).unwrap();
     let set = model.ask().free("K").within(asked.region.unwrap()).stable_set(&budget).unwrap();
     // s = -1: 1 - 4 + K = 0
     assert_eq!(set.value().intervals()[0].lower.as_ref().unwrap().value.exact(), Some(number("3")));

@@ -4,6 +4,7 @@ use crate::helpers::model::{continuous, discrete, keeping, load};
 use crate::helpers::number::{number, ratio};
 use crate::helpers::program::jurist;
 use crate::helpers::thorough::tried;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_engine::model::Model;
 use jurist_engine::response::{RequiredEnd, RequiredSet, Requirement};

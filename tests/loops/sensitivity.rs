@@ -4,6 +4,7 @@ use crate::helpers::model::load;
 use crate::helpers::number::number;
 use crate::helpers::open_loops::SERVO_BEHIND_A_HOLD;
 use crate::helpers::program::json;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::model::Model;

@@ -4,6 +4,7 @@ use super::pwm::{ends, set};
 use crate::helpers::model::{example_text, read};
 use crate::helpers::program::jurist_with_input;
 use crate::helpers::thorough::tried;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::parse_number;
 use jurist_engine::answer::Verdict;

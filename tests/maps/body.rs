@@ -3,6 +3,7 @@
 
 use crate::helpers::model::{example, read};
 use crate::helpers::number::number;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::Domain;

@@ -2,6 +2,7 @@
 
 use crate::helpers::model::read;
 use crate::helpers::plane::{c, disc, ends, limits, plane, polynomial, said, says, some, square, x, y};
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::poly::RationalFunction;
 use jurist_engine::answer::{Answer, Map};

@@ -6,6 +6,7 @@ use crate::helpers::number::{number, ratio};
 use crate::helpers::program::{json, jurist, jurist_with_input};
 use crate::helpers::random::Random;
 use crate::helpers::thorough::{is_thorough, tried};
+use jurist::Ask;
 use jurist::certified::certify_required_intervals;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;

@@ -3,6 +3,7 @@
 use crate::helpers::number::number;
 use crate::helpers::plane::{coefficient, map, plane};
 use crate::helpers::thorough::tried;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Integer, Rational};

@@ -4,6 +4,7 @@ use crate::helpers::model::keeping;
 use crate::helpers::number::number;
 use crate::helpers::plane::algebraic;
 use crate::helpers::program::{given_time, json, jurist, number_in, refused};
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_engine::error::Source;
 use jurist_engine::model::Model;

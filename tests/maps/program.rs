@@ -4,6 +4,7 @@ use crate::helpers::model::{example, keeping};
 use crate::helpers::number::number;
 use crate::helpers::plane::{algebraic, cell_agrees};
 use crate::helpers::program::{command, json, jurist, jurist_with_input, refused};
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, Map};

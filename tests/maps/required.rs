@@ -7,12 +7,13 @@ use crate::helpers::random::Random;
 use crate::helpers::required::{Known, is_met};
 use crate::helpers::schema::fits;
 use crate::helpers::thorough::tried;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::real::Real;
 use jurist_engine::answer::{Answer, Map};
 use jurist_engine::model::Model;
-use jurist_engine::response::{RequiredEnd, Requirement};
+use jurist_engine::response::{RequiredEnd, Requirement, Requirements};
 use jurist_engine::stability::UndecidedBracket;
 use serde_json::Value;
 
@@ -168,7 +169,7 @@ fn a_damping_beside_a_decay_rate_is_that_of_the_roots_themselves() {
                 characteristic = 's^2 + 4*s + K'\n[require]\ndamping = 0.6\ndecay = 1\n";
     let model = load(text);
     let budget = Budget::unlimited();
-    let asked = model.requirements(&[], &[], &budget).unwrap();
+    let asked = Requirements::of(&model, &[], &[], &budget).unwrap();
     let question = model.ask().within(asked.region.clone().unwrap());
     let found = question.clone().problem().unwrap().requirements_met(&asked.list, None, &budget).unwrap();
     assert!(found[0].met);

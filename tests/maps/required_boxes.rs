@@ -5,6 +5,7 @@ use crate::helpers::number::{number, ratio};
 use crate::helpers::random::Random;
 use crate::helpers::required::{Known, is_met};
 use crate::helpers::thorough::{count, is_tried};
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, BoxRequest, MapBoxes, MapMethod, MapOrBoxes, Verdict};

@@ -3,6 +3,7 @@
 
 use crate::helpers::certificates::checkers::certified_set_of;
 use crate::helpers::model::{continuous, discrete};
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::error::{Code, Error, Source};

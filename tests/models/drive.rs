@@ -2,6 +2,7 @@
 
 use crate::helpers::model::{characteristic, example_text, keeping, load, path};
 use crate::helpers::number::number;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::faddeev_leverrier;
 use jurist_algebra::poly::RationalFunction;
@@ -38,7 +39,7 @@ fn expected() -> Vec<RationalFunction> {
 fn models_inside_of_packages_are_the_examples() {
     // A package holds what is in its own folder, so these are there once more.
     let packaged = [
-        ("crates/engine", vec!["drive"]),
+        ("crates/model", vec!["drive"]),
         ("studies/drive", vec!["drive-blocks", "equation-23-as-printed", "equation-37-as-printed"]),
     ];
     for (package, names) in packaged {

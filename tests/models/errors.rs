@@ -1,6 +1,7 @@
 //! Whatever is wrong with a model is said with its code and its place, several things in one run.
 
 use crate::helpers::model::characteristic as polynomial_of;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_engine::error::{Error, Source};
 use jurist_engine::model::{Model, source_from_bytes};

@@ -1,6 +1,7 @@
 //! Expressions against exact evaluation at points, and back through their printed text.
 
 use crate::helpers::model::characteristic;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::model::{BlockBuilder, Expression, Model, ParameterBuilder, Time};

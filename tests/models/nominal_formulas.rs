@@ -1,5 +1,6 @@
 //! A nominal value may be a formula in constants and other parameters; it follows what is set.
 
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Rational, parse_number};
 use jurist_engine::answer::ToleranceRequest;

@@ -4,6 +4,7 @@ use crate::helpers::drive::{sampled_drive, switched_drive};
 use crate::helpers::number::ratio;
 use crate::helpers::program::jurist_with_input;
 use crate::helpers::thorough::{count, is_tried};
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_draw::figures::{

@@ -1,6 +1,7 @@
 //! The table of what is answered: every question is asked of a loop over each ring, and its outcome is the one that the table says.
 
 use crate::helpers::thorough::is_tried;
+use jurist::Ask;
 use jurist::cli::captured;
 use jurist_algebra::limits::{Budget, parallel_map};
 use jurist_engine::coverage::{Asked, CoefficientRing, Coverage, rows};

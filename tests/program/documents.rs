@@ -3,6 +3,7 @@
 use crate::helpers::program::{Run, jurist};
 use crate::helpers::schema::{fits, folder};
 use crate::helpers::thorough::is_tried;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_draw::document::{FrequencyResponse, Locus, Simulation};
 use jurist_drive::document::Main;

@@ -2,6 +2,7 @@
 
 use crate::helpers::model::read;
 use crate::helpers::random::Random;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_engine::response::Requirements;

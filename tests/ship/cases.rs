@@ -4,6 +4,7 @@ use crate::helpers::folder::Folder;
 use crate::helpers::model::read;
 use crate::helpers::number::number;
 use crate::helpers::schema::fits;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{BinaryFormat, Rational, to_decimal, to_scientific};
 use jurist_engine::model::Model;

@@ -6,6 +6,7 @@ use crate::helpers::number::{number, ratio};
 use crate::helpers::program::{jurist_with_input, refused};
 use crate::helpers::random::Random;
 use crate::helpers::thorough::tried;
+use jurist::Ask;
 use jurist::certified::certify_tolerance;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;

@@ -2,6 +2,7 @@
 
 use crate::helpers::model::example;
 use crate::helpers::number::number;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, ToleranceAnswer, ToleranceRequest, Verdict};

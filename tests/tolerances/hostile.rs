@@ -2,6 +2,7 @@
 
 use crate::helpers::model::load;
 use crate::helpers::program::{jurist_with_input, within_address_space};
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_engine::answer::{Answer, ToleranceAnswer, ToleranceRequest};
 use jurist_engine::error::Error;

@@ -1,6 +1,7 @@
 //! What must hold for every box.
 
 use crate::helpers::model::load;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::UniPoly;

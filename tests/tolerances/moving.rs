@@ -3,6 +3,7 @@
 use crate::helpers::model::{example, load};
 use crate::helpers::number::number;
 use crate::helpers::thorough::count;
+use jurist::Ask;
 use jurist_algebra::ball::{Ball, exp};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};

@@ -5,12 +5,13 @@ use crate::helpers::number::number;
 use crate::helpers::program::jurist_with_input;
 use crate::helpers::random::Random;
 use crate::helpers::thorough::tried;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, ToleranceAnswer, ToleranceRequest};
 use jurist_engine::error::Error;
 use jurist_engine::model::Model;
-use jurist_engine::response::{RequiredEnd, Requirement};
+use jurist_engine::response::{RequiredEnd, Requirement, Requirements};
 use jurist_engine::stability::boxes::BoxDecision;
 
 /// `K/(s (a s + 1)(s + 1))` in a loop.
@@ -19,7 +20,7 @@ const SERVO: &str = "time = 'continuous'\n[parameters]\nK = { nominal = '1/2', t
     [[block]]\nname = 'all'\ninput = 'r - y'\noutput = 'y'\ntransfer = 'K/(s*(a*s + 1)*(s + 1))'\n";
 
 fn requirement(model: &Model, name: &str, text: &str) -> Requirement {
-    let asked = model.requirements(&[(name, text)], &[], &Budget::unlimited()).unwrap();
+    let asked = Requirements::of(model, &[(name, text)], &[], &Budget::unlimited()).unwrap();
     asked.list.into_iter().next().expect("one that is no region")
 }
 

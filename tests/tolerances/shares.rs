@@ -2,6 +2,7 @@
 
 use crate::helpers::model::load;
 use crate::helpers::number::number;
+use jurist::Ask;
 use jurist_algebra::limits::{Budget, Stop};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};

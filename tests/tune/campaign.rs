@@ -4,6 +4,7 @@
 use crate::helpers::model::read;
 use crate::helpers::number::ratio;
 use crate::helpers::thorough::count;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::response::Requirements;
@@ -149,7 +150,7 @@ impl Design {
         let budget = Budget::unlimited();
         let mut requirements = Requirements::default();
         if beyond && ["decay", "radius"].contains(name) {
-            requirements = model.further_requirements(&[(name, &value.to_string())], &[], &budget).unwrap();
+            requirements = Requirements::without_section(&model, &[(name, &value.to_string())], &[], &budget).unwrap();
         }
         let mut asked = Asked::of(&model, gains.collect(), objective, requirements).unwrap();
         asked.gap = ratio(5, 100);

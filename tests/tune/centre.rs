@@ -3,6 +3,7 @@
 use crate::helpers::folder::Folder;
 use crate::helpers::number::{number, ratio};
 use crate::helpers::schema::fits;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::ToleranceRequest;

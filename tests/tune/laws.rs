@@ -2,6 +2,7 @@
 
 use crate::helpers::model::read;
 use crate::helpers::number::ratio;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Poly, UniPoly};
@@ -157,7 +158,7 @@ proptest! {
         }
         let required = |least: Rational| -> Option<bool> {
             let text = least.to_string();
-            let list = model.further_requirements(&[("modulus_margin", &text)], &[], &Budget::unlimited()).unwrap();
+            let list = Requirements::without_section(&model, &[("modulus_margin", &text)], &[], &Budget::unlimited()).unwrap();
             answer(&model, "none", [None, None], list).is_feasible()
         };
         prop_assert_eq!(required(beyond(best, 100, true)), Some(false));

@@ -5,6 +5,7 @@ use crate::helpers::model::read;
 use crate::helpers::number::{number, ratio};
 use crate::helpers::schema::fits;
 use crate::helpers::thorough::{count, tried};
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::Verdict;

@@ -4,11 +4,13 @@ use crate::helpers::folder::Folder;
 use crate::helpers::number::{number, ratio};
 use crate::helpers::schema::fits;
 use crate::helpers::thorough::count;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::{ToleranceRequest, Verdict};
 use jurist_engine::error::Source;
 use jurist_engine::model::Model;
+use jurist_engine::response::Requirements;
 use proptest::prelude::*;
 use serde_json::{Value, json};
 
@@ -111,7 +113,8 @@ fn two_gains_within_tolerances() {
     let (_, nominal) = tune(LAGS, &options);
     assert!(proved < number(nominal["optimum"]["value"]["decimal"].as_str().unwrap()));
     let (model, _) = Model::from_toml(&Source::new("loop.toml", LAGS)).unwrap();
-    let required = model.further_requirements(&[("modulus_margin", "0.5")], &[], &Budget::unlimited()).unwrap();
+    let required =
+        Requirements::without_section(&model, &[("modulus_margin", "0.5")], &[], &Budget::unlimited()).unwrap();
     for point in [&found["found"]["point"], &found["rounded"]] {
         let set = ["k", "ki"].map(|name| (name.to_owned(), number(point[name].as_str().unwrap())));
         let request = ToleranceRequest::of_model(&model).require(required.list.clone(), None).gap(ratio(1, 10));

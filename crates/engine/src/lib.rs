@@ -2,8 +2,7 @@
 //!
 //! | room | what it does |
 //! |---|---|
-//! | [`error`] | diagnostics with places and stable codes |
-//! | [`model`] | expressions, model files, block diagrams, discretisation |
+//! | [`model`] | [a crate of its own](jurist_model): expressions, model files, block diagrams, discretisation; [`error`]: diagnostics with places and stable codes |
 //! | [`stability`] | [a crate of its own](jurist_stability): exact root count, tables of Jury and Routh, boundary polynomials, stable sets, two parameters |
 //! | [`coverage`] | which question is answered over which coefficient ring: one table |
 //! | [`problem`] | a question about a model as one value, resolved once and evaluated once |
@@ -17,13 +16,10 @@
 
 pub mod answer;
 pub mod coverage;
-pub mod error;
-pub mod model;
 mod precisions;
 pub mod problem;
 pub mod prove;
-#[cfg(test)]
-mod published;
 pub mod response;
 pub mod show;
+pub use jurist_model::{self as model, error};
 pub use jurist_stability as stability;

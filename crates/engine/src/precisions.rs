@@ -26,9 +26,6 @@ pub(crate) const ROUNDED_ENTRIES: Precisions = Precisions::new(256, 1 << 12);
 /// On which side of the real axis a complex loop's root is. It may have one on either side at once, which no bits show.
 pub(crate) const SIDE_OF_ROOT: Precisions = Precisions::new(128, 1 << 11);
 
-/// The duty ratio of a loop at rest beside 0 and 1, which it may be by a relation that no identity shows.
-pub(crate) const STEADY_DUTY: Precisions = Precisions::new(128, 1 << 11);
-
 /// A loop behind holds as numbers alone. A loop that these bits do not decide is so near to the boundary that exact algebra
 /// has to be asked.
 pub(crate) const LOOP_IN_NUMBERS: Precisions = Precisions::new(128, 1 << 11);

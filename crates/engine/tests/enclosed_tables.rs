@@ -3,6 +3,7 @@
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_engine::model::{Model, Time};
+use jurist_engine::problem::Ask;
 use jurist_engine::stability::EnclosedTable;
 
 fn table(characteristic: &str) -> Option<EnclosedTable> {

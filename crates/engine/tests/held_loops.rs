@@ -6,6 +6,7 @@ use jurist_algebra::number::{Rational, parse_number};
 use jurist_engine::answer::{Answer, Verdict};
 use jurist_engine::error::Source;
 use jurist_engine::model::Model;
+use jurist_engine::problem::Ask;
 use jurist_engine::stability::{End, Range, StableSet};
 
 fn read(text: &str) -> Model {

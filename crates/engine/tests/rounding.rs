@@ -4,6 +4,7 @@ use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::UniPoly;
 use jurist_engine::model::{Model, ParameterBuilder, Time};
+use jurist_engine::problem::Ask;
 use jurist_engine::stability::Rounding;
 
 /// The loop `z - exp(-T) + K/3` with one of its parameters free, the other at its value.

@@ -4,6 +4,7 @@ use jurist_algebra::limits::Budget;
 use jurist_check::{Limits, check};
 use jurist_engine::error::Source;
 use jurist_engine::model::Model;
+use jurist_engine::problem::Ask;
 use std::time::Duration;
 
 /// Small models with their true certificates are mutated by the bytes, or the bytes are the certificate.

@@ -2,6 +2,7 @@
 
 use jurist_algebra::limits::Budget;
 use jurist_engine::model::{Model, source_from_bytes};
+use jurist_engine::problem::Ask;
 use std::time::Duration;
 
 /// Reads bytes as a model and asks for its polynomial: whatever they are, nothing panics.

@@ -4,6 +4,7 @@ use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_engine::answer::Verdict;
 use jurist_engine::model::{Model, source_from_bytes};
+use jurist_engine::problem::Ask;
 use std::time::Duration;
 
 /// Roots nearer to the circle than this are not told apart in floating point.

@@ -6,6 +6,7 @@ use crate::shipped::{Shipped, with_controller};
 use jurist_algebra::limits::Budget;
 use jurist_engine::answer::Answer;
 use jurist_engine::error::{Code, Diagnostic, Error};
+use jurist_engine::problem::Ask;
 use jurist_engine::stability::{Range, StableSet};
 
 /// The stable sets of a parameter with the controller stored in more and more bits.

@@ -10,7 +10,7 @@ use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_engine::error::{Code, Diagnostic, Error, Source};
 use jurist_engine::model::{Model, Time};
-use jurist_engine::problem::{EnclosedBlock, Problem, Question};
+use jurist_engine::problem::{Ask, EnclosedBlock, Problem, Question};
 use std::sync::Arc;
 
 /// Bits to which coefficients are known that are no rational numbers.

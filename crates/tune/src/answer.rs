@@ -13,7 +13,7 @@ use jurist_algebra::real::Real;
 use jurist_engine::coverage::CoefficientRing;
 use jurist_engine::error::{Code, Diagnostic, Error};
 use jurist_engine::problem::{Problem, Question};
-use jurist_engine::response::{AllOf, Level};
+use jurist_engine::response::{AllOf, Level, Requirements};
 use std::sync::Arc;
 
 /// The part of the budget for the search.
@@ -223,7 +223,7 @@ impl TuneAnswer {
         let middle = |all: &AllOf| (all.name.clone(), all.range[0].midpoint(&all.range[1]));
         let question = &question.clone().set_all(for_all.iter().map(middle));
         let free = gains.iter().fold(question.clone(), |question, gain| question.without_value(&gain.name));
-        let requirements = model.requirements(&[], &values(&free), budget)?;
+        let requirements = Requirements::of(model, &[], &values(&free), budget)?;
         let mut asked = Asked::of_model(model, gains, requirements)?;
         asked.for_all = for_all;
         TuneAnswer::of(&free, asked, budget)

@@ -9,7 +9,7 @@ use jurist_algebra::real::Real;
 use jurist_engine::answer::{Answer, PointVerdict, Verdict};
 use jurist_engine::coverage::CoefficientRing;
 use jurist_engine::error::{Code, Error};
-use jurist_engine::problem::{Bound, Free, Problem, Question, Region};
+use jurist_engine::problem::{Ask, Bound, Free, Problem, Question, Region};
 use jurist_engine::response::{AllOf, Level, LevelAsked, RequiredSet, Requirement, RequirementMet};
 use jurist_stability::Range;
 use jurist_stability::plane::Strip;

@@ -11,6 +11,7 @@ use jurist_engine::response::AllOf;
 /// ```
 /// use jurist_engine::error::Source;
 /// use jurist_engine::model::Model;
+/// use jurist_engine::problem::Ask;
 /// use jurist_tune::{asked::Gain, plants::plants};
 /// let text = "time = 'continuous'\nparameters = { K = 1, a = { nominal = 2, tolerance = '10%' } }\nloop.characteristic = 's + a*K'\n";
 /// let (model, _) = Model::from_toml(&Source::new("loop.toml", text))?;

@@ -12,6 +12,8 @@ use jurist_algebra::limits::Budget;
 use jurist_engine::answer::Verdict;
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Error};
 use jurist_engine::model::Model;
+use jurist_engine::problem::Ask;
+use jurist_engine::response::Requirements;
 use jurist_engine::show::documents::{Check, to_text};
 use std::ffi::OsString;
 
@@ -100,7 +102,7 @@ fn unmet_requirements(model: &Model, budget: &Budget) -> Vec<Diagnostic> {
     };
     let found = || -> Result<Vec<Diagnostic>, Error> {
         let values = model.ask().problem()?.set().to_vec();
-        let asked = model.requirements(&[], &values, budget)?;
+        let asked = Requirements::of(model, &[], &values, budget)?;
         let question = asked.region.clone().into_iter().fold(model.ask(), |question, region| question.within(region));
         let problem = question.problem()?;
         let in_region = problem.verdict(budget)?.value().verdict == Verdict::Stable;

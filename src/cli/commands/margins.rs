@@ -12,7 +12,7 @@ use jurist_algebra::number::Rational;
 use jurist_engine::coverage::Asked;
 use jurist_engine::model::Model;
 use jurist_engine::problem::Question;
-use jurist_engine::response::{AllOf, Everywhere, LeastMargin, MapForAll};
+use jurist_engine::response::{AllOf, Everywhere, LeastMargin, MapForAll, Requirement};
 use jurist_engine::show::documents::{MarginRanges, Margins};
 
 /// Options of `jurist margins`.
@@ -82,7 +82,7 @@ fn by_parameter(name: &str, (model, question): (&Model, Question), options: &Opt
     let digits = output.digits() as usize;
     let problem = question.free(name).problem()?;
     context.explain(&options.explain, output, &problem, Asked::Intervals)?;
-    let margins = model.usual_margins(&context.budget);
+    let margins = Requirement::usual_margins(model, &context.budget);
     let found = margins.and_then(|list| problem.margin_ranges(&list, options.at.as_deref(), &context.budget));
     match decided(found)? {
         Ok(answer) => {

@@ -10,7 +10,8 @@ use jurist_check::{Limits, check};
 use jurist_engine::answer::{ToleranceRequest, Verdict};
 use jurist_engine::error::{Code, Diagnostic};
 use jurist_engine::model::{ClaimKind, Model, RequirementText, Tolerance};
-use jurist_engine::problem::Question;
+use jurist_engine::problem::{Ask, Question};
+use jurist_engine::response::Requirements;
 use jurist_engine::show::documents::TestStatus;
 use jurist_engine::show::layout::short;
 use jurist_engine::show::margins::margin;
@@ -294,7 +295,7 @@ fn requirements(
 ) -> Result<Vec<Line>, Error> {
     let values = asked(model, point).problem()?.set().to_vec();
     let further: Vec<(&str, &str)> = further.iter().map(|r| (r.name.as_str(), r.text.as_str())).collect();
-    let required = model.requirements(&further, &values, budget)?;
+    let required = Requirements::of(model, &further, &values, budget)?;
     if required.is_empty() {
         let error = Diagnostic::error(Code::Require, "nothing is required: the model has no [require]");
         return Err(error.help("name the requirements here: require = { phase_margin = \"45 deg\" }").into());

@@ -7,6 +7,7 @@ use jurist_algebra::number::parse_number;
 use jurist_algebra::real::Real;
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Error};
 use jurist_engine::model::Model;
+use jurist_engine::problem::Ask;
 use jurist_engine::show::diagnostics::render_error;
 use jurist_engine::stability::{End, StableSet};
 use serde_json::{Value, json};

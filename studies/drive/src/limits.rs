@@ -11,6 +11,7 @@ use jurist_draw::simulate::{Pulse, SampledModel, SwitchedModel, growth_limit};
 use jurist_engine::answer::Answer;
 use jurist_engine::error::Error;
 use jurist_engine::model::Model;
+use jurist_engine::problem::Ask;
 use jurist_engine::stability::StableSet;
 use nalgebra::DVector;
 

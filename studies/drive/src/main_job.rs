@@ -9,6 +9,7 @@ use jurist_algebra::real::Real;
 use jurist_engine::answer::{Answer, ParametricTable};
 use jurist_engine::error::{Error, Source};
 use jurist_engine::model::Model;
+use jurist_engine::problem::Ask;
 use jurist_engine::show::documents::{Answered, Exact};
 use jurist_engine::show::intervals::{domain_text, set_lines};
 use jurist_engine::show::layout::{Columns, short, visible, wrapped};

@@ -15,6 +15,7 @@ use jurist_draw::report::{comment_at, entries};
 use jurist_engine::answer::{Answer, ParametricTable};
 use jurist_engine::error::{Error, Source};
 use jurist_engine::model::{Form, Model};
+use jurist_engine::problem::Ask;
 use jurist_engine::show::intervals::set_lines;
 use jurist_engine::show::notation::{Coefficient, coefficient_text, root_locus_form};
 

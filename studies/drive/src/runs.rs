@@ -11,7 +11,7 @@ use jurist_draw::simulate::{
 };
 use jurist_engine::error::Error;
 use jurist_engine::model::Model;
-use jurist_engine::problem::Problem;
+use jurist_engine::problem::{Ask, Problem};
 use nalgebra::DVector;
 use std::sync::Arc;
 

@@ -12,7 +12,7 @@ use jurist_draw::page::Table;
 use jurist_draw::report::{limit_text, percent_change};
 use jurist_engine::error::{Error, Source};
 use jurist_engine::model::Model;
-use jurist_engine::problem::Question;
+use jurist_engine::problem::{Ask, Question};
 
 /// Constants whose influence the report shows.
 const CONSTANTS: [&str; 8] = ["J", "B_v", "R_a", "L_a", "K_pi", "K_ii", "K_ps", "K_is"];

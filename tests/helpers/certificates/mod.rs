@@ -1,5 +1,6 @@
 //! Models with singular cases, their certificates, and mutations.
 
+use jurist::Ask;
 pub mod checkers;
 pub mod forgeries;
 pub mod python;

@@ -1,6 +1,7 @@
 //! The corpus: models with their expected answers in words, the same for every engine. `tests/corpus/README.md` says how
 //! a case is written.
 
+use jurist::Ask;
 mod answer;
 mod expected;
 mod read;

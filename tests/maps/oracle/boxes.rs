@@ -4,6 +4,7 @@ use super::lines::{Line, between};
 use super::loops::Loop;
 use crate::helpers::number::number;
 use crate::helpers::random::Random;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::real::Real;

@@ -1,6 +1,7 @@
 //! Stable sets on lines through the plane, and points of them and beside them.
 
 use super::loops::Loop;
+use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::real::Real;

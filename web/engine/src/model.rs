@@ -1,6 +1,6 @@
 //! The model that is being asked about, read once, and the questions that are asked of it again and again.
 
-use jurist::{Code, Diagnostic, Diagnostics, Error, Model, Problem, Question, Rational, parse_number};
+use jurist::{Ask, Code, Diagnostic, Diagnostics, Error, Model, Problem, Question, Rational, parse_number};
 use std::cell::RefCell;
 use std::sync::Arc;
 

@@ -12,6 +12,7 @@ use jurist_engine::show::layout::{called, short, visible};
 /// ```
 /// use jurist_draw::figures::facts;
 /// use jurist_engine::model::Model;
+/// use jurist_engine::problem::Ask;
 /// let problem = Model::drive().ask().free("K_pwm").problem().unwrap();
 /// assert_eq!(facts(&problem), ["T = 100 µs"]);
 /// ```

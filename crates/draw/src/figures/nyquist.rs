@@ -134,6 +134,7 @@ mod tests {
     use jurist_algebra::limits::Budget;
     use jurist_algebra::number::Rational;
     use jurist_engine::model::{BlockBuilder, Model, Time};
+    use jurist_engine::problem::Ask;
 
     fn response(values: &[(f64, f64)]) -> FrequencyResponse {
         let point = |(real, imaginary): &(f64, f64)| ResponsePoint {

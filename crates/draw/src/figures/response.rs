@@ -218,6 +218,7 @@ mod tests {
     use jurist_algebra::limits::Budget;
     use jurist_algebra::number::Rational;
     use jurist_engine::model::{BlockBuilder, Model, Time};
+    use jurist_engine::problem::Ask;
 
     /// `K exp(-s)/(s + 1)` in unity feedback.
     fn delayed(gain: &str) -> Answer<Margins> {

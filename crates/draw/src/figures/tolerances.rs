@@ -11,7 +11,7 @@ use jurist_algebra::number::{Rational, to_decimal};
 use jurist_engine::answer::{Answer, ToleranceAnswer};
 use jurist_engine::error::Error;
 use jurist_engine::model::Time;
-use jurist_engine::problem::Problem;
+use jurist_engine::problem::{Ask, Problem};
 use jurist_engine::stability::Range;
 use std::sync::Arc;
 

@@ -145,6 +145,7 @@ impl<'a> Listed<'a> {
 mod tests {
     use super::*;
     use jurist_engine::model::Model;
+    use jurist_engine::problem::Ask;
 
     #[test]
     fn names_that_a_shell_would_read_are_quoted() {

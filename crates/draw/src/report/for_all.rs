@@ -20,7 +20,7 @@ pub(super) fn section(question: &Question, request: &ReportRequest<'_>, at: Opti
     let ranges = request.for_all;
     let Some(all) = for_all_text(ranges, PLACES) else { return String::new() };
     let model = question.model();
-    let asked = match parts.part("the requirements", MARGINS, |budget| model.requirements(&[], &[], budget)) {
+    let asked = match parts.part("the requirements", MARGINS, |budget| Requirements::of(model, &[], &[], budget)) {
         Err(missing) => return missing.html(),
         Ok(asked) => asked,
     };

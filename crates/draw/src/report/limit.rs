@@ -12,6 +12,7 @@ use jurist_engine::stability::{StableInterval, StableSet};
 /// use jurist_algebra::limits::Budget;
 /// use jurist_draw::report::around_nominal;
 /// use jurist_engine::model::Model;
+/// use jurist_engine::problem::Ask;
 /// let answer = Model::drive().ask().free("K_pwm").stable_set(&Budget::unlimited())?;
 /// let upper = around_nominal(&answer).unwrap().upper.as_ref().unwrap();
 /// assert_eq!(upper.value.decimal(6), "550.941");

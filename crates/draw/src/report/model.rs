@@ -283,6 +283,7 @@ fn parameters(question: &Question) -> String {
 mod tests {
     use super::*;
     use jurist_engine::error::Source;
+    use jurist_engine::problem::Ask;
 
     #[test]
     fn comments_are_read_from_the_line_and_not_from_a_string() {

@@ -39,7 +39,7 @@ pub(super) fn find(
         return Ok(Vec::new());
     }
     parts.part("the requirements", WORK, |budget| {
-        let asked = model.requirements(&[], problem.set(), budget)?;
+        let asked = Requirements::of(model, &[], problem.set(), budget)?;
         let percent = |left: &Rational| to_decimal(&(left * &Rational::from(100)), 3);
         let mut out = Vec::new();
         for one in problem.requirements_met(&asked.list, at, budget)? {

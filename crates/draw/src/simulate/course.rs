@@ -23,6 +23,7 @@ const LEAST_SAMPLES: f64 = 50.0;
 /// use jurist_algebra::limits::Budget;
 /// use jurist_draw::simulate::Course;
 /// use jurist_engine::model::Model;
+/// use jurist_engine::problem::Ask;
 /// let (problem, budget) = (Model::drive().ask().problem()?, Budget::unlimited());
 /// let course = Course::of(&problem, Some(0.01), &budget)?;
 /// assert_eq!(course.inputs[0], ("omega_ref".to_owned(), 0.0, 80.0));

@@ -389,6 +389,7 @@ fn as_outputs(names: impl Iterator<Item = Name>) -> Vec<Output> {
 mod tests {
     use super::*;
     use jurist_engine::error::Source;
+    use jurist_engine::problem::Ask;
     use nalgebra::DVector;
 
     /// Its characteristic polynomial over the constants of its modes takes a thousand times this work.

@@ -166,6 +166,7 @@ mod tests {
     use super::*;
     use jurist_engine::error::Source;
     use jurist_engine::model::Model;
+    use jurist_engine::problem::Ask;
 
     const TEXT: &str = "time = 'discrete'\nsample_time = 0.5\n[parameters]\nK = 0.3\n[loop]\ninputs = ['r']\noutputs = ['y', 'w']\n\
         [[block]]\nname = 'slow'\ninput = 'r - y'\noutput = 'w'\ntransfer = 'K*z/(z - 1/2)'\nevery = 4\nphase = 1\n\

@@ -12,6 +12,7 @@ use jurist_algebra::real::Real;
 /// ```
 /// use jurist_algebra::limits::Budget;
 /// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// use jurist_engine::problem::Ask;
 /// let (model, _) = Model::builder(Time::Discrete)
 ///     .parameter(ParameterBuilder::new("K").nominal("1"))
 ///     .characteristic("z^2 - z + K/2")

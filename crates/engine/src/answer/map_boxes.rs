@@ -46,6 +46,7 @@ pub enum MapMethod {
 /// use jurist_algebra::number::Rational;
 /// use jurist_engine::answer::{BoxRequest, MapMethod};
 /// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// use jurist_engine::problem::Ask;
 /// use jurist_engine::stability::Range;
 /// let (model, _) = Model::builder(Time::Discrete)
 ///     .parameter(ParameterBuilder::new("a").nominal("0"))
@@ -82,6 +83,7 @@ impl BoxRequest {
 /// use jurist_algebra::number::Rational;
 /// use jurist_engine::answer::{BoxRequest, MapMethod, MapOrBoxes};
 /// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// use jurist_engine::problem::Ask;
 /// use jurist_engine::stability::Range;
 /// let (model, _) = Model::builder(Time::Discrete)
 ///     .parameter(ParameterBuilder::new("a").nominal("0"))
@@ -121,6 +123,7 @@ pub struct MapBoxes {
 /// use jurist_algebra::number::Rational;
 /// use jurist_engine::answer::{BoxRequest, MapMethod, MapOrBoxes};
 /// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// use jurist_engine::problem::Ask;
 /// use jurist_engine::stability::Range;
 /// let (model, _) = Model::builder(Time::Discrete)
 ///     .parameter(ParameterBuilder::new("a").nominal("0"))
@@ -167,6 +170,7 @@ impl Problem {
     /// use jurist_algebra::limits::Budget;
     /// use jurist_engine::answer::BoxRequest;
     /// use jurist_engine::model::Model;
+    /// use jurist_engine::problem::Ask;
     /// use jurist_engine::stability::Range;
     /// let problem = Model::drive().ask().free("K_pwm").free("T").plane_problem()?;
     /// let request = BoxRequest::new([Range::all(), Range::all()], "1/20".parse()?);

@@ -48,6 +48,7 @@ impl<T: Answers> Answer<T> {
     /// ```
     /// use jurist_algebra::limits::Budget;
     /// use jurist_engine::model::Model;
+    /// use jurist_engine::problem::Ask;
     /// let answer = Model::drive().ask().free("K_pwm").stable_set(&Budget::unlimited())?;
     /// assert_eq!(answer.plan(&Budget::unlimited())?.order, Some(6));
     /// # Ok::<(), jurist_engine::error::Error>(())

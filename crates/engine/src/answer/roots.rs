@@ -19,6 +19,7 @@ use std::sync::Arc;
 /// ```
 /// use jurist_algebra::limits::Budget;
 /// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// use jurist_engine::problem::Ask;
 /// let (model, _) = Model::builder(Time::Continuous)
 ///     .parameter(ParameterBuilder::new("K").nominal("2"))
 ///     .characteristic("s^2 + 2*s + K")
@@ -211,6 +212,7 @@ impl Problem {
     /// ```
     /// use jurist_algebra::limits::Budget;
     /// use jurist_engine::model::{Model, ParameterBuilder, Time};
+    /// use jurist_engine::problem::Ask;
     /// let (model, _) = Model::builder(Time::Continuous)
     ///     .parameter(ParameterBuilder::new("K").nominal("1"))
     ///     .characteristic("s + K*exp(-s)")

@@ -2,7 +2,7 @@
 
 use super::Answer;
 use crate::error::Error;
-use crate::problem::{Problem, fixed_symbols};
+use crate::problem::{Ask, Problem, fixed_symbols};
 use crate::response::ground::{Constants, Ground, Integers};
 use crate::response::{Place, Value};
 use crate::stability::{Cause, End, HalfSizePair, Shape, StableSet};
@@ -20,6 +20,7 @@ use std::sync::Arc;
 /// ```
 /// use jurist_algebra::limits::Budget;
 /// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// use jurist_engine::problem::Ask;
 /// let (model, _) = Model::builder(Time::Discrete)
 ///     .parameter(ParameterBuilder::new("K").nominal("1"))
 ///     .constant("a", "1/2")

@@ -2,7 +2,7 @@
 
 use super::{Answer, Verdict};
 use crate::error::Error;
-use crate::problem::{EnclosedParts, Problem, Question, Region};
+use crate::problem::{Ask, EnclosedParts, Problem, Question, Region};
 use crate::stability::{Cause, End, StableSet, stable_set, stable_set_of_parts};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
@@ -16,6 +16,7 @@ impl Question {
     /// ```
     /// use jurist_algebra::limits::{Budget, Stop};
     /// use jurist_engine::model::Model;
+    /// use jurist_engine::problem::Ask;
     /// let answer = Model::drive().ask().free("K_pwm").stable_set(&Budget::unlimited()).unwrap();
     /// let lower = answer.value().intervals()[0].lower.as_ref().unwrap();
     /// assert_eq!(lower.value.decimal(10), "0.03810053335");
@@ -65,13 +66,13 @@ impl Problem {
         let question = self.model().ask().set_all(self.set().iter().cloned()).within(self.region().clone());
         let problem = match question.set(&self.parameter().name, value.clone()).problem() {
             Ok(problem) => problem,
-            Err(stopped @ Error::Stopped(_)) => return Err(stopped),
             Err(Error::Refused(_) | Error::Undefined(_)) => return Ok(false),
+            Err(stopped) => return Err(stopped),
         };
         match problem.verdict(budget) {
             Ok(verdict) => Ok(verdict.value().verdict == Verdict::Stable),
-            Err(stopped @ Error::Stopped(_)) => Err(stopped),
             Err(Error::Refused(_) | Error::Undefined(_)) => Ok(false),
+            Err(stopped) => Err(stopped),
         }
     }
 

@@ -151,6 +151,7 @@ impl ToleranceRequest {
 /// use jurist_algebra::limits::Budget;
 /// use jurist_engine::answer::ToleranceRequest;
 /// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// use jurist_engine::problem::Ask;
 /// let (model, _) = Model::builder(Time::Continuous)
 ///     .parameter(ParameterBuilder::new("a").nominal("1").tolerance("10%"))
 ///     .characteristic("s^2 + a*s + 1")
@@ -290,6 +291,7 @@ impl Question {
     /// use jurist_algebra::limits::Budget;
     /// use jurist_engine::answer::ToleranceRequest;
     /// use jurist_engine::model::Model;
+    /// use jurist_engine::problem::Ask;
     /// let request = ToleranceRequest::new([("R_a", "20%".parse()?), ("L_a", "20%".parse()?)]);
     /// let answer = Model::drive().ask().tolerance(&request, &Budget::unlimited()).unwrap();
     /// assert!(answer.value().decision.is_stable());

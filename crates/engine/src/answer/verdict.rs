@@ -16,6 +16,7 @@ use std::sync::Arc;
 /// use jurist_engine::answer::Verdict;
 /// use jurist_engine::error::Error;
 /// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// use jurist_engine::problem::Ask;
 /// let (model, _) = Model::builder(Time::Discrete)
 ///     .parameter(ParameterBuilder::new("K").nominal("1"))
 ///     .characteristic("z^2 - z + K/2")
@@ -55,6 +56,7 @@ impl Verdict {
 /// ```
 /// use jurist_algebra::limits::Budget;
 /// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// use jurist_engine::problem::Ask;
 /// let (model, _) = Model::builder(Time::Discrete)
 ///     .parameter(ParameterBuilder::new("K").nominal("1"))
 ///     .characteristic("z^2 - z + K/2")
@@ -145,6 +147,7 @@ impl Question {
     /// use jurist_algebra::limits::Budget;
     /// use jurist_engine::answer::Verdict;
     /// use jurist_engine::model::Model;
+    /// use jurist_engine::problem::Ask;
     /// let answer = Model::drive().ask().set("K_pwm", 551).verdict(&Budget::unlimited()).unwrap();
     /// assert_eq!(answer.value().verdict, Verdict::Unstable);
     /// assert_eq!(answer.value().count.unwrap().outside, 2);

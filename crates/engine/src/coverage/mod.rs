@@ -18,10 +18,10 @@ pub(crate) mod refusals;
 mod ring;
 mod table;
 
+pub use crate::error::Refusal;
 pub use asked::Asked;
 pub use method::Method;
 pub use page::page;
-pub use refusals::Refusal;
 pub use ring::CoefficientRing;
 pub use table::{Row, rows};
 

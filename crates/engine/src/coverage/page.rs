@@ -99,7 +99,7 @@ fn letter(k: usize) -> String {
 mod tests {
     use super::super::Asked;
     use super::*;
-    use crate::published::publish;
+    use crate::model::published::publish;
 
     #[test]
     fn each_question_has_its_row() {

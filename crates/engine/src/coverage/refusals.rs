@@ -1,69 +1,7 @@
 //! The refusals of the table: each with its code, its words, and what to ask instead.
 
-use crate::error::{Code, Diagnostic};
-
-/// How a question is refused. A word in braces, such as `{name}`, stands for a text that the question supplies.
-///
-/// ```
-/// use jurist_engine::coverage::{Asked, CoefficientRing};
-/// let refusal = Asked::ExactMap.over(CoefficientRing::Functions).refusal().unwrap();
-/// let error = refusal.diagnostic(&[("name", "T")]);
-/// assert_eq!(error.message, "'T' is inside of functions, as behind a hold: there is no exact map");
-/// ```
-#[derive(Debug)]
-#[non_exhaustive]
-pub struct Refusal {
-    /// The code.
-    pub code: Code,
-    /// What is wrong.
-    pub message: &'static str,
-    /// What to ask instead.
-    pub help: &'static str,
-}
-
-impl Refusal {
-    const fn new(code: Code, message: &'static str, help: &'static str) -> Refusal {
-        Refusal { code, message, help }
-    }
-
-    /// The diagnostic, with words in the places of their names in braces.
-    pub fn diagnostic(&self, words: &[(&str, &str)]) -> Diagnostic {
-        Diagnostic::error(self.code, filled(self.message, words)).help(filled(self.help, words))
-    }
-
-    /// The message where nothing supplies the words of their names in braces: `...` stands for each.
-    ///
-    /// ```
-    /// use jurist_engine::coverage::{Asked, CoefficientRing};
-    /// let refusal = Asked::ExactMap.over(CoefficientRing::Functions).refusal().unwrap();
-    /// assert_eq!(refusal.in_general(), "'...' is inside of functions, as behind a hold: there is no exact map");
-    /// ```
-    pub fn in_general(&self) -> String {
-        self.message.split(['{', '}']).enumerate().map(|(k, part)| if k % 2 == 0 { part } else { "..." }).collect()
-    }
-
-    /// True if the message and the help have no names in braces.
-    pub fn is_complete(&self) -> bool {
-        ![self.message, self.help].iter().any(|text| text.contains('{'))
-    }
-
-    /// True if an error of this message may be this refusal: the texts between braces are in it, in their order.
-    pub fn is_of(&self, code: Code, message: &str) -> bool {
-        let mut rest = message;
-        self.code == code
-            && self.message.split(['{', '}']).step_by(2).all(|part| match rest.find(part) {
-                Some(at) => {
-                    rest = &rest[at + part.len()..];
-                    true
-                }
-                None => false,
-            })
-    }
-}
-
-fn filled(text: &str, words: &[(&str, &str)]) -> String {
-    words.iter().fold(text.to_owned(), |text, (name, word)| text.replace(&format!("{{{name}}}"), word))
-}
+use crate::error::{Code, Refusal};
+pub(super) use crate::model::NO_FIXED_ORDER;
 
 const KNOWN: &str = "what can be asked of it: {known}";
 const AT_A_POINT: &str = "ask 'verdict' with a value for every parameter";
@@ -112,12 +50,6 @@ pub(crate) static INSIDE: Refusal = Refusal::new(
     Code::Function,
     "'{name}' is inside of functions, as behind a hold: there is no exact map",
     "maps with '{name}' are made of boxes: '--method boxes' with windows of both axes",
-);
-/// It points into the model: `model` makes it of these words.
-pub(crate) static NO_FIXED_ORDER: Refusal = Refusal::new(
-    Code::Function,
-    "the dead time of '{name}' is no fixed number of samples",
-    "give it as a multiple of the sample time (delay = \"1.5*T\"), or set all that it depends on",
 );
 pub(crate) static NOT_OF_SAMPLES: Refusal = Refusal::new(
     Code::Discretize,

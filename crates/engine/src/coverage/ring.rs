@@ -11,6 +11,7 @@ use crate::model::Symbols;
 /// use jurist_algebra::limits::Budget;
 /// use jurist_engine::coverage::CoefficientRing;
 /// use jurist_engine::model::Model;
+/// use jurist_engine::problem::Ask;
 /// let problem = Model::drive().ask().free("K_pwm").problem()?;
 /// assert_eq!(problem.coefficient_ring(&Budget::unlimited())?, CoefficientRing::Rational);
 /// # Ok::<(), jurist_engine::error::Error>(())

@@ -7,13 +7,14 @@ use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::RationalMatrix;
 use jurist_algebra::number::Enclosure;
-use jurist_algebra::poly::{MultiPoly, RationalFunction};
+use jurist_algebra::poly::RationalFunction;
 
 /// A block as a discrete or continuous system, in enclosures: of width zero where no function of a number is in them.
 ///
 /// ```
 /// use jurist_algebra::limits::Budget;
 /// use jurist_engine::model::{BlockBuilder, Model, Time};
+/// use jurist_engine::problem::Ask;
 /// let (model, _) = Model::builder(Time::Discrete)
 ///     .inputs(["r"])
 ///     .block(BlockBuilder::new("controller", "r - y", "u").transfer("(2*z - 1)/(z - 1)"))
@@ -57,7 +58,7 @@ impl Problem {
         assert!(self.free().is_empty(), "every name has a value");
         let Form::Blocks(diagram) = self.model().form() else { return Ok(None) };
         let Some(at) = diagram.blocks.iter().position(|block| block.name == name) else { return Ok(None) };
-        let Some(found) = budget.enter(|| self.model().realised_blocks(&[], self.set(), budget))?? else {
+        let Some(found) = budget.enter(|| self.realised_blocks(&[], self.set(), budget))?? else {
             return Ok(None);
         };
         let Some([matrices]) = found.systems.get(at).map(Vec::as_slice) else { return Ok(None) };
@@ -92,7 +93,7 @@ impl Problem {
         let Form::Blocks(diagram) = self.model().form() else { return Ok(false) };
         let Some(at) = diagram.blocks.iter().position(|block| block.name == name) else { return Ok(false) };
         let values: Vec<_> = self.set().iter().filter(|(known, _)| known != parameter).cloned().collect();
-        let found = budget.enter(|| self.model().realised_blocks(&[parameter.to_owned()], &values, budget))??;
+        let found = budget.enter(|| self.realised_blocks(&[parameter.to_owned()], &values, budget))??;
         let Some(found) = found else { return Ok(false) };
         let moving: Vec<usize> = std::iter::once(0).chain(found.symbols.moving()).collect();
         let of_samples = found.systems.get(at).into_iter().flatten();
@@ -103,21 +104,7 @@ impl Problem {
 
 /// The block as a loop of its own.
 fn alone(matrices: &[RationalMatrix; 4], symbols: &Symbols, problem: &Problem) -> ClosedLoop {
-    let [a, e, c, d] = matrices.clone();
-    ClosedLoop {
-        variables: symbols.variables(),
-        time: problem.time(),
-        a,
-        e,
-        c,
-        d,
-        states: Vec::new(),
-        inputs: Vec::new(),
-        outputs: Vec::new(),
-        poles: Vec::<MultiPoly>::new(),
-        leading: RationalFunction::one(),
-        is_complex: false,
-    }
+    ClosedLoop::of_matrices(matrices.clone(), symbols.variables(), problem.time())
 }
 
 /// The values of symbols.

@@ -155,6 +155,7 @@ mod tests {
     use crate::answer::Verdict;
     use crate::error::Source;
     use crate::model::Model;
+    use crate::problem::Ask;
 
     fn servo() -> Model {
         let text = "time = 'discrete'\nsample_time = 'T'\n[parameters]\nT = { nominal = 0.1, min = 0 }\n\

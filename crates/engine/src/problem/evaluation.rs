@@ -18,6 +18,7 @@ use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
 /// ```
 /// use jurist_algebra::limits::Budget;
 /// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// use jurist_engine::problem::Ask;
 /// let (model, _) = Model::builder(Time::Discrete)
 ///     .parameter(ParameterBuilder::new("K").nominal("1"))
 ///     .characteristic("z^2 - z + K/2")
@@ -66,7 +67,7 @@ impl Algebra {
             }
             Err(failure) => return Err(failure),
         };
-        let Evaluated { mut polynomial, complex, closed_loop, sample_time, symbols } = evaluated;
+        let Evaluated { mut polynomial, complex, closed_loop, sample_time, symbols, .. } = evaluated;
         if complex.is_some() && !symbols.delays().is_empty() {
             return Err(COMPLEX_WITH_DEAD_TIME.diagnostic(&[]).into());
         }
@@ -212,7 +213,7 @@ impl Problem {
             let coefficients = list.to_vec();
             in_region(CharacteristicPolynomial { coefficients, ..product.clone() }, self.region(), bound).coefficients
         };
-        Ok(Some(ComplexPolynomial { re: part(&whole.re), im: part(&whole.im) }))
+        Ok(Some(ComplexPolynomial::new(part(&whole.re), part(&whole.im))))
     }
 }
 

@@ -95,6 +95,7 @@ impl Problem {
 /// ```
 /// use jurist_algebra::limits::Budget;
 /// use jurist_engine::model::{BlockBuilder, Model, ParameterBuilder, Time};
+/// use jurist_engine::problem::Ask;
 /// let plant = BlockBuilder::new("plant", "K*(r - y)", "y").transfer("1/(s + 1)").discretize("zoh", "1");
 /// let (model, _) = Model::builder(Time::Discrete)
 ///     .inputs(["r"])

@@ -6,6 +6,7 @@
 mod block;
 mod by_enclosures;
 mod by_samples;
+mod complex;
 mod delayed;
 mod delayed_family;
 mod delayed_plane;
@@ -33,7 +34,7 @@ pub(crate) use in_numbers::FromNumbers;
 pub use in_numbers::RoundedLoop;
 pub(crate) use over_symbols::{definitions_beside, fixed_symbols, moving_symbols, parametric_symbols};
 pub use plan::Plan;
-pub use question::Question;
+pub use question::{Ask, Question};
 pub use region::{Bound, DECAY, RADIUS, Region};
 pub use resolved::{Free, Problem};
 pub use rounded::{RoundedSystem, RoundedWiring};

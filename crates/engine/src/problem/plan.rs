@@ -11,6 +11,7 @@ use jurist_algebra::limits::Budget;
 /// use jurist_algebra::limits::Budget;
 /// use jurist_engine::coverage::{Asked, CoefficientRing};
 /// use jurist_engine::model::Model;
+/// use jurist_engine::problem::Ask;
 /// let problem = Model::drive().ask().free("K_pwm").problem()?;
 /// let plan = problem.plan(Asked::Intervals, &Budget::unlimited())?;
 /// assert_eq!((plan.ring, plan.order), (CoefficientRing::Rational, Some(6)));

@@ -250,6 +250,7 @@ mod tests {
     use super::*;
     use crate::answer::{BoxRequest, MapMethod, MapOrBoxes, Verdict};
     use crate::error::{Error, Source};
+    use crate::problem::Ask;
     fn number(text: &str) -> Rational {
         parse_number(text).unwrap()
     }

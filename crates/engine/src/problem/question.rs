@@ -18,6 +18,7 @@ use std::sync::Arc;
 /// use jurist_algebra::limits::Budget;
 /// use jurist_algebra::number::parse_number;
 /// use jurist_engine::model::Model;
+/// use jurist_engine::problem::Ask;
 /// let drive = Model::drive();
 /// let answer = drive.ask().set("T", parse_number("1e-4")?).free("K_pwm").stable_set(&Budget::unlimited()).unwrap();
 /// let upper = answer.value().intervals()[0].upper.as_ref().unwrap();
@@ -36,9 +37,24 @@ pub struct Question {
     region: Option<Region>,
 }
 
-impl Model {
+/// What can be asked: a model.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// use jurist_engine::problem::Ask;
+/// let model = Model::builder(Time::Discrete).parameter(ParameterBuilder::new("K").nominal("1"));
+/// let (model, _) = model.characteristic("z^2 - z + K/2").build()?;
+/// assert_eq!(model.ask().verdict(&Budget::unlimited())?.value().verdict.name(), "stable");
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
+pub trait Ask {
     /// Begins a question about this model: everything at its nominal value, plain stability.
-    pub fn ask(&self) -> Question {
+    fn ask(&self) -> Question;
+}
+
+impl Ask for Model {
+    fn ask(&self) -> Question {
         Question {
             model: Arc::new(self.clone()),
             set: BTreeMap::new(),
@@ -89,6 +105,7 @@ impl Question {
     ///
     /// ```
     /// use jurist_engine::model::{Model, ParameterBuilder, Time};
+    /// use jurist_engine::problem::Ask;
     /// let (model, _) = Model::builder(Time::Discrete)
     ///     .constant("L", "6")
     ///     .parameter(ParameterBuilder::new("K").nominal("L/3"))

@@ -31,7 +31,7 @@ pub enum Bound {
 /// ```
 /// use jurist_algebra::limits::Budget;
 /// use jurist_engine::model::{Model, ParameterBuilder, Time};
-/// use jurist_engine::problem::Region;
+/// use jurist_engine::problem::{Ask, Region};
 /// let (model, _) = Model::builder(Time::Discrete)
 ///     .parameter(ParameterBuilder::new("K").nominal("1"))
 ///     .characteristic("z^2 - z + K/2")

@@ -3,8 +3,7 @@
 use super::delayed::DelayedLoop;
 use super::evaluation::{Algebra, parametric};
 use super::{Plan, Region};
-use crate::coverage::{Asked, CoefficientRing};
-
+use crate::coverage::CoefficientRing;
 use crate::error::{Code, Diagnostic, Error};
 use crate::model::{ClosedLoop, InNumbers, Model, Symbols, Time};
 use crate::stability::plane::PlanePolynomial;
@@ -18,6 +17,7 @@ use std::sync::{Arc, OnceLock};
 ///
 /// ```
 /// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// use jurist_engine::problem::Ask;
 /// let (model, _) = Model::builder(Time::Discrete)
 ///     .parameter(ParameterBuilder::new("K").nominal("1"))
 ///     .characteristic("z^2 - z + K/2")
@@ -71,6 +71,7 @@ impl Free {
 /// ```
 /// use jurist_algebra::limits::Budget;
 /// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// use jurist_engine::problem::Ask;
 /// let (model, _) = Model::builder(Time::Discrete)
 ///     .parameter(ParameterBuilder::new("K").nominal("1"))
 ///     .characteristic("z^2 - z + K/2")
@@ -264,34 +265,6 @@ impl Problem {
     /// Whether the loop is complex, as far as its algebra is known: each of its roots is then counted with its conjugate.
     pub(crate) fn is_complex(&self) -> bool {
         self.algebra.get().is_some_and(Algebra::is_complex)
-    }
-
-    /// Refuses a model in which the imaginary unit is written, or a frame: what reads its text again does not know them.
-    ///
-    /// # Errors
-    /// `E-complex`.
-    pub fn refuse_written_complex(&self) -> Result<(), Error> {
-        match self.is_written_complex() {
-            true => Err(Asked::refused_of_complex_loops().into()),
-            false => Ok(()),
-        }
-    }
-
-    /// Refuses a loop with complex coefficients, of which what is asked is not known.
-    ///
-    /// Cost: for a model without imaginary unit and frames none; else the expressions are evaluated.
-    ///
-    /// # Errors
-    /// `E-complex`; as [`Model::evaluate`].
-    pub fn refuse_complex(&self, budget: &Budget) -> Result<(), Error> {
-        match self.is_written_complex() {
-            true => {
-                let is_bound = |f: &&Free| self.region.is_free() && f.name == self.region.bound_name();
-                let kept: Vec<String> = self.free.iter().filter(|f| !is_bound(f)).map(|f| f.name.clone()).collect();
-                self.model.refuse_complex_loop(&kept, &self.set, budget)
-            }
-            false => Ok(()),
-        }
     }
 
     /// The closed loop in state space.

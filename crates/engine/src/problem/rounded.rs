@@ -16,6 +16,7 @@ use jurist_algebra::poly::RationalFunction;
 /// ```
 /// use jurist_algebra::limits::Budget;
 /// use jurist_engine::model::{BlockBuilder, Model, Time};
+/// use jurist_engine::problem::Ask;
 /// let (model, _) = Model::builder(Time::Discrete)
 ///     .inputs(["r"])
 ///     .outputs(["y"])
@@ -68,7 +69,7 @@ impl Problem {
     /// When a name is free.
     pub fn rounded_blocks(&self, budget: &Budget) -> Result<Vec<Vec<RoundedSystem>>, Error> {
         assert!(self.free().is_empty(), "every name has a value");
-        let Some(found) = budget.enter(|| self.model().realised_blocks(&[], self.set(), budget))?? else {
+        let Some(found) = budget.enter(|| self.realised_blocks(&[], self.set(), budget))?? else {
             return Ok(Vec::new());
         };
         let of = |[a, b, c, d]: &[RationalMatrix; 4]| rounded([a, b, c, d], &found.symbols);
@@ -87,7 +88,7 @@ impl Problem {
     /// When a name is free.
     pub fn rounded_wiring(&self, budget: &Budget) -> Result<Option<RoundedWiring>, Error> {
         assert!(self.free().is_empty(), "every name has a value");
-        let Some(found) = budget.enter(|| self.model().realised_blocks(&[], self.set(), budget))?? else {
+        let Some(found) = budget.enter(|| self.realised_blocks(&[], self.set(), budget))?? else {
             return Ok(None);
         };
         let ([inputs, outputs], none) = (&found.wiring, RationalMatrix::zeros(0, 0));

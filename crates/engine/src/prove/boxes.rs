@@ -1,5 +1,6 @@
 //! Certificates of boxes of tolerances: the tree of cells, and a point beyond.
 
+use crate::problem::Ask;
 mod held;
 
 use super::complex::times;
@@ -37,6 +38,7 @@ impl Answer<ToleranceAnswer> {
     /// use jurist_check::{Limits, check};
     /// use jurist_engine::answer::ToleranceRequest;
     /// use jurist_engine::model::Model;
+    /// use jurist_engine::problem::Ask;
     /// let (drive, budget) = (Model::drive(), Budget::unlimited());
     /// let request = ToleranceRequest::new([("R_a", "20%".parse()?), ("L_a", "20%".parse()?)]);
     /// let certificate = drive.ask().tolerance(&request, &budget).unwrap().certificate(&budget).unwrap();

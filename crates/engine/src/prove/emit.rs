@@ -29,6 +29,7 @@ impl Answer<StableSet> {
     /// use jurist_algebra::limits::Budget;
     /// use jurist_check::{Limits, check};
     /// use jurist_engine::model::Model;
+    /// use jurist_engine::problem::Ask;
     /// let (drive, budget) = (Model::drive(), Budget::unlimited());
     /// let answer = drive.ask().free("K_pwm").stable_set(&budget).unwrap();
     /// let certificate = answer.certificate(&budget).unwrap();

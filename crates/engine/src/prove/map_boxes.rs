@@ -24,6 +24,7 @@ impl Problem {
     /// ```
     /// use jurist_check::{Limits, check};
     /// use jurist_engine::model::Model;
+    /// use jurist_engine::problem::Ask;
     /// use jurist_engine::stability::Range;
     /// use jurist_engine::stability::plane::boxes::Window;
     /// let drive = Model::drive();

@@ -13,7 +13,7 @@ use super::requirement::{Requirement, Rule};
 use crate::answer::stable_set_with_dead_time;
 use crate::coverage::refusals::DELAY_BESIDE;
 use crate::error::Error;
-use crate::problem::{DelayedLoop, Free, Problem};
+use crate::problem::{Ask, DelayedLoop, Free, Problem};
 use crate::stability::{Range, Shape, StableInterval, StableSet, UndecidedBracket};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;

@@ -87,7 +87,7 @@ impl GainMargin {
             (0..parts.denominator.len().max(parts.numerator.len())).map(of).collect::<Vec<_>>()
         };
         let (d, n) = (&parts.denominator, &parts.numerator);
-        let whole = ComplexPolynomial { re: powers(&d.re, &n.re), im: powers(&d.im, &n.im) };
+        let whole = ComplexPolynomial::new(powers(&d.re, &n.re), powers(&d.im, &n.im));
         let time = match parts.shape {
             Shape::UnitDisc => Time::Discrete,
             Shape::LeftHalfPlane => Time::Continuous,

@@ -7,7 +7,7 @@ use super::requirement::{Requirement, Rule};
 use super::requirement_boxes::{OverPoints, RequirementBoxes};
 use super::{RequiredEnd, RequiredSet};
 use crate::error::Error;
-use crate::problem::Problem;
+use crate::problem::{Ask, Problem};
 use crate::stability::subdivision::{BoxPart, Look, Octaves, Order, Tally, subdivide};
 use crate::stability::{StableInterval, StableSet, UndecidedBracket};
 use jurist_algebra::limits::{Budget, Exhausted};

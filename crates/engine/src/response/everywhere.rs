@@ -37,6 +37,7 @@ pub enum Everywhere {
 /// use jurist_algebra::number::Rational;
 /// use jurist_engine::error::Source;
 /// use jurist_engine::model::Model;
+/// use jurist_engine::problem::Ask;
 /// use jurist_engine::response::{Everywhere, RequirementBoxes, everywhere};
 /// let text = "time = 'continuous'\nparameters = { a = 2, b = 1 }\nloop.characteristic = 's^2 + a*s + b - a'\n";
 /// let (model, _) = Model::from_toml(&Source::new("loop.toml", text))?;

@@ -106,6 +106,7 @@ impl MapForAll {
     /// use jurist_engine::answer::BoxRequest;
     /// use jurist_engine::error::Source;
     /// use jurist_engine::model::Model;
+    /// use jurist_engine::problem::Ask;
     /// use jurist_engine::response::{AllOf, MapForAll};
     /// use jurist_engine::stability::Range;
     /// // s^2 + a s + b - c is stable where a > 0 and b > c.

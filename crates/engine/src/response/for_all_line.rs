@@ -88,6 +88,7 @@ impl MapForAll {
     /// use jurist_algebra::limits::Budget;
     /// use jurist_engine::error::Source;
     /// use jurist_engine::model::Model;
+    /// use jurist_engine::problem::Ask;
     /// use jurist_engine::response::{AllOf, MapForAll};
     /// // s + K - 1 + 4 (c - 1/2)^2: the worst c is 1/2.
     /// let text = "time = 'continuous'\nparameters = { K = 2, c = 0 }\nloop.characteristic = 's + K - 1 + 4*(c - 1/2)^2'\n";

@@ -3,7 +3,7 @@
 use super::for_all::{AllOf, OpenPart};
 use super::for_all_line::Piece;
 use crate::answer::Verdict;
-use crate::problem::Problem;
+use crate::problem::{Ask, Problem};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::simplest_between;

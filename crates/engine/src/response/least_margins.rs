@@ -90,6 +90,7 @@ impl MapForAll {
     /// use jurist_algebra::limits::Budget;
     /// use jurist_engine::error::Source;
     /// use jurist_engine::model::Model;
+    /// use jurist_engine::problem::Ask;
     /// use jurist_engine::response::{AllOf, Everywhere, MapForAll};
     /// // The phase margin of a/(s (s + 1)) falls with a: atan(1/w) where a = w sqrt(1 + w^2), so 60 degrees at 2/3.
     /// let text = "time = 'continuous'\nparameters = { a = '1/2' }\nloop = { inputs = ['r'], outputs = ['y'] }\n\

@@ -7,7 +7,7 @@ use super::required_set::not_decided;
 use super::requirement::{Circle, Found, Requirement, Rule};
 use crate::error::Error;
 use crate::model::{Between, Time};
-use crate::problem::{DECAY, Problem, RADIUS, Region};
+use crate::problem::{Ask, DECAY, Problem, RADIUS, Region};
 use crate::stability::Shape;
 use crate::stability::plane::{PlanePolynomial, boundary_curves};
 use crate::stability::sector::{on_edge_of, on_sector_edge};

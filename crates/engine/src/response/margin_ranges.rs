@@ -1,5 +1,6 @@
 //! How much of each margin a loop has, by the value of one parameter.
 
+use super::Requirements;
 use super::required_set::RequiredSet;
 use super::requirement::Requirement;
 use crate::answer::Answer;
@@ -46,15 +47,16 @@ pub struct MarginLevel {
     pub found: Result<RequiredSet, String>,
 }
 
-impl Model {
+impl Requirement {
     /// The usual margins as requirements.
     ///
     /// Cost: that of isolating the roots of a few polynomials of small degree.
     ///
     /// # Errors
     /// [`Error::Stopped`] when the budget runs out.
-    pub fn usual_margins(&self, budget: &Budget) -> Result<Vec<Requirement>, Error> {
-        let one = |&(name, text): &(&str, &str)| Ok(self.further_requirements(&[(name, text)], &[], budget)?.list);
+    pub fn usual_margins(model: &Model, budget: &Budget) -> Result<Vec<Requirement>, Error> {
+        let one =
+            |&(name, text): &(&str, &str)| Ok(Requirements::without_section(model, &[(name, text)], &[], budget)?.list);
         let lists: Vec<Vec<Requirement>> = USUAL_MARGINS.iter().map(one).collect::<Result<_, Error>>()?;
         Ok(lists.into_iter().flatten().collect())
     }
@@ -71,11 +73,13 @@ impl Problem {
     /// use jurist_algebra::limits::Budget;
     /// use jurist_engine::error::Source;
     /// use jurist_engine::model::Model;
+    /// use jurist_engine::problem::Ask;
+    /// use jurist_engine::response::Requirement;
     /// let text = "time = 'continuous'\nparameters.K = 1\nloop = { inputs = ['r'], outputs = ['y'] }\n\
     ///     [[block]]\nname = 'P'\ninput = 'r - y'\noutput = 'y'\ntransfer = 'K/(s*(s + 1))'\n";
     /// let (model, _) = Model::from_toml(&Source::new("loop.toml", text))?;
     /// let budget = Budget::unlimited();
-    /// let ranges = model.ask().free("K").problem()?.margin_ranges(&model.usual_margins(&budget)?, None, &budget)?;
+    /// let ranges = model.ask().free("K").problem()?.margin_ranges(&Requirement::usual_margins(&model, &budget)?, None, &budget)?;
     /// // tan(60 deg) = 1/w and K = w sqrt(1 + w^2) at the crossing: up to K = 2/3.
     /// let level = ranges.value().levels.iter().find(|level| level.requirement.required() == "60 deg").unwrap();
     /// let end = level.found.as_ref().unwrap().intervals[0].upper.as_ref().unwrap().value();

@@ -100,7 +100,7 @@ pub use required_boxes::{RequiredAreas, RequiredBox, RequiredBoxes};
 pub(crate) use required_family::RequiredFamily;
 pub use required_map::{RequiredMap, RequiredRegions};
 pub use required_set::{RequiredEnd, RequiredInterval, RequiredSet, RequirementMet};
-pub(crate) use requirement::{Found, LIST, Rule, radius_below};
+pub(crate) use requirement::{Found, Rule, radius_below};
 pub use requirement::{Requirement, RequirementKind, RequirementOption};
 pub use requirement_boxes::{OverPoints, RequirementBoxes};
 pub use turning::Turning;

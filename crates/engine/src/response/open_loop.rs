@@ -25,6 +25,7 @@ use std::sync::Arc;
 /// use jurist_algebra::limits::Budget;
 /// use jurist_algebra::poly::UniPoly;
 /// use jurist_engine::model::{BlockBuilder, Model, Time};
+/// use jurist_engine::problem::Ask;
 /// use jurist_engine::response::OpenLoop;
 /// let (model, _) = Model::builder(Time::Discrete)
 ///     .inputs(["r"])
@@ -248,6 +249,7 @@ impl OpenLoop {
     /// use jurist_algebra::limits::Budget;
     /// use jurist_algebra::number::Rational;
     /// use jurist_engine::model::{BlockBuilder, Model, Time};
+    /// use jurist_engine::problem::Ask;
     /// use jurist_engine::response::OpenLoop;
     /// let plant = BlockBuilder::new("plant", "r - y", "y").transfer("1/(s + 1)");
     /// let (model, _) = Model::builder(Time::Continuous).inputs(["r"]).outputs(["y"]).block(plant).build()?;

@@ -21,6 +21,7 @@ use std::sync::Arc;
 /// ```
 /// use jurist_algebra::limits::Budget;
 /// use jurist_engine::model::{BlockBuilder, Model, Time};
+/// use jurist_engine::problem::Ask;
 /// let (model, _) = Model::builder(Time::Discrete)
 ///     .inputs(["r"])
 ///     .outputs(["y"])

@@ -70,6 +70,7 @@ impl Answer<MapBoxes> {
     /// use jurist_algebra::limits::Budget;
     /// use jurist_engine::error::Source;
     /// use jurist_engine::model::Model;
+    /// use jurist_engine::problem::Ask;
     /// use jurist_engine::response::Requirement;
     /// use jurist_engine::stability::Range;
     /// // The loop a K/(z - 1): |1 + L| is least at z = -1, where it is 1 - a K/2.

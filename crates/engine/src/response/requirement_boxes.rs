@@ -5,7 +5,7 @@ use super::over_box::{Certain, OverBox};
 use super::requirement::{Requirement, Rule};
 use crate::answer::Verdict;
 use crate::error::Error;
-use crate::problem::{Bound, Problem, Question, Region};
+use crate::problem::{Ask, Bound, Problem, Question, Region};
 use crate::stability::boxes::{BoxPolynomial, DelayedFunction, MovingPolynomial, same_count};
 use crate::stability::{AtPoint, RootCount, Shape, count_roots};
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -22,6 +22,7 @@ use std::sync::Arc;
 /// use jurist_algebra::number::Rational;
 /// use jurist_engine::error::Source;
 /// use jurist_engine::model::Model;
+/// use jurist_engine::problem::Ask;
 /// use jurist_engine::response::{OverPoints, RequirementBoxes};
 /// // s^3 + a s^2 + b s + c is stable where a, c > 0 and a b > c.
 /// let text = "time = 'continuous'\nparameters = { a = 2, b = 2, c = 1 }\nloop.characteristic = 's^3 + a*s^2 + b*s + c'\n";

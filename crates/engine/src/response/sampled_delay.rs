@@ -13,7 +13,7 @@ use crate::answer::SYMBOL_BITS;
 use crate::coverage::refusals::{DELAY_OF_NUMBERS, MANY_SAMPLES, NO_SAMPLE_TIME};
 use crate::error::Error;
 use crate::model::{Cut, MoreDeadTime, Symbols};
-use crate::problem::{Problem, fixed_symbols, parametric_symbols};
+use crate::problem::{Ask, Problem, fixed_symbols, parametric_symbols};
 use crate::stability::Shape;
 use crate::stability::boxes::{BoxPolynomial, Family, MovingPolynomial, same_count};
 use jurist_algebra::limits::{Budget, Exhausted};

@@ -22,6 +22,7 @@ use jurist_algebra::real::Real;
 /// ```
 /// use jurist_algebra::limits::Budget;
 /// use jurist_engine::model::{BlockBuilder, Model, Time};
+/// use jurist_engine::problem::Ask;
 /// use jurist_engine::response::{OpenLoop, Turning};
 /// let plant = BlockBuilder::new("plant", "r - y", "y").transfer("9/(s + 1)^5");
 /// let (model, _) = Model::builder(Time::Continuous).inputs(["r"]).outputs(["y"]).block(plant).build()?;

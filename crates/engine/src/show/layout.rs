@@ -1,7 +1,7 @@
 //! Aligned columns and short numbers in text for people.
 
 use crate::model::Model;
-use crate::model::text::is_blank_letter;
+use crate::model::is_blank_letter;
 use jurist_algebra::number::{BinaryFormat, Rational, parse_number, to_decimal};
 use std::borrow::Cow;
 use std::fmt;
@@ -180,6 +180,7 @@ pub fn wrapped(text: &str, width: usize, indent: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::problem::Ask;
 
     #[test]
     fn columns_are_aligned() {

@@ -9,6 +9,7 @@ use crate::problem::{Plan, Problem};
 /// use jurist_algebra::limits::Budget;
 /// use jurist_engine::coverage::Asked;
 /// use jurist_engine::model::Model;
+/// use jurist_engine::problem::Ask;
 /// use jurist_engine::show::plan_text;
 /// let problem = Model::drive().ask().free("K_pwm").problem()?;
 /// assert_eq!(plan_text(&problem), "");

@@ -6,6 +6,7 @@ use jurist_algebra::number::Rational;
 use jurist_engine::answer::{PointVerdict, Verdict};
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Error, Source};
 use jurist_engine::model::Model;
+use jurist_engine::problem::Ask;
 
 impl DsFile {
     /// The verdict on the loop that a file is, under a reading.

@@ -40,6 +40,7 @@ const BEYOND: u64 = 40;
 /// ```
 /// use jurist_algebra::limits::Budget;
 /// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// use jurist_engine::problem::Ask;
 /// use jurist_stability::boxes::{BoxPolynomial, Side, ToleranceProblem};
 /// let (model, _) = Model::builder(Time::Continuous)
 ///     .parameter(ParameterBuilder::new("a").nominal("2"))

@@ -46,6 +46,7 @@ impl BoxVolume {
     /// use jurist_algebra::limits::Budget;
     /// use jurist_algebra::number::Rational;
     /// use jurist_engine::model::{Model, ParameterBuilder, Time};
+    /// use jurist_engine::problem::Ask;
     /// use jurist_stability::boxes::{BoxPolynomial, BoxVolume, Side};
     /// let parameter = |name| ParameterBuilder::new(name).nominal("1");
     /// let builder = Model::builder(Time::Continuous).parameter(parameter("a")).parameter(parameter("b"));

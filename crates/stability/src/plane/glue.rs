@@ -288,6 +288,7 @@ mod tests {
     use super::*;
     use crate::Shape;
     use jurist_engine::model::{Model, ParameterBuilder, Time};
+    use jurist_engine::problem::Ask;
 
     /// The groups when every wall is asked by Sturm's theorem.
     fn glued_exactly(

@@ -99,6 +99,7 @@ impl SymbolicPolynomial {
     /// ```
     /// use jurist_algebra::limits::Budget;
     /// use jurist_engine::model::{Model, ParameterBuilder, Time};
+    /// use jurist_engine::problem::Ask;
     /// use jurist_stability::{Range, Shape};
     /// let (model, _) = Model::builder(Time::Discrete)
     ///     .parameter(ParameterBuilder::new("K").nominal("1"))

@@ -101,6 +101,7 @@ impl SymbolicPolynomial {
     /// ```
     /// use jurist_algebra::limits::Budget;
     /// use jurist_engine::model::{Model, Time};
+    /// use jurist_engine::problem::Ask;
     /// // z^2 - exp(-1) z + 1/2
     /// let (model, _) = Model::builder(Time::Discrete).characteristic("z^2 - exp(-1)*z + 1/2").build()?;
     /// let budget = Budget::unlimited();
@@ -145,6 +146,7 @@ impl SymbolicPolynomial {
     /// ```
     /// use jurist_algebra::limits::Budget;
     /// use jurist_engine::model::{Model, Time};
+    /// use jurist_engine::problem::Ask;
     /// let (model, _) = Model::builder(Time::Continuous).characteristic("s^2 + pi*s + sqrt(2)").build()?;
     /// let budget = Budget::unlimited();
     /// let p = model.ask().problem()?.symbolic(&budget)?.unwrap();

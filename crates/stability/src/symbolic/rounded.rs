@@ -59,6 +59,7 @@ impl SymbolicPolynomial {
     /// ```
     /// use jurist_algebra::limits::Budget;
     /// use jurist_engine::model::{Model, ParameterBuilder, Time};
+    /// use jurist_engine::problem::Ask;
     /// // z - exp(-1) + K at K = 1
     /// let (model, _) = Model::builder(Time::Discrete)
     ///     .parameter(ParameterBuilder::new("K").nominal("1"))

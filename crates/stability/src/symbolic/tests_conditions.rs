@@ -9,6 +9,7 @@ use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, RealAlgebr
 use jurist_algebra::real::Real;
 use jurist_algebra::symbols::{Definition, Symbols};
 use jurist_engine::model::{Model, ParameterBuilder, Time};
+use jurist_engine::problem::Ask;
 use std::sync::Arc;
 
 /// What an expression in `K` with constants says.

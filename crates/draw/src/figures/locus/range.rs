@@ -11,6 +11,7 @@ use jurist_engine::stability::StableSet;
 /// use jurist_algebra::limits::Budget;
 /// use jurist_draw::figures::locus_range;
 /// use jurist_engine::model::Model;
+/// use jurist_engine::problem::Ask;
 /// let answer = Model::drive().ask().free("K_pwm").stable_set(&Budget::unlimited())?;
 /// let (from, to) = locus_range(&answer).unwrap();
 /// assert!(from.is_zero() || from.sign().is_gt());

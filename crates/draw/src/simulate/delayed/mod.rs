@@ -24,6 +24,7 @@ use std::ops::Range;
 /// use jurist_draw::simulate::{DelayedModel, Excitation};
 /// use jurist_engine::error::Source;
 /// use jurist_engine::model::Model;
+/// use jurist_engine::problem::Ask;
 /// // y' = -y(t - 1), y(0) = 1: constant for one second, then a straight line, then a parabola.
 /// let text = "time = 'continuous'\n[loop]\noutputs = ['y']\n\
 ///     [[block]]\ninput = '-v'\noutput = 'y'\ntransfer = '1/s'\n[[block]]\ninput = 'y'\noutput = 'v'\ndelay = 1\n";

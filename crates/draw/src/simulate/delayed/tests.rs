@@ -2,6 +2,7 @@ use super::*;
 use crate::simulate::{Course, SampledModel, Step, natural_duration};
 use jurist_engine::error::{Code, Source};
 use jurist_engine::model::Model;
+use jurist_engine::problem::Ask;
 
 const INTEGRATOR: &str = "time = 'continuous'\n[loop]\ninputs = ['r']\noutputs = ['y', 'v']\n\
     [[block]]\ninput = 'r - v'\noutput = 'y'\ntransfer = '1/s'\n\

@@ -108,6 +108,7 @@ impl BodySlice {
 /// use jurist_algebra::limits::Budget;
 /// use jurist_engine::answer::SliceValues;
 /// use jurist_engine::model::{Model, ParameterBuilder, Time};
+/// use jurist_engine::problem::Ask;
 /// let (model, _) = Model::builder(Time::Discrete)
 ///     .parameter(ParameterBuilder::new("a").nominal("0"))
 ///     .parameter(ParameterBuilder::new("b").nominal("0"))

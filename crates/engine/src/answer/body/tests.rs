@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::model::{Model, ParameterBuilder, Time};
+use crate::problem::Ask;
 use jurist_algebra::number::parse_number;
 
 fn number(text: &str) -> Rational {

@@ -3,7 +3,7 @@
 use crate::answer::Verdict;
 use crate::error::{Code, Error, Source};
 use crate::model::Model;
-use crate::problem::Question;
+use crate::problem::{Ask, Question};
 use crate::stability::{End, Range};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Rational, parse_number};

@@ -3,6 +3,7 @@
 use super::*;
 use crate::error::Source;
 use crate::model::Model;
+use crate::problem::Ask;
 use crate::stability::plane::boxes::BoxVerdict;
 use jurist_algebra::number::parse_number;
 

@@ -3,6 +3,7 @@
 use super::tests::{boxes, load, number, slices_are_stable_sets};
 use super::*;
 use crate::answer::Verdict;
+use crate::problem::Ask;
 use crate::stability::plane::boxes::{BoxVerdict, PlaneBox};
 
 #[test]

@@ -3,7 +3,7 @@
 use super::BoxRequest;
 use crate::answer::Verdict;
 use crate::error::{Code, Diagnostic, Error};
-use crate::problem::Problem;
+use crate::problem::{Ask, Problem};
 use crate::stability::Range;
 use crate::stability::plane::boxes::Window;
 use jurist_algebra::limits::{Budget, Exhausted};

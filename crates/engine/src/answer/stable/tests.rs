@@ -1,7 +1,7 @@
 use crate::answer::Verdict;
 use crate::error::Source;
 use crate::model::Model;
-use crate::problem::Question;
+use crate::problem::{Ask, Question};
 use crate::response::Requirement;
 use crate::stability::{Range, StableSet, symbolic_stable_set};
 use jurist_algebra::limits::Budget;

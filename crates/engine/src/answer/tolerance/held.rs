@@ -5,7 +5,7 @@
 
 use crate::answer::{DelayedRoots, Verdict};
 use crate::error::Error;
-use crate::problem::Problem;
+use crate::problem::{Ask, Problem};
 use crate::stability::boxes::{
     BoxDecision, Family, LargestFactor, OpenReason, Side, ToleranceProblem, Witness, corners,
 };

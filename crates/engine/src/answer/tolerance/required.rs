@@ -6,7 +6,7 @@ use super::held::Truth;
 use super::{RequiredBox, ToleranceRequest};
 use crate::coverage::refusals::{MARGINS_IN_ONE, NOT_OVER_A_BOX};
 use crate::error::Error;
-use crate::problem::Problem;
+use crate::problem::{Ask, Problem};
 use crate::response::{
     DelayAsked, DelayBoxes, DelayedLoops, Family, RequiredFamily, Requirement, RequirementBoxes, Rule, half_tangent,
     radius_below,

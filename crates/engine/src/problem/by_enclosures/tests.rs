@@ -2,6 +2,7 @@ use super::*;
 use crate::answer::Verdict;
 use crate::error::Source;
 use crate::model::Model;
+use crate::problem::Ask;
 use crate::response::OpenLoop;
 use crate::stability::{Shape, StableSet, stable_set_of_parts};
 use jurist_algebra::number::Integer;

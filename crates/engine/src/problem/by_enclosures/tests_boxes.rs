@@ -3,7 +3,7 @@
 use super::*;
 use crate::answer::{BoxRequest, MapMethod, MapOrBoxes, ToleranceRequest, Verdict};
 use crate::model::{Cut, Model};
-use crate::problem::{Algebra, parametric_symbols};
+use crate::problem::{Algebra, Ask, parametric_symbols};
 use crate::stability::plane::boxes::BoxVerdict;
 use crate::stability::{AtPoint, Range};
 use jurist_algebra::ball::Series;

@@ -4,6 +4,7 @@ use super::tests::ends;
 use super::*;
 use crate::error::Source;
 use crate::model::Model;
+use crate::problem::Ask;
 use crate::stability::{StableSet, stable_set_of_parts, symbolic_stable_set};
 
 /// A slow block before a fast one, and a plant behind a hold.

@@ -2,7 +2,7 @@ use super::FromNumbers;
 use crate::answer::{PointVerdict, Verdict};
 use crate::error::{Error, Source};
 use crate::model::Model;
-use crate::problem::Region;
+use crate::problem::{Ask, Region};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 

@@ -34,6 +34,7 @@ impl Answer<StableSet> {
     /// ```
     /// use jurist_algebra::limits::Budget;
     /// use jurist_engine::model::Model;
+    /// use jurist_engine::problem::Ask;
     /// let (drive, budget) = (Model::drive(), Budget::unlimited());
     /// let answer = drive.ask().free("K_pwm").stable_set(&budget).unwrap();
     /// let file = answer.coq(&budget).unwrap();
@@ -75,6 +76,7 @@ impl Answer<PointVerdict> {
     /// ```
     /// use jurist_algebra::limits::Budget;
     /// use jurist_engine::model::Model;
+    /// use jurist_engine::problem::Ask;
     /// let (drive, budget) = (Model::drive(), Budget::unlimited());
     /// let answer = drive.ask().set("K_pwm", 551).verdict(&budget).unwrap();
     /// assert!(answer.coq(&budget).unwrap().contains("Theorem not_stable (R : rcfType) :\n  exists z : R[i],"));

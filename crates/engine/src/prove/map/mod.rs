@@ -46,6 +46,7 @@ impl Answer<Map> {
     /// use jurist_algebra::limits::Budget;
     /// use jurist_check::{Limits, check};
     /// use jurist_engine::model::Model;
+    /// use jurist_engine::problem::Ask;
     /// let (drive, budget) = (Model::drive(), Budget::unlimited());
     /// let map = drive.ask().free("T").free("K_pwm").map(6, &budget).unwrap();
     /// let certificate = map.certificate(&budget).unwrap();

@@ -1,6 +1,7 @@
 use super::*;
 use crate::error::Source;
 use crate::model::Model;
+use crate::problem::Ask;
 use crate::response::over_symbols::SymbolicFamily;
 use jurist_algebra::number::parse_number;
 use std::sync::Arc;

@@ -2,11 +2,12 @@
 
 use super::{Circle, Found, Meaning, Requirement, RequirementKind, RequirementOption, Rule, refused};
 use crate::error::Error;
+use crate::model::requirements::COMPLEMENTARY_PEAK;
 use jurist_algebra::number::Rational;
 
 pub(super) const KIND: RequirementKind = RequirementKind {
-    name: "complementary_peak",
-    about: "the greatest |L/(1 + L)|, the peak of the complementary sensitivity",
+    name: COMPLEMENTARY_PEAK.name,
+    about: COMPLEMENTARY_PEAK.about,
     option: Some(RequirementOption { value: "M", help: "Asks for a peak of |L/(1 + L)| of at most this" }),
     is_listed: true,
     sense: "<=",

@@ -2,11 +2,12 @@
 
 use super::{Meaning, Requirement, RequirementKind, RequirementOption, Rule, refused};
 use crate::error::Error;
+use crate::model::requirements::DAMPING;
 use jurist_algebra::number::Rational;
 
 pub(super) const KIND: RequirementKind = RequirementKind {
-    name: "damping",
-    about: "the least damping of all roots; in discrete time of ln(z)/T",
+    name: DAMPING.name,
+    about: DAMPING.about,
     option: Some(RequirementOption {
         value: "NUMBER",
         help: "Asks for a damping of all roots, in discrete time of the roots ln(z)/T",

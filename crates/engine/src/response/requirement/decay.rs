@@ -2,11 +2,12 @@
 
 use super::{Meaning, RequirementKind, not_understood};
 use crate::model::Time;
+use crate::model::requirements::DECAY;
 use crate::problem::Region;
 
 pub(super) const KIND: RequirementKind = RequirementKind {
-    name: "decay",
-    about: "all roots have Re s < -decay (continuous time)",
+    name: DECAY.name,
+    about: DECAY.about,
     option: None,
     is_listed: false,
     sense: ">=",

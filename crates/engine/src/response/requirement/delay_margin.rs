@@ -3,11 +3,12 @@
 
 use super::{Found, Meaning, Requirement, RequirementKind, RequirementOption, Rule, refused};
 use crate::error::Error;
+use crate::model::requirements::DELAY_MARGIN;
 use jurist_algebra::number::Rational;
 
 pub(super) const KIND: RequirementKind = RequirementKind {
-    name: "delay_margin",
-    about: "a dead time in units of time",
+    name: DELAY_MARGIN.name,
+    about: DELAY_MARGIN.about,
     option: Some(RequirementOption { value: "TIME", help: "Asks for a delay margin: dead time in units of time" }),
     is_listed: false,
     sense: ">=",

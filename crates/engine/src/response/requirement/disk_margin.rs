@@ -2,11 +2,12 @@
 
 use super::{Circle, Found, Meaning, Requirement, RequirementKind, RequirementOption, Rule, refused};
 use crate::error::Error;
+use crate::model::requirements::DISK_MARGIN;
 use jurist_algebra::number::Rational;
 
 pub(super) const KIND: RequirementKind = RequirementKind {
-    name: "disk_margin",
-    about: "the least 2 |1 + L|/|1 - L|, the size of the balanced disk of gains and phases",
+    name: DISK_MARGIN.name,
+    about: DISK_MARGIN.about,
     option: Some(RequirementOption {
         value: "ALPHA",
         help: "Asks for a balanced disk margin: the least 2 |1 + L|/|1 - L|",

@@ -2,6 +2,7 @@
 
 use super::{Found, Meaning, Requirement, RequirementKind, RequirementOption, Rule, refused};
 use crate::error::Error;
+use crate::model::requirements::GAIN_MARGIN;
 use crate::response::{Margins, StableMargins};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
@@ -9,8 +10,8 @@ use jurist_algebra::poly::{Poly, RealAlgebraic, SquareFree, UniPoly, isolate_rea
 use jurist_algebra::real::Real;
 
 pub(super) const KIND: RequirementKind = RequirementKind {
-    name: "gain_margin",
-    about: "a factor both ways, or decibels: \"6 dB\"",
+    name: GAIN_MARGIN.name,
+    about: GAIN_MARGIN.about,
     option: Some(RequirementOption { value: "MARGIN", help: "Asks for a gain margin both ways: '6 dB' or a factor" }),
     is_listed: true,
     // The loop is stable at the factor itself.

@@ -1,7 +1,8 @@
 //! What is written elsewhere from the list of requirements: Python's keywords, and a table of the documentation.
 
 use super::RequirementKind;
-use crate::published::{between, publish};
+use crate::model::published::{between, publish};
+use crate::model::requirements::ALL;
 
 /// The words of an entry in Python: regions are keywords of every question.
 fn in_python() -> String {
@@ -45,4 +46,10 @@ fn beside_the_schemas_the_documentation_has_the_table_of_the_list() {
     let made = in_the_documentation();
     let [before, written, after] = between(&text, "<!-- requirements", "<!-- end of requirements");
     publish(path, written, &made, &format!("{before}{made}{after}"));
+}
+
+#[test]
+fn each_requirement_stands_at_the_place_of_its_key() {
+    let names: Vec<&str> = RequirementKind::all().iter().map(|kind| kind.name).collect();
+    assert_eq!(names, ALL.iter().map(|key| key.name).collect::<Vec<_>>());
 }

@@ -2,7 +2,7 @@
 //! keywords and the documentation's table are made.
 //!
 //! Each requirement is a file with a [`RequirementKind`]: its words, how a number in a text becomes a [`Rule`], and which margin of a loop
-//! answers it. A rule says what is decided; several requirements can share one.
+//! answers it. Its key stands in [`crate::model::requirements`]. A rule says what is decided; several requirements can share one.
 
 mod circle;
 mod complementary_peak;
@@ -26,6 +26,7 @@ pub(crate) use settling_time::radius_below;
 use super::{Margins, StableMargins};
 use crate::coverage::refusals::REQUIREMENT_NOT_CERTIFIED;
 use crate::error::{Code, Diagnostic, Error};
+use crate::model::requirements::ALL as KEYS;
 use crate::model::{Between, Cut, Time};
 use crate::problem::{Problem, Region};
 use jurist_algebra::limits::Budget;
@@ -33,8 +34,8 @@ use jurist_algebra::number::{Enclosure, Rational, parse_number};
 use jurist_algebra::poly::RealAlgebraic;
 use jurist_algebra::real::Real;
 
-/// All requirements, in the order in which they are decided and listed.
-pub(crate) const LIST: &[&RequirementKind] = &[
+/// All requirements, in the order of the keys of `[require]`.
+const LIST: [&RequirementKind; KEYS.len()] = [
     &gain_margin::KIND,
     &phase_margin::KIND,
     &modulus_margin::KIND,
@@ -78,7 +79,7 @@ pub struct RequirementKind {
 impl RequirementKind {
     /// The whole list, in the order in which requirements are decided.
     pub fn all() -> &'static [&'static RequirementKind] {
-        LIST
+        const { &LIST }
     }
 
     /// The number of a text, and the unit that follows it.

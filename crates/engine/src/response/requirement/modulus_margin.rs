@@ -2,11 +2,12 @@
 
 use super::{Circle, Found, Meaning, Requirement, RequirementKind, RequirementOption, Rule, refused};
 use crate::error::Error;
+use crate::model::requirements::MODULUS_MARGIN;
 use jurist_algebra::number::Rational;
 
 pub(super) const KIND: RequirementKind = RequirementKind {
-    name: "modulus_margin",
-    about: "the least |1 + L|, the inverse of the greatest sensitivity",
+    name: MODULUS_MARGIN.name,
+    about: MODULUS_MARGIN.about,
     option: Some(RequirementOption { value: "NUMBER", help: "Asks for a modulus margin: the least |1 + L|" }),
     is_listed: true,
     sense: ">=",

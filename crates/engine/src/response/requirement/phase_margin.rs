@@ -2,14 +2,15 @@
 
 use super::{Found, Meaning, Requirement, RequirementKind, RequirementOption, Rule, refused};
 use crate::error::Error;
+use crate::model::requirements::PHASE_MARGIN;
 use crate::stability::{HalfSizePair, Shape};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots};
 
 pub(super) const KIND: RequirementKind = RequirementKind {
-    name: "phase_margin",
-    about: "an angle: \"45 deg\"",
+    name: PHASE_MARGIN.name,
+    about: PHASE_MARGIN.about,
     option: Some(RequirementOption { value: "ANGLE", help: "Asks for a phase margin: '45 deg'" }),
     is_listed: true,
     sense: ">=",

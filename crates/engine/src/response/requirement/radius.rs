@@ -2,11 +2,12 @@
 
 use super::{Meaning, RequirementKind, not_understood};
 use crate::model::Time;
+use crate::model::requirements::RADIUS;
 use crate::problem::Region;
 
 pub(super) const KIND: RequirementKind = RequirementKind {
-    name: "radius",
-    about: "all roots have |z| < radius (discrete time)",
+    name: RADIUS.name,
+    about: RADIUS.about,
     option: None,
     is_listed: false,
     sense: "<=",

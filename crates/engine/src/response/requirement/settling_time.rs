@@ -3,13 +3,14 @@
 use super::{Meaning, Requirement, RequirementKind, RequirementOption, Rule, Written, not_understood, refused};
 use crate::error::Error;
 use crate::model::Time;
+use crate::model::requirements::SETTLING_TIME;
 use crate::problem::{Bound, Region};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::symbols::{Definition, Symbols};
 
 pub(super) const KIND: RequirementKind = RequirementKind {
-    name: "settling_time",
-    about: "a decay of at least 4 over this time",
+    name: SETTLING_TIME.name,
+    about: SETTLING_TIME.about,
     option: Some(RequirementOption {
         value: "TIME",
         help: "Asks for a settling time: a decay of 4 over it, in discrete time a radius of exp(-4 T/time)",

@@ -1,6 +1,6 @@
 use crate::error::Source;
 use crate::model::{Cut, Model};
-use crate::problem::EnclosedQuotient;
+use crate::problem::{Ask, EnclosedQuotient};
 use crate::response::margins::StableMargins;
 use crate::response::{Crossings, OpenLoop};
 use crate::stability::Shape;

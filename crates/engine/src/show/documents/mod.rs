@@ -7,6 +7,7 @@
 //! ```
 //! use jurist_algebra::limits::Budget;
 //! use jurist_engine::model::Model;
+//! use jurist_engine::problem::Ask;
 //! use jurist_engine::show::documents::{self, Answered, Intervals};
 //! let answer = Model::drive().ask().free("K_pwm").stable_set(&Budget::unlimited()).unwrap();
 //! let text = documents::to_text(&answer.json(12));
