@@ -2,7 +2,7 @@
 //!
 //! `cargo run --example a_map`
 
-use jurist::{Ask, Budget, Error, Model, Rational};
+use jurist::{Ask, Budget, Error, Model, Rational, Text};
 use std::time::Duration;
 
 fn main() -> Result<(), Error> {

@@ -2,7 +2,7 @@
 //!
 //! `cargo run --example loop_in_code`
 
-use jurist::{Ask, BlockBuilder, Budget, Error, Model, ParameterBuilder, Rational, Region, Time};
+use jurist::{Ask, BlockBuilder, Budget, Error, Model, ParameterBuilder, Rational, Region, Text, Time};
 
 fn main() -> Result<(), Error> {
     let (model, warnings) = Model::builder(Time::Discrete)
@@ -19,7 +19,7 @@ fn main() -> Result<(), Error> {
     assert!(warnings.is_empty());
     let budget = Budget::unlimited();
     let verdict = model.ask().verdict(&budget)?;
-    println!("nominal: {}", verdict.text().lines().last().unwrap_or_default());
+    println!("nominal: {}", verdict.text(10).lines().last().unwrap_or_default());
     print!("{}", model.ask().free("Kp").stable_set(&budget)?.text(10));
     // All roots within |z| < 0.99: every transient loses a percent each sample.
     let fast = Region::disc(Rational::new(99.into(), 100.into()))?;

@@ -3,6 +3,7 @@
 //! `cargo run --example one_limit`
 
 use jurist::{Ask, Budget, Error, Model, Source, documents};
+use jurist::{Document, Text};
 
 const MODEL: &str = r#"
 title = "first-order plant, proportional controller, one sample of delay"

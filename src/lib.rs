@@ -40,7 +40,7 @@
 //! | [`Question::peak_to_peak`] | [`PeakToPeak`] | how far bounded inputs drive an output, in discrete time |
 //! | [`Question::analyze`] | [`Analysis`] | the verdict, and the stable set of each parameter |
 //!
-//! An answer writes itself for people (`text`), for programs (`json`) and for checkers (`certificate`, `smt2`); [`check()`]
+//! An answer writes itself for people (trait [`Text`]), for programs (trait [`Document`]) and for checkers (`certificate`, `smt2`); [`check()`]
 //! re-checks a certificate with code that shares nothing with the engine. Where a certificate is made of boxes, of requirements as of maps, it is written by [`certified`]. What stands in the JSON is said by
 //! [`documents`], as types, and by [`schemas`](_documentation::schemas). Everything that takes long takes a [`Budget`].
 //!
@@ -71,13 +71,13 @@ pub use jurist_engine::answer::{
 };
 pub use jurist_engine::problem::{Algebra, Ask, Bound, Free, Problem, Question, Region};
 pub use jurist_engine::response::{Extreme, Margins, Norm, OpenLoop, PeakToPeak, Place, Requirement, Value};
-pub use jurist_engine::show::documents;
-pub use jurist_engine::show::notation::Notation;
 pub use jurist_model::error::{Code, Diagnostic, Diagnostics, Error, Label, Severity, Source, Span};
 pub use jurist_model::{
     BlockBuilder, ClosedLoop, Constant, Cut, Expression, LoopLine, Model, ModelBuilder, Parameter, ParameterBuilder,
     Time, Tolerance, TransferFunction,
 };
+pub use jurist_show::notation::Notation;
+pub use jurist_show::{Document, Text, documents};
 pub use jurist_stability::{
     AlgebraicInterval, Boundary, Cause, Causes, ClassicalTest, ComplexPair, Condition, End, HalfSizePair, IntervalSet,
     JuryTable, ParametricPolynomial, Range, RealInterval, RootCount, RouthTable, Shape, StableInterval, StableSet,

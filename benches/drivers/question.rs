@@ -4,7 +4,7 @@
 //! `python/tests/overhead.py` asks the same questions there.
 
 use jurist::documents::to_text;
-use jurist::{Ask, Budget, Model};
+use jurist::{Ask, Budget, Document, Model};
 use std::time::Instant;
 
 /// Name, model, parameter; the first needs next to no work.

@@ -314,7 +314,7 @@ def build_reference(app):
     write("commands.md", commands_page())
     write("model.md", model_page())
     write("errors.md", page_of("Errors and warnings", "crates/model/src/error/codes.md").replace("\n#### ", "\n## "))
-    write("words.md", page_of("Words of the answers", "crates/engine/src/show/words.md").replace("\n#### ", "\n## "))
+    write("words.md", page_of("Words of the answers", "crates/show/src/words.md").replace("\n#### ", "\n## "))
     write("certificates.md", page_of("Certificates", "crates/check/src/grammar.md", "crates/check/src/proved.md"))
     write("speed.md", page_of("How long answers take", "src/performance.md"))
     write("gallery.md", gallery_page())

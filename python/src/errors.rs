@@ -1,7 +1,7 @@
 //! From the engine's one kind of "no" to Python's exceptions, which are classes written in Python.
 
 use jurist::{Code, Diagnostic, Diagnostics, Error, Label, Severity, Source};
-use jurist_engine::show::diagnostics::render_error;
+use jurist_show::diagnostics::render_error;
 use pyo3::call::PyCallArgs;
 use pyo3::prelude::*;
 use std::any::Any;

@@ -6,6 +6,7 @@ use crate::wait::{Patience, waited};
 use jurist::cli::captured;
 use jurist::documents::{Intervals, Verdict, to_text};
 use jurist::{Answer, Budget, Error, PointVerdict, StableSet};
+use jurist::{Document, Text};
 use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -159,7 +160,7 @@ impl Model {
             let problem = asked.of(&model)?.problem()?;
             match problem.verdict(budget) {
                 Ok(answer) => {
-                    let text = budget.enter(|| to_text(&answer.json()))?;
+                    let text = budget.enter(|| to_text(&Verdict::new(&problem, Ok(answer.value()))))?;
                     Ok(Ok((text, answer)))
                 }
                 Err(Error::Stopped(stopped)) => {
@@ -217,7 +218,7 @@ impl Answered {
         self.made(py, None, move |kind, _| {
             Ok(match kind {
                 Kind::Stable(answer) => answer.text(digits),
-                Kind::Verdict(answer) => answer.text(),
+                Kind::Verdict(answer) => answer.text(digits),
             })
         })
     }
@@ -227,7 +228,7 @@ impl Answered {
         self.made(py, None, move |kind, _| {
             Ok(match kind {
                 Kind::Stable(answer) => to_text(&answer.json(digits)),
-                Kind::Verdict(answer) => to_text(&answer.json()),
+                Kind::Verdict(answer) => to_text(&answer.json(digits)),
             })
         })
     }

@@ -40,7 +40,7 @@ pub(crate) fn codes() -> Vec<(String, String)> {
 /// Every word of the answers and of the field with its explanation.
 #[pyfunction]
 pub(crate) fn words() -> Vec<(&'static str, &'static str)> {
-    jurist_engine::show::words().collect()
+    jurist_show::words().collect()
 }
 
 /// Breaks off as a defect would: shows that no panic leaves the package.

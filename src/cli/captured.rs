@@ -9,7 +9,7 @@ use clap::Parser;
 use jurist_algebra::limits::Budget;
 use jurist_engine::error::{Diagnostic, Diagnostics, Error, Source};
 use jurist_engine::model::Model;
-use jurist_engine::show::diagnostics::render_error;
+use jurist_show::diagnostics::render_error;
 use std::cell::RefCell;
 use std::ffi::OsString;
 use std::sync::Arc;

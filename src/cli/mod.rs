@@ -44,7 +44,7 @@ use clap::Parser;
 use command_line::CommandLine;
 use commands::Context;
 use jurist_engine::error::{Code, Diagnostic};
-use jurist_engine::show::diagnostics::render_error;
+use jurist_show::diagnostics::render_error;
 use status::{Error, Outcome, Status};
 use std::ffi::OsString;
 use std::process::ExitCode;

@@ -12,8 +12,9 @@ use jurist_algebra::poly::{Domain, UniPoly};
 use jurist_engine::error::Error;
 use jurist_engine::model::Model;
 use jurist_engine::response::{RequiredSet, Requirement, Requirements};
-use jurist_engine::show::diagnostics::render_error;
 use jurist_engine::stability::{Range, Shape, is_stable};
+use jurist_show::diagnostics::render_error;
+use jurist_show::required_value;
 
 /// A single loop; `K` is free.
 fn loop_with(time: &str, transfer: &str) -> Model {
@@ -172,7 +173,7 @@ fn sets_of_a_loop_behind_a_hold_end_where_the_margin_is_the_required_one() {
         let is_met = |value: Rational| {
             let problem = model.ask().set("K", value).problem().unwrap();
             let found = problem.requirements_met(list, None, &Budget::unlimited()).unwrap();
-            let value: f64 = found[0].value(12).unwrap().parse().unwrap();
+            let value: f64 = required_value(&found[0], 12).unwrap().parse().unwrap();
             assert!((value - number(&requirement.required()).to_f64_approximate()).abs() < 1e-9, "{name}: {value}");
             found[0].met
         };

@@ -1,10 +1,10 @@
 //! A question is evaluated once, its boundaries are isolated once, and all that is written comes of one answer.
 
-use jurist::Ask;
+use jurist::{Ask, Document, Text};
 use jurist_algebra::limits::{Budget, Progress};
 use jurist_check::{Limits, check};
 use jurist_engine::model::Model;
-use jurist_engine::show::documents;
+use jurist_show::documents;
 use std::sync::{Arc, Mutex};
 
 /// Remembers every step that begins.
@@ -54,7 +54,7 @@ fn certificate_document_and_statement_of_a_stable_set_come_of_one_answer() {
 fn a_verdict_and_its_certificate_evaluate_the_model_once() {
     let (steps, budget) = counted();
     let answer = Model::drive().ask().set("K_pwm", 551).verdict(&budget).unwrap();
-    let _ = (answer.certificate(&budget).unwrap(), answer.json(), answer.text());
+    let _ = (answer.certificate(&budget).unwrap(), answer.json(12), answer.text(12));
     assert_eq!(steps.count("characteristic polynomial"), 1);
     assert_eq!(steps.count("counting the roots"), 1);
 }

@@ -8,7 +8,7 @@ use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::model::Model;
 use jurist_engine::response::{DelayMargin, PhaseMargin, Place, Requirement, Requirements};
-use jurist_engine::show::real;
+use jurist_show::{real, required_value};
 
 /// `K exp(-tau s)/(s (s/2 + 1))`.
 fn positioner(gain: &str, delay: &str) -> Model {
@@ -84,7 +84,7 @@ fn a_delay_margin_is_required_of_a_loop_with_dead_time() {
     let met = |seconds: &str| {
         let asked = Requirements::of(&model, &[("delay_margin", seconds)], &[], &Budget::unlimited()).unwrap();
         let found = problem.requirements_met(&asked.list, None, &Budget::unlimited()).unwrap();
-        (found[0].met, found[0].value(6).unwrap())
+        (found[0].met, required_value(&found[0], 6).unwrap())
     };
     assert_eq!(met("0.2753070"), (true, "0.275307".to_owned()));
     assert_eq!(met("0.2753071"), (false, "0.275307".to_owned()));

@@ -4,7 +4,7 @@ use crate::helpers::model::{keeping, read};
 use crate::helpers::number::{number, ratio};
 use crate::helpers::random::Random;
 use crate::helpers::thorough::count;
-use jurist::Ask;
+use jurist::{Ask, Text};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::Verdict;

@@ -7,7 +7,7 @@ use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::Verdict;
-use jurist_engine::show::margins::margin;
+use jurist_show::margins::margin;
 
 #[test]
 fn every_example_loads_without_a_warning_and_is_stable_at_nominal() {

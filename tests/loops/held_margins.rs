@@ -5,11 +5,11 @@ use crate::helpers::model::{example, load};
 use crate::helpers::number::number;
 use crate::helpers::open_loops::{SERVO_BEHIND_A_HOLD, margins_of, stable};
 use crate::helpers::program::jurist_with_input;
-use jurist::Ask;
+use jurist::{Ask, Document, Text};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::response::{DelayMargin, PhaseMargin};
-use jurist_engine::show::real;
+use jurist_show::real;
 use serde_json::Value;
 
 #[test]

@@ -7,7 +7,7 @@ use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::parse_number;
 use jurist_engine::response::Requirement;
-use jurist_engine::show::real;
+use jurist_show::real;
 use nalgebra::{Complex, DMatrix, DVector};
 
 const SAMPLE_TIME: f64 = 0.01;

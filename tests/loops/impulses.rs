@@ -3,7 +3,7 @@
 use crate::helpers::model::read;
 use crate::helpers::number::number;
 use crate::helpers::program::{jurist, jurist_with_input};
-use jurist::Ask;
+use jurist::{Ask, Document, Text};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::error::Error;

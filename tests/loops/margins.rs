@@ -9,7 +9,7 @@ use jurist_algebra::number::Rational;
 use jurist_engine::answer::Answer;
 use jurist_engine::model::Model;
 use jurist_engine::response::{DelayMargin, Direction, Extreme, Margins, PhaseMargin, Place, Value};
-use jurist_engine::show::real;
+use jurist_show::real;
 
 fn degrees(phase: &PhaseMargin, digits: usize) -> Option<String> {
     real::enclosed(digits, |bits| phase.degrees(bits))

@@ -12,6 +12,7 @@ use jurist_algebra::real::Real;
 use jurist_engine::answer::Answer;
 use jurist_engine::model::Model;
 use jurist_engine::response::{RequiredEnd, RequiredSet, Requirement, Requirements};
+use jurist_show::documents::Intervals;
 
 fn required(model: &Model, name: &str, at: Option<&str>, requirements: &[Requirement]) -> Answer<RequiredSet> {
     let problem = model.ask().free(name).problem().unwrap();
@@ -85,7 +86,7 @@ fn angles_and_decibels_that_are_not_rational() {
     let degrees = |k: Rational| {
         let margins = model.ask().set("K", k).margins(None, &Rational::ZERO, &budget).unwrap();
         let phase = margins.value().stable.as_ref().unwrap().phase.clone();
-        jurist_engine::show::real::enclosed(20, |bits| phase.degrees(bits)).unwrap()
+        jurist_show::real::enclosed(20, |bits| phase.degrees(bits)).unwrap()
     };
     assert_eq!([degrees(lo), degrees(hi)], ["45.000000000000000000", "45.000000000000000000"].map(String::from));
     assert!(ends(both.value())[1].clone().unwrap().compare(&end, &budget).unwrap().is_le());
@@ -120,7 +121,7 @@ fn the_drive_with_forty_five_degrees_at_its_current_error() {
     let stable = drive.ask().free("K_pwm").stable_set(&Budget::unlimited()).unwrap();
     let limit = &stable.value().intervals()[0].upper.as_ref().unwrap().value;
     assert!(ends(answer.value()).iter().flatten().all(|end| end.compare(limit, &Budget::unlimited()).unwrap().is_lt()));
-    let document = answer.json(&[Requirement::phase_margin(&number("45")).unwrap()], 12);
+    let document = Intervals::of_required(&answer, &[Requirement::phase_margin(&number("45")).unwrap()], 12);
     assert_eq!(document.require[0].required, "45 deg");
 }
 

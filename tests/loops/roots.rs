@@ -3,7 +3,7 @@
 use crate::helpers::model::{continuous, discrete, example, load};
 use crate::helpers::number::number;
 use crate::helpers::program::jurist;
-use jurist::Ask;
+use jurist::{Ask, Text};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::poly::complex_roots;

@@ -4,7 +4,7 @@ use crate::helpers::model::{continuous, example};
 use crate::helpers::number::number;
 use crate::helpers::program::{json, jurist, jurist_with_input};
 use crate::helpers::thorough::tried;
-use jurist::Ask;
+use jurist::{Ask, Text};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::{ClosedLoopRoot, Roots};

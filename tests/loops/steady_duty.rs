@@ -4,7 +4,7 @@ use super::pwm::{ends, set};
 use crate::helpers::model::{example_text, read};
 use crate::helpers::program::jurist_with_input;
 use crate::helpers::thorough::tried;
-use jurist::Ask;
+use jurist::{Ask, Text};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::parse_number;
 use jurist_engine::answer::Verdict;
@@ -38,7 +38,7 @@ fn the_drive_at_the_duty_ratio_of_its_orbit() {
         let model = read(&text);
         let answer = model.ask().set("K_pwm", parse_number(value).unwrap()).verdict(&Budget::unlimited()).unwrap();
         assert_eq!(answer.value().verdict, Verdict::Undefined, "{value}");
-        assert!(answer.text().contains(expected), "{}", answer.text());
+        assert!(answer.text(12).contains(expected), "{}", answer.text(12));
     }
 }
 

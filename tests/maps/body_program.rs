@@ -4,7 +4,7 @@ use crate::helpers::model::example;
 use crate::helpers::number::number;
 use crate::helpers::program::{command, json, jurist, jurist_with_input, refused};
 use crate::helpers::schema::fits;
-use jurist::Ask;
+use jurist::{Ask, Document, Text};
 use jurist_algebra::limits::Budget;
 use jurist_draw::figures::map::{MapContents, WindowRequest, common_windows, small_multiples, trace_map};
 use jurist_draw::page::body_page;

@@ -7,7 +7,7 @@ use crate::helpers::random::Random;
 use crate::helpers::required::{Known, is_met};
 use crate::helpers::schema::fits;
 use crate::helpers::thorough::tried;
-use jurist::Ask;
+use jurist::{Ask, Text};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_algebra::real::Real;

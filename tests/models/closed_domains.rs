@@ -1,7 +1,7 @@
 //! A closed end of a domain belongs to the question: the answer includes it where the loop is stable there.
 
 use crate::helpers::number::number;
-use jurist::Ask;
+use jurist::{Ask, Document, Text};
 use jurist_algebra::limits::Budget;
 use jurist_engine::error::{Code, Source};
 use jurist_engine::model::{Model, ParameterBuilder, Time};

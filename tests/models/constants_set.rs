@@ -1,6 +1,6 @@
 //! A constant that is set has another number, and nothing else changes; a constant that is kept is a parameter.
 
-use jurist::Ask;
+use jurist::{Ask, Text};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Rational, parse_number};

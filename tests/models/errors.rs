@@ -5,7 +5,7 @@ use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_engine::error::{Error, Source};
 use jurist_engine::model::{Model, source_from_bytes};
-use jurist_engine::show::diagnostics::{render, render_error};
+use jurist_show::diagnostics::{render, render_error};
 
 const HEAD: &str = "time = 'discrete'\n[parameters]\nK = { nominal = 1 }\n";
 

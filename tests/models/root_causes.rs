@@ -2,7 +2,7 @@
 
 use jurist_engine::error::{Diagnostic, Source};
 use jurist_engine::model::Model;
-use jurist_engine::show::diagnostics::render_error;
+use jurist_show::diagnostics::render_error;
 
 /// Every error: code, line and column of the caret, line of the second place, help.
 fn errors(text: &str) -> Vec<String> {

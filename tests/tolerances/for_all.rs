@@ -6,14 +6,15 @@ use crate::helpers::number::{number, ratio};
 use crate::helpers::program::{jurist_with_input, refused};
 use crate::helpers::random::Random;
 use crate::helpers::thorough::tried;
-use jurist::Ask;
 use jurist::certified::certify_tolerance;
+use jurist::{Ask, Text};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, ToleranceAnswer, ToleranceRequest, Verdict};
 use jurist_engine::model::Model;
 use jurist_engine::response::{AllOf, MapForAll};
 use jurist_engine::stability::boxes::BoxDecision;
+use jurist_show::required_text;
 
 /// `K/(s (c s + 1)(s + 1))`, a lag that is held, a lag with dead time, and an integrator that is held for a sample time `c`.
 const LOOPS: [&str; 4] = [
@@ -60,8 +61,8 @@ fn a_gain_grows_to_the_end_of_its_set_for_all_values() {
             let factor = answer.value().factor.as_ref().expect("the loop is stable for all values");
             let upper = factor.upper.as_ref().expect("no gain is good without end");
             let at = |factor: &Rational| &nominal + &(&nominal * factor);
-            assert!(holds(&at(&factor.lower)), "{factor:?}\n{}", set.text(&[], 9));
-            assert!(!holds(&at(&(upper * &number("1.001")))), "{factor:?}\n{}", set.text(&[], 9));
+            assert!(holds(&at(&factor.lower)), "{factor:?}\n{}", required_text(&set, &[], 9));
+            assert!(!holds(&at(&(upper * &number("1.001")))), "{factor:?}\n{}", required_text(&set, &[], 9));
             assert!(upper - &factor.lower < upper * &number("1/100"), "{factor:?}");
             assert_eq!(answer.value().ranges(answer.problem()).len(), 1);
         }

@@ -3,7 +3,7 @@
 use crate::helpers::program::{jurist, jurist_with_input, refused};
 use crate::helpers::schema::fits;
 use crate::helpers::thorough::is_thorough;
-use jurist::Ask;
+use jurist::{Ask, Text};
 use jurist_algebra::limits::Budget;
 use jurist_engine::answer::{Answer, ToleranceAnswer, ToleranceRequest};
 use jurist_engine::model::Model;

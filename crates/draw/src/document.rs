@@ -7,8 +7,8 @@ use jurist_engine::answer::Answer;
 use jurist_engine::model::{Model, Time};
 use jurist_engine::problem::Problem;
 use jurist_engine::response::Margins;
-use jurist_engine::show::documents::{Exact, Named};
 use jurist_engine::stability::StableSet;
+use jurist_show::documents::{Exact, Named};
 use nalgebra::Complex;
 use serde::{Deserialize, Serialize};
 
@@ -363,7 +363,7 @@ fn points(values: &[Complex<f64>]) -> Vec<Point> {
 /// JSON Schemas of these documents: kind with version, and schema.
 #[cfg(feature = "schema")]
 pub fn schemas() -> Vec<(&'static str, serde_json::Value)> {
-    use jurist_engine::show::documents::schemas::schema_of;
+    use jurist_show::documents::schemas::schema_of;
     let names = ["jurist/frequency-response/1", "jurist/locus/1", "jurist/simulate/1"];
     vec![
         (names[0], schema_of::<FrequencyResponse>(names[0])),
@@ -377,6 +377,6 @@ mod tests {
     #[test]
     fn the_schemas_that_are_published_are_those_of_the_types() {
         let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../schema");
-        jurist_engine::show::documents::schemas::check_published(&folder, &super::schemas());
+        jurist_show::documents::schemas::check_published(&folder, &super::schemas());
     }
 }

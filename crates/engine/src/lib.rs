@@ -9,7 +9,6 @@
 //! | [`answer`] | answers: a problem and what is exactly known of it |
 //! | [`response`] | frequency response: the loop cut open, margins, peak gains |
 //! | [`prove`] | certificates and statements for solvers |
-//! | [`show`] | text, JSON, LaTeX, code |
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -20,6 +19,5 @@ mod precisions;
 pub mod problem;
 pub mod prove;
 pub mod response;
-pub mod show;
 pub use jurist_model::{self as model, error};
 pub use jurist_stability as stability;

@@ -8,6 +8,7 @@ use jurist_engine::error::{Code, Error, Source};
 use jurist_engine::model::Model;
 use jurist_engine::problem::{Ask, Question};
 use jurist_engine::stability::{End, Range, StableSet};
+use jurist_show::{Document, Text};
 
 fn read(text: &str) -> Model {
     Model::from_toml(&Source::new("model.toml", text)).unwrap_or_else(|e| panic!("{e}\n{text}")).0

@@ -18,7 +18,7 @@ pub fn model_parser(data: &[u8]) {
             drop(model.ask().problem().map(|problem| problem.closed_loop(&budget).is_ok()));
         }
         Err(error) => {
-            let drawn = jurist_engine::show::diagnostics::render_error(&error, false);
+            let drawn = jurist_show::diagnostics::render_error(&error, false);
             assert!(!drawn.is_empty());
         }
     }

@@ -55,7 +55,7 @@ pub struct Name {
 }
 
 /// A named value that does not change. One that is given as a number can be replaced by another number or freed:
-/// see [`Question`](crate::problem::Question).
+/// see `Question` of the engine.
 ///
 /// ```
 /// use jurist_model::Model;

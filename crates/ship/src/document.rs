@@ -8,11 +8,12 @@ use crate::run::Overflow;
 use crate::shipped::Stored;
 use jurist_algebra::number::{BinaryFormat, Integer, Rational};
 use jurist_engine::answer::{Answer, ToleranceAnswer};
-use jurist_engine::show::documents::{
+use jurist_engine::stability::StableSet;
+use jurist_show::Document;
+use jurist_show::documents::{
     Answered, Enclosure, Exact, Intervals, MarginsFound, Named, PointQuestion, RequirementFound, RootsByPlace, Stable,
     ToleranceFound, Undecided, Verdict,
 };
-use jurist_engine::stability::StableSet;
 use serde::{Deserialize, Serialize};
 
 /// `jurist/ship/1`.
@@ -360,7 +361,7 @@ impl From<&ranges::NodeRange> for RangeFound {
 /// JSON Schemas of these documents: kind with version, and schema.
 #[cfg(feature = "schema")]
 pub fn schemas() -> Vec<(&'static str, serde_json::Value)> {
-    use jurist_engine::show::documents::schemas::schema_of;
+    use jurist_show::documents::schemas::schema_of;
     let name = "jurist/ship/1";
     vec![(name, schema_of::<Ship>(name))]
 }
@@ -370,6 +371,6 @@ mod tests {
     #[test]
     fn the_schemas_that_are_published_are_those_of_the_types() {
         let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../schema");
-        jurist_engine::show::documents::schemas::check_published(&folder, &super::schemas());
+        jurist_show::documents::schemas::check_published(&folder, &super::schemas());
     }
 }

@@ -13,13 +13,14 @@ use jurist_engine::answer::{ToleranceAnswer, Verdict};
 use jurist_engine::error::Error;
 use jurist_engine::model::Form;
 use jurist_engine::response::{DelayMargin, Margins, StableMargins};
-use jurist_engine::show::bounded::{at_least, at_most};
-use jurist_engine::show::intervals::{heading, nowhere, stable_lines};
-use jurist_engine::show::layout::{Columns, named_values};
-use jurist_engine::show::real::enclosed;
-use jurist_engine::show::verdict::verdict_line;
 use jurist_engine::stability::StableSet;
 use jurist_engine::stability::boxes::BoxDecision;
+use jurist_show::Text;
+use jurist_show::bounded::{at_least, at_most};
+use jurist_show::intervals::{heading, nowhere, stable_lines};
+use jurist_show::layout::{Columns, named_values};
+use jurist_show::real::enclosed;
+use jurist_show::verdict::verdict_line;
 use std::fmt::Write;
 
 /// Digits of bounds and factors.
@@ -261,7 +262,7 @@ impl ShipAnswer {
 }
 
 fn decimal(value: &Real, digits: usize) -> String {
-    jurist_engine::show::real::rounded(value, digits).decimal
+    jurist_show::real::rounded(value, digits).decimal
 }
 
 /// A part of the answer, or why there is none.

@@ -6,7 +6,7 @@ use crate::lines::Lines;
 use crate::{many_gains, one_gain, two_gains};
 use jurist_engine::error::Error;
 use jurist_engine::problem::Bound;
-use jurist_engine::show::layout::short;
+use jurist_show::layout::short;
 
 /// What may be left out.
 #[derive(Clone, Copy)]

@@ -4,9 +4,7 @@ use crate::answer::{Best, Optimum, Outcome, Place, TuneAnswer};
 use crate::reading::Reading;
 use jurist_algebra::number::Rational;
 use jurist_algebra::real::Real;
-use jurist_engine::show::documents::{
-    AllValues, Enclosure, Exact, Named, Number, PointQuestion, RequirementFound, Undecided,
-};
+use jurist_show::documents::{AllValues, Enclosure, Exact, Named, Number, PointQuestion, RequirementFound, Undecided};
 use serde::{Deserialize, Serialize};
 
 /// `jurist/tune/1`.
@@ -187,7 +185,7 @@ fn number_text(reading: &Reading, x: &Rational, digits: usize) -> String {
 /// JSON Schemas of these documents: kind with version, and schema.
 #[cfg(feature = "schema")]
 pub fn schemas() -> Vec<(&'static str, serde_json::Value)> {
-    use jurist_engine::show::documents::schemas::schema_of;
+    use jurist_show::documents::schemas::schema_of;
     let name = "jurist/tune/1";
     vec![(name, schema_of::<Tune>(name))]
 }
@@ -197,6 +195,6 @@ mod tests {
     #[test]
     fn the_schemas_that_are_published_are_those_of_the_types() {
         let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../schema");
-        jurist_engine::show::documents::schemas::check_published(&folder, &super::schemas());
+        jurist_show::documents::schemas::check_published(&folder, &super::schemas());
     }
 }

@@ -4,7 +4,7 @@ use crate::asked::{Asked, Objective};
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::real::Real;
 use jurist_engine::response::Level;
-use jurist_engine::show::real::{enclosed, rounded};
+use jurist_show::real::{enclosed, rounded};
 
 /// The name of the settling time, as that of the requirement.
 pub(crate) const SETTLING_TIME: &str = "settling_time";

@@ -9,11 +9,11 @@ use jurist_algebra::poly::{MultiPoly, RealAlgebraic};
 use jurist_algebra::real::Real;
 use jurist_engine::problem::Bound;
 use jurist_engine::response::Level;
-use jurist_engine::show::for_all_text;
-use jurist_engine::show::intervals::heading;
-use jurist_engine::show::layout::short;
-use jurist_engine::show::real::{enclosed, rounded};
-use jurist_engine::show::region::causes_text;
+use jurist_show::intervals::heading;
+use jurist_show::layout::short;
+use jurist_show::real::{enclosed, rounded};
+use jurist_show::region::causes_text;
+use jurist_show::{Text, for_all_text};
 use jurist_stability::Cause;
 use std::fmt::Write;
 

@@ -8,6 +8,7 @@ use crate::cli::requirements::warn_of_ignored;
 use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
 use jurist_engine::coverage::Asked;
+use jurist_show::{Document, Text};
 
 /// Options of `jurist analyze`.
 #[derive(Args, Debug)]

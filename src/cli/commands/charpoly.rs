@@ -13,8 +13,8 @@ use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_engine::error::{Code, Diagnostic, Diagnostics};
 use jurist_engine::model::Model;
 use jurist_engine::problem::Problem;
-use jurist_engine::show::documents::{Charpoly, RootLocusForm, Transfer, to_text};
-use jurist_engine::show::notation::{NamedPolynomial, Notation, PolynomialReport, Relation, root_locus_form};
+use jurist_show::documents::{Charpoly, RootLocusForm, Transfer, to_text};
+use jurist_show::notation::{NamedPolynomial, Notation, PolynomialReport, Relation, root_locus_form};
 use std::ffi::OsString;
 use std::sync::Arc;
 

@@ -14,7 +14,8 @@ use jurist_engine::error::{Code, Diagnostic, Diagnostics, Error};
 use jurist_engine::model::Model;
 use jurist_engine::problem::Ask;
 use jurist_engine::response::Requirements;
-use jurist_engine::show::documents::{Check, to_text};
+use jurist_show::Text;
+use jurist_show::documents::{Check, to_text};
 use std::ffi::OsString;
 
 /// Options of `jurist check`.

@@ -5,7 +5,7 @@ use crate::cli::output::write_answer;
 use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
 use jurist_engine::error::{Code, Diagnostic, codes};
-use jurist_engine::show::words;
+use jurist_show::words;
 
 /// Options of `jurist explain`.
 #[derive(Args, Debug)]

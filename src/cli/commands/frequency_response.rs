@@ -11,7 +11,7 @@ use jurist_draw::document::frequency_response_json;
 use jurist_draw::figures::{Figure, FrequencyResponse, bode, frequency_response, nyquist};
 use jurist_engine::answer::Answer;
 use jurist_engine::response::Margins;
-use jurist_engine::show::documents::to_text;
+use jurist_show::documents::to_text;
 
 /// Options of both.
 #[derive(Args, Debug)]

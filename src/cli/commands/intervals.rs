@@ -17,8 +17,9 @@ use jurist_engine::coverage::Asked;
 use jurist_engine::model::Model;
 use jurist_engine::problem::{DECAY, Problem, Question, RADIUS};
 use jurist_engine::response::{MapForAll, RequiredSet, Requirement};
-use jurist_engine::show::documents::Intervals;
-use jurist_engine::show::intervals_text;
+use jurist_show::documents::Intervals;
+use jurist_show::{Document, Text};
+use jurist_show::{intervals_text, required_text};
 use std::ffi::OsString;
 use std::slice::from_ref;
 use std::sync::Arc;
@@ -146,10 +147,14 @@ fn required(
     let digits = output.digits() as usize;
     context.warn(None, answer.problem().warnings());
     if let Some(stopped) = &answer.value().stopped {
-        let text = || Some(answer.text(requirements, digits));
-        return context.undecided(output, stopped, text, || answer.json(requirements, digits));
+        let text = || Some(required_text(answer, requirements, digits));
+        return context.undecided(output, stopped, text, || Intervals::of_required(answer, requirements, digits));
     }
-    context.answer(output, || answer.text(requirements, digits), || answer.json(requirements, digits))?;
+    context.answer(
+        output,
+        || required_text(answer, requirements, digits),
+        || Intervals::of_required(answer, requirements, digits),
+    )?;
     let make = || certify_required_intervals(answer, requirements, at, &context.budget);
     let certified = certified(context, &options.certificate, make)?;
     written(options, model, (&answer.problem().parameter().name, &certified), context)?;

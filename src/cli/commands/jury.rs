@@ -8,8 +8,9 @@ use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
 use jurist_engine::coverage::Asked;
 use jurist_engine::problem::{DECAY, RADIUS};
-use jurist_engine::show::documents::{JuryAtPoint, JuryInParameter};
-use jurist_engine::show::table_text;
+use jurist_show::documents::{JuryAtPoint, JuryInParameter};
+use jurist_show::table_text;
+use jurist_show::{Document, Text};
 use std::slice::from_ref;
 
 /// Options of `jurist jury`.
@@ -37,7 +38,7 @@ impl Runs for Options {
                 }
             };
             context.warn(None, problem.warnings());
-            context.answer(output, || answer.text(digits), || answer.json())?;
+            context.answer(output, || answer.text(digits), || answer.json(digits))?;
             return Ok(Status::Holds);
         };
         if param != RADIUS && param != DECAY {

@@ -12,7 +12,7 @@ use clap::Args;
 use jurist_algebra::number::Rational;
 use jurist_engine::error::{Code, Diagnostic};
 use jurist_engine::model::{Model, Tolerance};
-use jurist_engine::show::documents::to_text;
+use jurist_show::documents::to_text;
 use std::ffi::OsString;
 use std::path::Path;
 
@@ -98,7 +98,7 @@ fn of_all(
     name: &str,
     within: &Rational,
     context: &Context,
-) -> Result<jurist_engine::show::documents::Lock, Error> {
+) -> Result<jurist_show::documents::Lock, Error> {
     let mut lock = make(model, name, &[], within, &context.budget)?;
     for parameter in model.parameters() {
         let budget = context.budget.clone().within_work(WORK_OF_ONE);

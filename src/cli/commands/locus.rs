@@ -14,7 +14,7 @@ use jurist_draw::document::locus_json;
 use jurist_draw::figures::{locus_of, locus_range};
 use jurist_draw::simulate::ParameterScale;
 use jurist_engine::error::{Code, Diagnostic};
-use jurist_engine::show::documents::to_text;
+use jurist_show::documents::to_text;
 use std::slice::from_ref;
 
 /// Options of `jurist locus`.

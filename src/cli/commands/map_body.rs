@@ -18,6 +18,7 @@ use jurist_engine::coverage::Asked;
 use jurist_engine::error::{Code, Diagnostic, Span};
 use jurist_engine::model::Model;
 use jurist_engine::problem::Question;
+use jurist_show::{Document, Text};
 use std::path::Path;
 
 /// The ends of stability in the third parameter are narrowed to this part of its range.

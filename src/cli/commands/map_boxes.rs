@@ -19,6 +19,7 @@ use jurist_engine::problem::{Problem, Question};
 use jurist_engine::response::{MapForAll, Requirements};
 use jurist_engine::stability::Range;
 use jurist_engine::stability::plane::boxes::Window;
+use jurist_show::{Document, Text};
 use std::path::Path;
 
 /// How the map is made.
@@ -174,10 +175,10 @@ pub(super) fn answer(boxes: &Answer<MapBoxes>, output: &OutputOptions, context: 
     }
     match boxes.value().stopped() {
         None => {
-            context.answer(output, || boxes.text(digits), || boxes.json())?;
+            context.answer(output, || boxes.text(digits), || boxes.json(digits))?;
             Ok(Status::Holds)
         }
-        Some(stop) => context.undecided(output, &stopped_at(stop), || Some(boxes.text(digits)), || boxes.json()),
+        Some(stop) => context.undecided(output, &stopped_at(stop), || Some(boxes.text(digits)), || boxes.json(digits)),
     }
 }
 

@@ -13,7 +13,8 @@ use jurist_engine::coverage::Asked;
 use jurist_engine::model::Model;
 use jurist_engine::problem::Question;
 use jurist_engine::response::{AllOf, Everywhere, LeastMargin, MapForAll, Requirement};
-use jurist_engine::show::documents::{MarginRanges, Margins};
+use jurist_show::documents::{MarginRanges, Margins};
+use jurist_show::{Document, Text};
 
 /// Options of `jurist margins`.
 #[derive(Args, Debug)]
@@ -104,7 +105,7 @@ fn least(all: Vec<AllOf>, question: Question, options: &Options, context: &Conte
     match decided(names.least_margins(question, &context.budget))? {
         Ok(answer) => {
             context.warn(None, answer.problem().warnings());
-            context.answer(output, || answer.text(digits), || answer.json())?;
+            context.answer(output, || answer.text(digits), || answer.json(digits))?;
             let found = answer.value();
             if let Some(stopped) = &found.stopped {
                 return Ok(context.say_undecided(stopped));

@@ -9,7 +9,8 @@ use clap::Args;
 use jurist_engine::coverage::Asked;
 use jurist_engine::model::Time;
 use jurist_engine::problem::Problem;
-use jurist_engine::show::documents::Norm;
+use jurist_show::documents::Norm;
+use jurist_show::{Document, Text};
 use std::ffi::OsString;
 use std::sync::Arc;
 

@@ -8,7 +8,8 @@ use crate::cli::status::{Error, Outcome, Status};
 use clap::Args;
 use jurist_engine::answer::RIGHTMOST;
 use jurist_engine::coverage::Asked;
-use jurist_engine::show::documents::Roots;
+use jurist_show::documents::Roots;
+use jurist_show::{Document, Text};
 
 /// Options of `jurist roots`.
 #[derive(Args, Debug)]

@@ -20,13 +20,14 @@ use jurist_engine::answer::PointVerdict;
 use jurist_engine::error::{Code, Diagnostic, Source};
 use jurist_engine::model::Model;
 use jurist_engine::problem::Problem;
-use jurist_engine::show::documents;
-use jurist_engine::show::layout::short;
-use jurist_engine::show::verdict::verdict_line;
 use jurist_ship::answer::{Beside, Holds, ShipAnswer};
 use jurist_ship::asked::{Asked, Overrides};
 use jurist_ship::emit::Target;
 use jurist_ship::ranges::WorstInput;
+use jurist_show::documents;
+use jurist_show::layout::short;
+use jurist_show::verdict::verdict_line;
+use jurist_show::{Text, margin_sentences};
 use std::ffi::OsString;
 use std::slice::from_ref;
 
@@ -282,7 +283,7 @@ fn remarks(answer: &ShipAnswer, certificate: Option<&str>) -> Vec<String> {
         format!("The loop with these coefficients is {}.", verdict_line(verdict.problem(), verdict.value())),
     ];
     if let Ok(margins) = &answer.rounded.margins {
-        out.extend(margins.sentences(REMARK_DIGITS).into_iter().map(|(name, said)| format!("{name}: {said}.")));
+        out.extend(margin_sentences(margins, REMARK_DIGITS).into_iter().map(|(name, said)| format!("{name}: {said}.")));
     }
     out.extend(answer.rounded.requirements.iter().map(|found| format!("{}.", found.text(REMARK_DIGITS))));
     out.extend(answer.bounds());

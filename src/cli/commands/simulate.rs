@@ -18,7 +18,7 @@ use jurist_draw::simulate::{Course, Excitation, Pulse, Record, SwitchedModel, ex
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Source};
 use jurist_engine::model::Model;
 use jurist_engine::problem::Problem;
-use jurist_engine::show::documents::to_text;
+use jurist_show::documents::to_text;
 use std::collections::HashMap;
 use std::ffi::OsString;
 use std::path::Path;

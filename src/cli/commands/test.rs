@@ -9,7 +9,7 @@ use crate::cli::suite::collect::{Collector, text};
 use crate::cli::suite::{junit, try_all};
 use crate::cli::table::Table;
 use clap::Args;
-use jurist_engine::show::documents::{Test, to_text};
+use jurist_show::documents::{Test, to_text};
 use std::ffi::OsString;
 use std::path::Path;
 use std::sync::Arc;

@@ -18,7 +18,7 @@ use jurist_engine::error::{Code, Diagnostic, Diagnostics, Span};
 use jurist_engine::model::Model;
 use jurist_engine::problem::Question;
 use jurist_engine::response::{AllOf, Requirements};
-use jurist_engine::show::documents;
+use jurist_show::documents;
 use jurist_tune::answer::TuneAnswer;
 use jurist_tune::asked::{Asked, Gain, is_share};
 use jurist_tune::objective::SOURCE as OBJECTIVE;

@@ -14,7 +14,8 @@ use clap::Args;
 use jurist_algebra::limits::Exhausted;
 use jurist_engine::answer::Verdict;
 use jurist_engine::coverage::Asked;
-use jurist_engine::show::documents;
+use jurist_show::documents;
+use jurist_show::{Document, Text};
 use std::ffi::OsString;
 
 /// Options of `jurist verdict`.
@@ -64,14 +65,14 @@ impl Runs for Options {
                 .regional
                 .iter()
                 .map(|(name, text)| format!("{name} {text}: {}", if in_region { "met" } else { "not met" }));
-            list.chain(regional).fold(answer.text(), |text, line| format!("{text}{line}\n"))
+            list.chain(regional).fold(answer.text(digits), |text, line| format!("{text}{line}\n"))
         };
         let document = || {
             let list = found.iter().map(|r| documents::RequirementFound::new(r, digits));
             let regional =
                 |(name, text): &(String, String)| documents::RequirementFound::of_region(name, text, in_region);
             let requirements = list.chain(asked.regional.iter().map(regional)).collect();
-            documents::Verdict { requirements, ..answer.json() }
+            documents::Verdict { requirements, ..answer.json(digits) }
         };
         context.answer(output, text, document)?;
         let model = &problem.model().source().text;

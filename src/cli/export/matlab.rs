@@ -1,7 +1,7 @@
 //! Scripts for MATLAB's Control System Toolbox, and for Octave's package `control`.
 
 use super::Target;
-use jurist_engine::show::notation::MATLAB_KEYWORDS;
+use jurist_show::notation::MATLAB_KEYWORDS;
 
 /// A script that MATLAB and Octave read.
 pub(in crate::cli) struct Matlab;

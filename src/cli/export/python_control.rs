@@ -1,7 +1,7 @@
 //! Scripts for the Python package python-control.
 
 use super::Target;
-use jurist_engine::show::notation::PYTHON_KEYWORDS;
+use jurist_show::notation::PYTHON_KEYWORDS;
 
 /// A Python file for the package `control`.
 pub(in crate::cli) struct PythonControl;

@@ -3,7 +3,7 @@
 use super::names::{Given, plain};
 use super::number::Number;
 use super::{Matrix, Names, StateSpace, Time};
-use jurist_engine::show::layout::visible;
+use jurist_show::layout::visible;
 use std::fmt::Write;
 
 /// What is made of the system.

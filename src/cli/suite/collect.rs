@@ -6,7 +6,7 @@ use crate::cli::table::{Point, Table};
 use crate::references::{COPY, Resolved};
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Source, Span};
 use jurist_engine::model::{Claim, ClaimKind, Expectation, Model, source_from_bytes};
-use jurist_engine::show::documents::Lock;
+use jurist_show::documents::Lock;
 use std::collections::{HashMap, HashSet};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};

@@ -12,11 +12,12 @@ use jurist_engine::error::{Code, Diagnostic};
 use jurist_engine::model::{ClaimKind, Model, RequirementText, Tolerance};
 use jurist_engine::problem::{Ask, Question};
 use jurist_engine::response::Requirements;
-use jurist_engine::show::documents::TestStatus;
-use jurist_engine::show::layout::short;
-use jurist_engine::show::margins::margin;
 use jurist_engine::stability::boxes::BoxDecision;
 use jurist_engine::stability::{Cause, End, Range, StableInterval, StableSet};
+use jurist_show::documents::TestStatus;
+use jurist_show::layout::short;
+use jurist_show::margins::margin;
+use jurist_show::{Text, margin_left, required_value};
 use std::path::Path;
 
 /// Digits of numbers in what was found.
@@ -103,7 +104,7 @@ fn one(claim: &ClaimKind, model: &Model, point: &Point, folder: &Path, budget: &
     match claim {
         ClaimKind::Verdict(expected) => {
             let found = asked(model, point).verdict(budget)?;
-            let text = found.text();
+            let text = found.text(DIGITS);
             let line = text.lines().nth(1).unwrap_or_default();
             Ok(Line::new(name, passed_if(found.value().verdict.name() == expected), line))
         }
@@ -307,12 +308,12 @@ fn requirements(
     let problem = question.problem()?;
     let mut lines = Vec::new();
     for met in problem.requirements_met(&required.list, required.at.as_deref(), budget)? {
-        let text = match (met.value(DIGITS), met.met) {
+        let text = match (required_value(&met, DIGITS), met.met) {
             (Some(value), _) => format!("is {}", with_unit(&value, met.requirement.name())),
             (None, true) => "met".to_owned(),
             (None, false) => "not met".to_owned(),
         };
-        lines.push(Line::new(met.requirement.text(), passed_if(met.met), text).with_margin(met.margin_left()));
+        lines.push(Line::new(met.requirement.text(), passed_if(met.met), text).with_margin(margin_left(&met)));
     }
     if !required.regional.is_empty() {
         let holds = problem.verdict(budget)?.value().verdict == Verdict::Stable;

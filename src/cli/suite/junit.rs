@@ -1,7 +1,7 @@
 //! Expectations as a JUnit report, which test servers read: elements and attributes of Jenkins' schema `junit-10.xsd` alone. The few of them
 //! need no library.
 
-use jurist_engine::show::documents::{Test, TestStatus, Tested, TestedFile};
+use jurist_show::documents::{Test, TestStatus, Tested, TestedFile};
 
 /// The report: a suite for each file. What is undecided or could not be tried is an error there.
 pub(in crate::cli) fn report(test: &Test) -> String {

@@ -8,7 +8,7 @@ use jurist_algebra::number::{Rational, parse_number};
 use jurist_engine::error::{Code, Diagnostic};
 use jurist_engine::model::Model;
 use jurist_engine::problem::Ask;
-use jurist_engine::show::documents::{Bounds, End, Lock, LockedLimits, TestStatus};
+use jurist_show::documents::{Bounds, End, Lock, LockedLimits, TestStatus};
 use std::path::{Path, PathBuf};
 
 /// Significant digits of locked limits.

@@ -11,7 +11,7 @@ pub(super) use try_all::{Outcomes, try_all};
 
 use jurist_algebra::number::Rational;
 use jurist_engine::error::{Source, Span};
-use jurist_engine::show::documents::TestStatus;
+use jurist_show::documents::TestStatus;
 use std::sync::Arc;
 
 /// A place in a text.

@@ -3,8 +3,8 @@
 use super::{Line, Outcomes, percent};
 use jurist_algebra::number::{Rational, to_decimal};
 use jurist_engine::error::{Code, Diagnostic, Source};
-use jurist_engine::show::documents::{Check, Test, TestStatus, Tested, TestedFile};
-use jurist_engine::show::layout::{visible, wrapped};
+use jurist_show::documents::{Check, Test, TestStatus, Tested, TestedFile};
+use jurist_show::layout::{visible, wrapped};
 use serde_json::Value;
 use std::sync::Arc;
 

@@ -8,8 +8,8 @@ use crate::cli::table::Point;
 use jurist_algebra::limits::{Budget, parallel_map};
 use jurist_algebra::number::Rational;
 use jurist_engine::model::ClaimKind;
-use jurist_engine::show::documents::TestStatus;
-use jurist_engine::show::layout::short;
+use jurist_show::documents::TestStatus;
+use jurist_show::layout::short;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 

@@ -8,8 +8,9 @@ use jurist_algebra::real::Real;
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Error};
 use jurist_engine::model::Model;
 use jurist_engine::problem::Ask;
-use jurist_engine::show::diagnostics::render_error;
 use jurist_engine::stability::{End, StableSet};
+use jurist_show::Document;
+use jurist_show::diagnostics::render_error;
 use serde_json::{Value, json};
 use std::cmp::Ordering;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -58,7 +59,7 @@ fn answered(model: &Model, question: &Question, budget: &Budget) -> Result<Vec<R
         asked = asked.set(name, value.clone());
     }
     if question.ask == VERDICT {
-        let document = asked.verdict(budget)?.json();
+        let document = asked.verdict(budget)?.json(DIGITS);
         let document = serde_json::to_value(&document).unwrap_or_default();
         let names = ["verdict", "degree", "inside", "on", "outside", "infinite"];
         return Ok(vec![names.iter().filter_map(|n| column(n, &document[*n])).collect()]);

@@ -1,6 +1,6 @@
 //! The document `jurist/main/1`.
 
-use jurist_engine::show::documents::{Answered, Exact, Intervals, JuryInParameter};
+use jurist_show::documents::{Answered, Exact, Intervals, JuryInParameter};
 use serde::{Deserialize, Serialize};
 
 /// `jurist/main/1`.
@@ -88,7 +88,7 @@ pub struct Rounding {
 #[cfg(feature = "schema")]
 pub fn schemas() -> Vec<(&'static str, serde_json::Value)> {
     let name = "jurist/main/1";
-    vec![(name, jurist_engine::show::documents::schemas::schema_of::<Main>(name))]
+    vec![(name, jurist_show::documents::schemas::schema_of::<Main>(name))]
 }
 
 #[cfg(all(test, feature = "schema"))]
@@ -96,6 +96,6 @@ mod tests {
     #[test]
     fn the_schemas_that_are_published_are_those_of_the_types() {
         let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../schema");
-        jurist_engine::show::documents::schemas::check_published(&folder, &super::schemas());
+        jurist_show::documents::schemas::check_published(&folder, &super::schemas());
     }
 }

@@ -2,7 +2,7 @@
 
 use jurist_draw::page::Table;
 use jurist_draw::page::words::{Token, is_variable, tokens};
-use jurist_engine::show::notation::latex_symbol;
+use jurist_show::notation::latex_symbol;
 
 /// Characters of a table's width at `\footnotesize` in a line of 12 cm.
 const LINE: usize = 76;

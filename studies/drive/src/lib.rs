@@ -25,7 +25,7 @@ pub use report::{NamedFigure, PaperReport, paper_report};
 
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::Rational;
-use jurist_engine::show::notation::Coefficient;
+use jurist_show::notation::Coefficient;
 
 /// The coefficient of `z^power_of_z` times `parameter^power_of_parameter` of a polynomial in one
 /// parameter, whose denominators are numbers; 0 where there is none.

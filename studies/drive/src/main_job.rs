@@ -10,12 +10,12 @@ use jurist_engine::answer::{Answer, ParametricTable};
 use jurist_engine::error::{Error, Source};
 use jurist_engine::model::Model;
 use jurist_engine::problem::Ask;
-use jurist_engine::show::documents::{Answered, Exact};
-use jurist_engine::show::intervals::{domain_text, set_lines};
-use jurist_engine::show::layout::{Columns, short, visible, wrapped};
-use jurist_engine::show::notation::Coefficient;
-use jurist_engine::show::real;
 use jurist_engine::stability::{AlgebraicInterval, ClassicalTest, End, IntervalSet, StableInterval, StableSet};
+use jurist_show::documents::{Answered, Exact};
+use jurist_show::intervals::{domain_text, set_lines};
+use jurist_show::layout::{Columns, short, visible, wrapped};
+use jurist_show::notation::Coefficient;
+use jurist_show::{Document, real};
 
 /// Eq. 23 with the digits that the paper prints.
 const PRINTED_23: &str = include_str!("../models/equation-23-as-printed.toml");
@@ -305,7 +305,7 @@ fn rounding_text(job: &MainJob, digits: usize) -> String {
     };
     let at_one = |p: &CharacteristicPolynomial| {
         let names = [name.clone()];
-        jurist_engine::show::notation::coefficient_text(&Coefficient::new(&value_at_one(p), 1), &names, Some(digits))
+        jurist_show::notation::coefficient_text(&Coefficient::new(&value_at_one(p), 1), &names, Some(digits))
     };
     let end =
         |end: &Option<End>| end.as_ref().map_or_else(|| "infinity".into(), |e| real::rounded(&e.value, digits).decimal);

@@ -16,8 +16,9 @@ use jurist_engine::answer::{Answer, ParametricTable};
 use jurist_engine::error::{Error, Source};
 use jurist_engine::model::{Form, Model};
 use jurist_engine::problem::Ask;
-use jurist_engine::show::intervals::set_lines;
-use jurist_engine::show::notation::{Coefficient, coefficient_text, root_locus_form};
+use jurist_show::Text;
+use jurist_show::intervals::set_lines;
+use jurist_show::notation::{Coefficient, coefficient_text, root_locus_form};
 
 /// The drive as blocks, for the circuit with switches.
 const BLOCKS: &str = include_str!("../models/drive-blocks.toml");

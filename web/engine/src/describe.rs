@@ -5,7 +5,7 @@ use crate::reply::Reply;
 use jurist::documents::Check;
 use jurist::{Diagnostics, Expression, Model};
 use jurist_engine::model::{Block, Dynamics, Form, Matrix};
-use jurist_engine::show::diagnostics::render_error;
+use jurist_show::diagnostics::render_error;
 use serde_json::{Value, json};
 
 /// Every remark, and the model where it is one.

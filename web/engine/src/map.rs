@@ -8,8 +8,8 @@ use jurist_algebra::number::to_decimal;
 use jurist_draw::figures::map::{
     AxisWindow, MapContents, MapTrace, Role, WindowRequest, choose_windows, mechanism_words, trace_map,
 };
-use jurist_engine::show::{map_boxes_text, map_text};
 use jurist_engine::stability::plane::boxes::Window;
+use jurist_show::{map_boxes_text, map_text};
 use serde::Deserialize;
 use serde_json::{Value, json};
 

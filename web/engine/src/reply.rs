@@ -1,7 +1,7 @@
 //! The forms that an answer to the page has.
 
 use jurist::{Diagnostics, Error};
-use jurist_engine::show::diagnostics::render_error;
+use jurist_show::diagnostics::render_error;
 use serde::Serialize;
 use serde_json::{Value, json};
 

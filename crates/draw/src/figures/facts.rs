@@ -5,7 +5,7 @@ use super::engineering::quantity;
 use jurist_algebra::number::Rational;
 use jurist_engine::model::{Form, Model};
 use jurist_engine::problem::Problem;
-use jurist_engine::show::layout::{called, short, visible};
+use jurist_show::layout::{called, short, visible};
 
 /// The values that are fixed, and how continuous blocks were made discrete; a line each, none where there is none.
 ///

@@ -17,8 +17,8 @@ use jurist_engine::answer::Answer;
 use jurist_engine::error::Error;
 use jurist_engine::model::Time;
 use jurist_engine::problem::{Problem, RoundedLoop};
-use jurist_engine::show::layout::{short, visible};
 use jurist_engine::stability::{Cause, End, ParametricPolynomial, Rounding, StableSet, SymbolicPolynomial};
+use jurist_show::layout::{short, visible};
 pub use range::locus_range;
 
 use marks::Ends;

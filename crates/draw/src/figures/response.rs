@@ -7,7 +7,7 @@ use super::panel::{Corner, Curve, Mark, Panel, Shape, Text, stacked};
 use super::{COLOURS, Figure, Scale};
 use jurist_engine::answer::Answer;
 use jurist_engine::response::{Margins, PhaseMargin, Place};
-use jurist_engine::show::layout::visible;
+use jurist_show::layout::visible;
 
 /// A picture's size.
 const SIZE: (f64, f64) = (720.0, 300.0);

@@ -6,7 +6,7 @@ use super::engineering::{frequency_text, quantity, unit_text};
 use super::panel::{Corner, Curve, Mark, Panel, Shape, Text};
 use crate::simulate::{StepMeasures, Trace};
 use jurist_algebra::number::{parse_number, to_decimal};
-use jurist_engine::show::layout::visible;
+use jurist_show::layout::visible;
 
 /// Longest list of points a curve keeps; more would only make the file larger.
 const MOST_POINTS: usize = 2400;

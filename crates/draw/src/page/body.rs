@@ -6,8 +6,9 @@ use crate::figures::map::{MapContents, MapFigure, common_legend, slice_name};
 use jurist_algebra::limits::Budget;
 use jurist_engine::answer::{Answer, Body, Map};
 use jurist_engine::error::Error;
-use jurist_engine::show::documents::Exact;
-use jurist_engine::show::layout::named_values;
+use jurist_show::documents::Exact;
+use jurist_show::layout::named_values;
+use jurist_show::{body_rows, body_sentences};
 use serde_json::{Value, json};
 
 /// What the page has beyond that of one map.
@@ -62,7 +63,7 @@ pub fn body_page(
     });
     let data = data.to_string().replace('<', "\\u003c");
     let sentences: String =
-        answer.sentences(digits).iter().map(|text| format!("<li>{}</li>\n", escaped(text))).collect();
+        body_sentences(answer, digits).iter().map(|text| format!("<li>{}</li>\n", escaped(text))).collect();
     let body = format!(
         "<h1>{title}</h1>\n\
          <p class=\"small\">{x_name} from left to right, {y_name} upwards, {count} values of {z_name}. {others}</p>\n\
@@ -160,7 +161,7 @@ fn table(answer: &Answer<Body>, shown: usize) -> String {
         };
         row.iter().enumerate().map(|(k, cell)| format!("<{tag}{}>{}</{tag}>", span(k), escaped(cell))).collect()
     };
-    let rows = answer.rows();
+    let rows = body_rows(answer);
     let row =
         |(k, row): (usize, &Vec<String>)| format!("<tr aria-current=\"{}\">{}</tr>\n", k == shown, cells(row, "td"));
     let body: String = rows[1..].iter().enumerate().map(row).collect();

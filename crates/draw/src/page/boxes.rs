@@ -3,6 +3,7 @@
 use super::{document, escaped};
 use crate::figures::{Figure, dark_style};
 use jurist_engine::answer::{Answer, MapBoxes};
+use jurist_show::Text;
 
 const STYLE: &str = "\
 :root{color-scheme:light dark}

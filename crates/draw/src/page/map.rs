@@ -10,10 +10,10 @@ use jurist_algebra::real::Real;
 use jurist_engine::answer::{Answer, Map};
 use jurist_engine::error::Error;
 use jurist_engine::problem::Free;
-use jurist_engine::show::documents::Exact;
-use jurist_engine::show::layout::{named_values, short};
-use jurist_engine::show::region::goal_or_stable;
 use jurist_engine::stability::plane::Strip;
+use jurist_show::documents::Exact;
+use jurist_show::layout::{named_values, short};
+use jurist_show::region::goal_or_stable;
 use serde_json::{Value, json};
 
 /// What of a page of maps is exact.

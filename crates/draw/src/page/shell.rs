@@ -1,6 +1,6 @@
 //! What every page begins and ends with.
 
-use jurist_engine::show::layout::visible;
+use jurist_show::layout::visible;
 
 /// An HTML page that loads nothing from anywhere: a title (plain text), its style, and the body. With `script_allowed` the
 /// page's own script may run, else none.

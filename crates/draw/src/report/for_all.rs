@@ -7,7 +7,8 @@ use crate::page::{escaped, paragraph};
 use jurist_algebra::limits::parallel_map;
 use jurist_engine::problem::Question;
 use jurist_engine::response::{MapForAll, Requirements};
-use jurist_engine::show::for_all_text;
+use jurist_show::for_all_text;
+use jurist_show::{Text, required_text};
 
 /// Work of the sets of all parameters together, which they share evenly, and the least of one: about a second of one core, and a fifth.
 const WORK: u64 = 100_000_000;
@@ -36,7 +37,7 @@ pub(super) fn section(question: &Question, request: &ReportRequest<'_>, at: Opti
         let found = parts.part(&format!("{name} for all values"), work, |budget| {
             let one = MapForAll::new(ranges.to_vec()).with_requirements(asked.list.clone(), at.map(str::to_owned));
             let set = one.intervals(within(question, &asked).free(&name), budget)?;
-            Ok(set.text(&asked.list, DIGITS))
+            Ok(required_text(&set, &asked.list, DIGITS))
         });
         match found {
             Ok(text) => without_heading(&text),

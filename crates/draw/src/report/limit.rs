@@ -3,8 +3,8 @@
 use jurist_algebra::number::{Rational, to_decimal};
 use jurist_algebra::real::Real;
 use jurist_engine::answer::Answer;
-use jurist_engine::show::real;
 use jurist_engine::stability::{StableInterval, StableSet};
+use jurist_show::real;
 
 /// The stable interval that the nominal value lies in.
 ///

@@ -7,10 +7,11 @@ use jurist_algebra::limits::{join, parallel_map};
 use jurist_algebra::number::{Rational, parse_number, to_decimal};
 use jurist_engine::answer::{Answer, PointVerdict};
 use jurist_engine::problem::{Problem, Question};
-use jurist_engine::show::documents::{Answered, End, Intervals};
-use jurist_engine::show::intervals::{free_domain_text, nowhere, stable_lines};
-use jurist_engine::show::layout::short;
 use jurist_engine::stability::{Cause, StableSet};
+use jurist_show::documents::{Answered, End, Intervals};
+use jurist_show::intervals::{free_domain_text, nowhere, stable_lines};
+use jurist_show::layout::short;
+use jurist_show::{Document, Text};
 
 /// Significant digits of limits, as the program prints them.
 pub(super) const DIGITS: usize = 12;
@@ -73,7 +74,7 @@ pub(super) fn verdict_sentence(verdict: &Part<Answer<PointVerdict>>) -> String {
     match verdict {
         Err(missing) => missing.sentence(),
         Ok(answer) => {
-            let text = answer.text();
+            let text = answer.text(DIGITS);
             text.lines().nth(1).unwrap_or_default().to_owned()
         }
     }

@@ -11,8 +11,8 @@ use jurist_algebra::number::{Rational, to_decimal};
 use jurist_engine::answer::{Answer, BoxRequest, MapBoxes, MapMethod, MapOrBoxes};
 use jurist_engine::error::Error;
 use jurist_engine::problem::Question;
-use jurist_engine::show::region::goal_or_stable;
 use jurist_engine::stability::{Cause, End, Range, StableSet};
+use jurist_show::region::goal_or_stable;
 
 /// Width and height of a map.
 const SIZE: (f64, f64) = (860.0, 600.0);

@@ -8,6 +8,7 @@ use jurist_algebra::number::Rational;
 use jurist_engine::answer::Answer;
 use jurist_engine::problem::Problem;
 use jurist_engine::response::Margins;
+use jurist_show::{Text, margin_sentences};
 use std::sync::Arc;
 
 /// About half a second of one core.
@@ -36,7 +37,8 @@ pub(super) fn section(margins: &Part<Answer<Margins>>, parts: &Parts<'_>) -> Str
         math(cut)
     ));
     // The digits of a margin are found here: that is work as well.
-    let written = parts.part("digits of the margins", WORK, |_| Ok((answer.sentences(PLACES), answer.text(DIGITS))));
+    let written =
+        parts.part("digits of the margins", WORK, |_| Ok((margin_sentences(answer, PLACES), answer.text(DIGITS))));
     let (sentences, text) = match written {
         Err(missing) => return html + &missing.html(),
         Ok(written) => written,

@@ -29,8 +29,8 @@ use jurist_engine::answer::Answer;
 use jurist_engine::error::Error;
 use jurist_engine::problem::Question;
 use jurist_engine::response::AllOf;
-use jurist_engine::show::layout::called;
 use jurist_engine::stability::StableSet;
+use jurist_show::layout::called;
 use part::{Parts, Work};
 
 /// Proves a certificate again by other code; an error is the reason why it was not accepted.

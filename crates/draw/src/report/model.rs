@@ -7,7 +7,7 @@ use jurist_engine::model::{
     Block, Diagram, Discretization, Dynamics, Expression, Form, Matrix, Model, Ports, Rate, Time,
 };
 use jurist_engine::problem::Question;
-use jurist_engine::show::layout::short;
+use jurist_show::layout::short;
 
 /// A longer model file is not repeated in the report.
 const LONGEST_TEXT: usize = 60_000;

@@ -9,6 +9,7 @@ use jurist_engine::answer::Verdict;
 use jurist_engine::error::Error;
 use jurist_engine::problem::{Problem, Question};
 use jurist_engine::response::Requirements;
+use jurist_show::{margin_left, required_value};
 use std::sync::Arc;
 
 /// About half a second of one core.
@@ -45,8 +46,8 @@ pub(super) fn find(
         for one in problem.requirements_met(&asked.list, at, budget)? {
             out.push(Met {
                 what: one.requirement.text().replace('_', " "),
-                found: one.value(PLACES),
-                left: one.margin_left().map(|left| format!("{} %", percent(&left))),
+                found: required_value(&one, PLACES),
+                left: margin_left(&one).map(|left| format!("{} %", percent(&left))),
                 is_met: one.met,
             });
         }

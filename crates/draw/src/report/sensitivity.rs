@@ -11,8 +11,8 @@ use jurist_algebra::real::Real;
 use jurist_engine::answer::Answer;
 use jurist_engine::error::Error;
 use jurist_engine::problem::Question;
-use jurist_engine::show::layout::short;
 use jurist_engine::stability::{End, Range, StableSet};
+use jurist_show::layout::short;
 
 /// Digits of the limits in the tables, and those to which a limit counts as not moved.
 const DIGITS: (usize, usize) = (7, 12);

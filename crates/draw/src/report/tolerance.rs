@@ -6,7 +6,8 @@ use crate::page::{Table, escaped, math, paragraph};
 use jurist_algebra::number::{parse_number, to_decimal};
 use jurist_engine::answer::{Answer, ToleranceAnswer, ToleranceRequest};
 use jurist_engine::problem::Question;
-use jurist_engine::show::documents::{Answered, Exact, Tolerance, ToleranceFound};
+use jurist_show::documents::{Answered, Exact, Tolerance, ToleranceFound};
+use jurist_show::{Document, Text};
 
 /// About half a second of one core.
 const WORK: Work = Work::Units(50_000_000);

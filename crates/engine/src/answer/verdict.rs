@@ -3,6 +3,7 @@
 use super::Answer;
 use crate::error::Error;
 use crate::problem::{FromNumbers, Problem, Question};
+use crate::stability::boxes::Witness;
 use crate::stability::{AtPoint, RootCount, Shape};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
@@ -117,6 +118,14 @@ impl PointVerdict {
             |RootCount { inside, on, outside }| RootCount { inside: inside / 2, on: on / 2, outside: outside / 2 };
         let (degree, infinite) = (self.degree / 2, self.infinite / 2);
         PointVerdict { degree, infinite, count: self.count.map(half), ..self }
+    }
+
+    /// The root count of a witness as a verdict; answers hold counted ones only.
+    pub fn of_witness(witness: &Witness, problem: &Problem) -> PointVerdict {
+        let algebra = problem.evaluated();
+        let degree = algebra.map_or(0, |algebra| algebra.formal_degree());
+        let found = PointVerdict::of(witness.at.clone().unwrap_or(AtPoint::Undefined), degree);
+        found.without_conjugates_if(algebra.is_some_and(|algebra| algebra.is_complex()))
     }
 
     /// The verdict where the polynomial of this formal degree has these roots.

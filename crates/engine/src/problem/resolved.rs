@@ -263,7 +263,7 @@ impl Problem {
     }
 
     /// Whether the loop is complex, as far as its algebra is known: each of its roots is then counted with its conjugate.
-    pub(crate) fn is_complex(&self) -> bool {
+    pub fn is_complex(&self) -> bool {
         self.algebra.get().is_some_and(Algebra::is_complex)
     }
 

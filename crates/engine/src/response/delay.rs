@@ -35,7 +35,7 @@ const COMPARED_BITS: u64 = 256;
 
 impl DelayMargin {
     /// Whether it counts whole samples: dead time between them makes another loop of a plant behind a hold.
-    pub(crate) fn is_in_samples(&self, open_loop: &OpenLoop) -> bool {
+    pub fn is_in_samples(&self, open_loop: &OpenLoop) -> bool {
         match self {
             DelayMargin::Samples(_) | DelayMargin::SamplesAtLeast(_) => true,
             DelayMargin::Unbounded => open_loop.sample_time().is_some(),

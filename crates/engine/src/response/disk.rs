@@ -84,7 +84,13 @@ impl DiskMargin {
 }
 
 /// Radians as degrees.
-pub(crate) fn degrees(radians: &Enclosure, bits: u64) -> Enclosure {
+///
+/// ```
+/// use jurist_algebra::number::Enclosure;
+/// use jurist_engine::response::degrees;
+/// assert!(degrees(&Enclosure::pi(64), 64).contains(&180.into()));
+/// ```
+pub fn degrees(radians: &Enclosure, bits: u64) -> Enclosure {
     let working = bits + 16;
     let scaled = radians.mul(&Enclosure::from_rational(Rational::from(180)), working);
     scaled.div(&Enclosure::pi(working), bits).expect("pi is not zero")

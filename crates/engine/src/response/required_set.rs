@@ -9,7 +9,7 @@ use super::met::AtPoint;
 use super::on_roots::OnRoots;
 use super::open_loop::OpenLoop;
 use super::over_symbols::SymbolicFamily;
-use super::requirement::{Requirement, Rule};
+use super::requirement::{Found, Requirement, Rule};
 use crate::answer::{Answer, Verdict};
 use crate::error::{Code, Diagnostic, Error};
 use crate::model::Cut;
@@ -132,7 +132,7 @@ impl RequiredEnd {
 
 impl RequiredEnd {
     /// True if the value itself is in the set.
-    pub(crate) fn is_closed(&self) -> bool {
+    pub fn is_closed(&self) -> bool {
         match self {
             RequiredEnd::Stability(end) => end.closed,
             RequiredEnd::Requirement { closed, .. } => *closed,
@@ -176,6 +176,14 @@ pub struct RequirementMet {
     pub margins: Option<Arc<Margins>>,
     /// Whether it is met; never by a loop that is not stable.
     pub met: bool,
+}
+
+impl RequirementMet {
+    /// The margin that the loop has; `None` where there is no bound, and of a loop that is not stable.
+    pub fn found(&self) -> Option<Found<'_>> {
+        let all = self.margins.as_ref()?;
+        self.requirement.found(all, all.stable.as_ref()?)
+    }
 }
 
 impl Problem {

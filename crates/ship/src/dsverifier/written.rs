@@ -5,7 +5,7 @@ use crate::format::{Rounding, power_of_two};
 use crate::realise::Realisation;
 use jurist_algebra::number::Rational;
 use jurist_engine::error::{Diagnostic, Diagnostics};
-use jurist_engine::show::layout::visible;
+use jurist_show::layout::visible;
 use std::fmt::Write;
 
 /// What is chosen where the file leaves it open.

@@ -13,9 +13,9 @@ use crate::scene::{Colour, Item, Rectangle, Scene, Stroke, through};
 use jurist_algebra::number::{Rational, to_decimal};
 use jurist_engine::answer::{Answer, MapBoxes};
 use jurist_engine::response::RequiredBoxes;
-use jurist_engine::show::for_all_text;
-use jurist_engine::show::region::goal_or_stable;
 use jurist_engine::stability::plane::boxes::{BoxMap, BoxVerdict, PlaneBox, Window};
+use jurist_show::for_all_text;
+use jurist_show::region::goal_or_stable;
 
 /// Digits of the ends of ranges in the legend.
 const DIGITS: usize = 6;

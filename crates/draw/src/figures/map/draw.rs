@@ -18,8 +18,8 @@ use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, Map};
 use jurist_engine::error::Error;
 use jurist_engine::problem::Problem;
-use jurist_engine::show::region::goal_or_stable;
 use jurist_engine::stability::plane::{StabilityMap, Strip};
+use jurist_show::region::goal_or_stable;
 
 /// Frequencies for the page are this far apart.
 const FINE_SPACING: f64 = 14.0;

@@ -8,9 +8,9 @@ use jurist_engine::answer::{Answer, Frequency, Map};
 use jurist_engine::error::Error;
 use jurist_engine::model::Time;
 use jurist_engine::problem::Free;
-use jurist_engine::show::layout::visible;
 use jurist_engine::stability::Cause;
 use jurist_engine::stability::plane::StabilityMap;
+use jurist_show::layout::visible;
 
 /// Bits of a frequency in a picture.
 const BITS: u64 = 30;

@@ -8,7 +8,7 @@ use super::labels::words;
 use super::lines::{Role, Wall};
 use super::{REGION, UNSTABLE};
 use crate::scene::Stroke;
-use jurist_engine::show::region::goal_or_stable;
+use jurist_show::region::goal_or_stable;
 
 impl MapContents<'_> {
     /// Samples of what is drawn with their names.

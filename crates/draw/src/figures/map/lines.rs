@@ -4,9 +4,9 @@ use super::super::COLOURS;
 use super::trace::{MapTrace, approximate_real};
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, Map};
-use jurist_engine::show::region::boundary_point;
 use jurist_engine::stability::plane::{Cell, StabilityMap};
 use jurist_engine::stability::{Cause, Causes, Shape};
+use jurist_show::region::boundary_point;
 
 /// What a wall separates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

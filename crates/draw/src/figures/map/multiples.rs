@@ -7,7 +7,7 @@ use super::draw::{Legend, MapContents, what};
 use crate::scene::{Anchor, Scene, Words};
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, Body};
-use jurist_engine::show::layout::{short, visible};
+use jurist_show::layout::{short, visible};
 
 /// Width and height of a slice.
 const PANEL: (f64, f64) = (300.0, 250.0);

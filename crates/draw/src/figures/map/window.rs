@@ -6,8 +6,8 @@ use super::trace::approximate_real;
 use jurist_algebra::number::{Rational, parse_number};
 use jurist_engine::answer::{Answer, Map};
 use jurist_engine::problem::Free;
-use jurist_engine::show::layout::visible;
 use jurist_engine::stability::{Range, RealInterval};
+use jurist_show::layout::visible;
 
 /// A positive range of values is drawn on a logarithmic axis from this ratio on.
 const LOGARITHMIC_RATIO: f64 = 100.0;

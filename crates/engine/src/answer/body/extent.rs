@@ -44,7 +44,6 @@ pub struct Stretch {
 
 /// Where a stretch ends.
 #[derive(Clone, Debug)]
-#[non_exhaustive]
 pub enum StretchEnd {
     /// With the slices that were asked for.
     Range,

@@ -7,7 +7,7 @@ pub use extent::{Extreme, Extremes, Stretch, StretchEnd};
 use super::{Answer, Map};
 use crate::coverage::{self, Coverage};
 use crate::error::{Code, Diagnostic, Error};
-use crate::problem::{Problem, Question};
+use crate::problem::{Problem, Question, range_text};
 use crate::stability::RealInterval;
 use jurist_algebra::limits::{Budget, Exhausted, parallel_map};
 use jurist_algebra::number::{Rational, evenly_spaced};
@@ -210,7 +210,7 @@ impl Question {
         match slices.values().iter().find(|value| !domain.contains(value) && !is_end(value)) {
             None => Ok(problem),
             Some(value) => {
-                let text = crate::show::intervals::domain_text(third, domain);
+                let text = range_text(third, domain, [false; 2], Rational::to_string);
                 let message = format!("the slice at {third} = {value} is outside the domain, {text}");
                 let help =
                     format!("both ends are slices: begin and end inside, or change the domain: '--domain {third}=..'");

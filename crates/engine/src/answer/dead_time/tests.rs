@@ -4,7 +4,7 @@ use crate::answer::Verdict;
 use crate::error::{Code, Error, Source};
 use crate::model::Model;
 use crate::problem::{Ask, Question};
-use crate::stability::{End, Range};
+use crate::stability::{End, Range, StableInterval};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Rational, parse_number};
 
@@ -210,8 +210,19 @@ fn the_value_without_dead_time_belongs_to_the_answer_where_the_domain_goes_beyon
     assert!(lines.len() == 1 && lines[0].starts_with("2 <= tau < "), "{lines:?}");
 }
 
+/// `2 <= tau < 4.418`, `tau = 2`.
 fn lines_of(answer: &crate::answer::Answer<crate::stability::StableSet>) -> Vec<String> {
-    crate::show::intervals::stable_lines("tau", answer.value(), 4)
+    let less = |end: &End| if end.closed { "<=" } else { "<" };
+    let line = |interval: &StableInterval| {
+        let [lower, upper] =
+            [&interval.lower, &interval.upper].map(|end| end.as_ref().expect("the windows are bounded"));
+        let [l, u] = [lower, upper].map(|end| end.value.decimal(4));
+        match l == u {
+            true => format!("tau = {l}"),
+            false => format!("{l} {} tau {} {u}", less(lower), less(upper)),
+        }
+    };
+    answer.value().intervals().iter().map(line).collect()
 }
 
 /// In higher powers the parameter is solved for another way, which knew of the root at zero only.

@@ -100,25 +100,6 @@ fn a_cotangent_is_followed_over_its_poles() {
     assert!(!set.contains(&number("3.14159")) && !set.contains(&number("0.0001")));
 }
 
-#[test]
-fn the_interval_with_the_nominal_value_is_printed_first_and_the_document_is_ascending() {
-    let (model, _) = Model::from_toml(&Source::new(
-        "model.toml",
-        "time = 'discrete'\n[parameters]\nK = { nominal = 5 }\n[loop]\ncharacteristic = 'z - 1/2*(K - 1)*(K - 3)*(K - 5)'\n",
-    ))
-    .unwrap();
-    let answer = model.ask().free("K").stable_set(&Budget::unlimited()).unwrap();
-    let text = answer.text(6);
-    let lines: Vec<&str> = text.lines().filter(|line| line.contains("< K <")).map(str::trim).collect();
-    let first = |line: &str| line.split(' ').next().unwrap().parse::<f64>().unwrap();
-    assert!(lines.len() == 3 && first(lines[0]) > 4.0 && first(lines[1]) < first(lines[2]), "{text}");
-    let ends: Vec<&str> = text.lines().skip_while(|line| *line != "ends").skip(1).collect();
-    assert!(first(ends[0].trim()) > 4.0 && first(ends[2].trim()) < 2.0, "{text}");
-    let ascending: Vec<_> =
-        answer.value().intervals().iter().map(|i| i.lower.as_ref().unwrap().value.decimal(6)).collect();
-    assert!(ascending[0].starts_with('0') && ascending[2].starts_with('4'), "{ascending:?}");
-}
-
 /// Where the margin is met is not cut where a resultant vanishes that means nothing.
 #[test]
 fn a_phase_margin_holds_over_intervals_of_the_parameter() {

@@ -130,7 +130,8 @@ pub(super) enum Meaning {
 }
 
 /// The number of a loop that a requirement is about.
-pub(crate) enum Found<'a> {
+pub enum Found<'a> {
+    /// As a number.
     Number(Real),
     /// By enclosures of so many bits; `None` where there is no bound.
     Enclosed(Box<dyn Fn(u64) -> Option<Enclosure> + 'a>),
@@ -188,7 +189,7 @@ impl Requirement {
 
     /// The required number in the unit of the loop's own: a factor, degrees, a dead time; rounded where it is not rational. `None` of
     /// roots.
-    pub(crate) fn required_number(&self, digits: usize) -> Option<Rational> {
+    pub fn required_number(&self, digits: usize) -> Option<Rational> {
         match &self.rule {
             Rule::Factors(factor) => parse_number(&factor.decimal(digits)).ok(),
             Rule::Turned { .. } => parse_number(self.kind.split(&self.asked).0).ok(),
@@ -208,7 +209,7 @@ impl Requirement {
     }
 
     /// Whether the loop's number is to be at least the required one, not at most.
-    pub(crate) fn is_least(&self) -> bool {
+    pub fn is_least(&self) -> bool {
         self.kind.sense.starts_with('>')
     }
 
