@@ -33,6 +33,11 @@ pub trait Elementary: Enclosed {
     }
     /// The exponential of a matrix of so many rows, given row by row; `None` where it may have too many bits to be of use.
     fn exponential_of(n: usize, matrix: &[Self]) -> Option<Vec<Self>>;
+    /// `a` and `b` where this is `a + b y` with one of the variables, up to a bound in units of the sum of the absolute values of what it is wrong by;
+    /// `None` of other functions.
+    fn line(&self) -> Option<Along>;
+    /// The sum of `c_k y^k` with the variable of a line, or with none for a constant.
+    fn of_powers(&self, variable: Option<usize>, coefficients: &[Ball]) -> Self;
 
     /// An integer.
     fn integer(&self, n: &Integer) -> Self {
@@ -42,6 +47,32 @@ pub trait Elementary: Enclosed {
     /// One over this; `None` where there may be a zero.
     fn reciprocal(&self) -> Option<Self> {
         self.integer(&Integer::ONE).over(self)
+    }
+}
+
+/// `a + b y`, `y` the variable of this number, if it is no constant.
+#[derive(Clone, Debug)]
+pub struct Along {
+    /// The constant term.
+    pub first: Ball,
+    /// The slope.
+    pub slope: Ball,
+    /// The number of the variable.
+    pub variable: Option<usize>,
+    /// So many powers of a variable are kept.
+    pub terms: usize,
+    /// What the line is wrong by, in units.
+    pub rest: Integer,
+}
+
+impl Along {
+    /// Of a series in one variable.
+    fn of_series(s: &Series, rest: Integer) -> Option<Along> {
+        let (first, others) = s.coefficients().split_first()?;
+        let slope = others.first().cloned().unwrap_or_else(|| Ball::zero(first.bits()));
+        let is_line = others.iter().skip(1).all(Ball::is_zero);
+        let (variable, terms) = ((!slope.is_zero()).then_some(0), s.terms());
+        is_line.then(|| Along { first: first.clone(), variable, slope, terms, rest })
     }
 }
 
@@ -78,6 +109,13 @@ impl Elementary for Series {
         let e = m.is_of_use().then(|| exponential(&m))?;
         Some((0..n * n).map(|k| Series::constant(e.at(k / n, k % n), 1)).collect())
     }
+    fn line(&self) -> Option<Along> {
+        Along::of_series(self, Integer::ZERO)
+    }
+    fn of_powers(&self, _variable: Option<usize>, coefficients: &[Ball]) -> Series {
+        let zero = Ball::zero(self.coefficients()[0].bits());
+        Series::new((0..self.terms()).map(|k| coefficients.get(k).unwrap_or(&zero).clone()).collect())
+    }
     fn implicit(&self, start: &Ball, f: &dyn Fn(&Series) -> Option<[Series; 2]>) -> Option<Series> {
         let mut known = Series::constant(start, self.terms());
         for k in 1..self.terms() {
@@ -111,6 +149,14 @@ impl Elementary for TaylorModel {
     }
     fn exponential_of(n: usize, matrix: &[TaylorModel]) -> Option<Vec<TaylorModel>> {
         exponential_of(n, matrix)
+    }
+    fn line(&self) -> Option<Along> {
+        Along::of_series(self.polynomial(), self.rest_units().clone())
+    }
+    fn of_powers(&self, variable: Option<usize>, coefficients: &[Ball]) -> TaylorModel {
+        let terms = self.polynomial().terms();
+        let beyond = coefficients.iter().skip(terms).fold(Integer::ZERO, |sum, c| sum + c.magnitude_units());
+        TaylorModel::with(self.polynomial().of_powers(variable, coefficients), beyond)
     }
     fn implicit(&self, start: &Ball, f: &dyn Fn(&TaylorModel) -> Option<[TaylorModel; 2]>) -> Option<TaylorModel> {
         implicit(self, start, self.polynomial().terms(), f)

@@ -21,8 +21,9 @@ pub use bezout::{
     Enclosed, common_root, determinant_enclosed, enclosed_resultant, enclosed_resultant_by_minors, hybrid_bezout,
 };
 pub use characteristic::characteristic_polynomial;
-pub use elementary::Elementary;
+pub use elementary::{Along, Elementary};
 pub use exponential::{BallMatrix, exponential, exponential_of_rationals};
+pub(crate) use flow::exponential_along;
 pub use functions::{cos_sin, exp, tan};
 pub use multi_taylor_model::MultiTaylorModel;
 pub use series::Series;

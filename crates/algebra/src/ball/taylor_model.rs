@@ -88,7 +88,11 @@ impl TaylorModel {
         &self.polynomial.coefficients()[0]
     }
 
-    fn with(polynomial: Series, rest: Integer) -> TaylorModel {
+    pub(super) fn rest_units(&self) -> &Integer {
+        &self.rest
+    }
+
+    pub(super) fn with(polynomial: Series, rest: Integer) -> TaylorModel {
         TaylorModel { polynomial, rest }
     }
 

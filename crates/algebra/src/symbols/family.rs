@@ -6,7 +6,7 @@
 use super::Definition;
 use super::tiles::Tiles;
 use super::values::{Evaluation, quotient};
-use crate::ball::{Ball, Elementary, characteristic_polynomial};
+use crate::ball::{Ball, Elementary, characteristic_polynomial, exponential_along};
 use crate::matrix::RationalMatrix;
 use crate::number::{Integer, Rational};
 use crate::poly::RationalFunction;
@@ -42,6 +42,8 @@ pub struct MatrixFamily {
     parameters: usize,
     steps: Vec<Step>,
     flows: Vec<RationalMatrix>,
+    /// For each of the flows, where its matrix is one of numbers times a function: both.
+    rates: Vec<Option<(Vec<Rational>, RationalFunction)>>,
     constant: RationalMatrix,
     slopes: Vec<RationalMatrix>,
     beside: Vec<RationalFunction>,
@@ -79,6 +81,7 @@ impl MatrixFamily {
         Some(MatrixFamily {
             parameters,
             steps,
+            rates: flows.iter().map(rates).collect(),
             flows,
             constant,
             slopes,
@@ -127,9 +130,7 @@ impl MatrixFamily {
                 Step::Flow { of, row, column } => {
                     let n = self.flows[*of].rows();
                     if flows[*of].is_none() {
-                        let entries = self.flows[*of].entries().iter().map(|f| quotient(f, known.values(), like));
-                        let entries = entries.collect::<Option<Vec<S>>>()?;
-                        flows[*of] = Some(S::exponential_of(n, &entries)?);
+                        flows[*of] = Some(self.flow(*of, known.values(), like)?);
                     }
                     flows[*of].as_ref().map(|flow| flow[row * n + column].clone())?
                 }
@@ -167,6 +168,28 @@ impl MatrixFamily {
         out.extend(self.beside.iter().map(at).collect::<Option<Vec<S>>>()?);
         Some(out)
     }
+}
+
+impl MatrixFamily {
+    /// The exponential of a matrix; `None` where it may have too many bits to be of use.
+    fn flow<S: Elementary>(&self, of: usize, known: &[S], like: &S) -> Option<Vec<S>> {
+        let n = self.flows[of].rows();
+        if let Some((rates, along)) = &self.rates[of]
+            && let Some(found) = exponential_along(n, rates, &quotient(along, known, like)?)
+        {
+            return Some(found);
+        }
+        let entries = self.flows[of].entries().iter().map(|f| quotient(f, known, like));
+        S::exponential_of(n, &entries.collect::<Option<Vec<S>>>()?)
+    }
+}
+
+/// The numbers and the function of which a matrix is the product, if it is one.
+fn rates(m: &RationalMatrix) -> Option<(Vec<Rational>, RationalFunction)> {
+    let along = m.entries().iter().find(|f| !f.is_zero())?;
+    let over = along.recip()?;
+    let numbers = m.entries().iter().map(|f| (f * &over).as_constant()).collect::<Option<Vec<_>>>()?;
+    Some((numbers, along.clone()))
 }
 
 /// One of the values of a [`MatrixFamily`] at arguments.

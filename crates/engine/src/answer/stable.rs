@@ -2,11 +2,23 @@
 
 use super::{Answer, Verdict};
 use crate::error::Error;
-use crate::problem::{Ask, EnclosedParts, Problem, Question, Region};
-use crate::stability::{Cause, End, StableSet, stable_set, stable_set_of_parts};
+use crate::problem::{Ask, EnclosedParts, Problem, Question, Region, enclosed_or_exact};
+use crate::stability::boxes::open_parts;
+use crate::stability::{Cause, End, Range, StableSet, UndecidedBracket, stable_set, stable_set_of_parts};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use std::sync::Arc;
+
+/// A parameter without bounds is looked at by values so many octaves below and above its nominal value.
+const OCTAVES_BELOW: i64 = 4;
+const OCTAVES_ABOVE: i64 = 3;
+
+/// Work of exact polynomials where values leave something open: less than a second.
+const WORK_OF_EXACT: u64 = 60_000_000;
+
+/// Why values beside these octaves are not looked at.
+const NOT_LOOKED_AT: &str =
+    "not looked at, as of so long a loop nothing but values is known: give bounds of the domain";
 
 impl Question {
     /// For which values of the one free parameter the loop is stable, all others at their set or nominal values.
@@ -88,14 +100,17 @@ impl Problem {
             if !self.model().has_holds() {
                 return self.stable_set_by_algebra(budget);
             }
-            self.exact_or_enclosed(
-                budget,
-                |budget| self.stable_set_by_algebra(budget),
-                |budget| {
-                    let set = self.stable_set_by_enclosures(budget)?;
-                    Ok(set.map(|set| Answer::new(Arc::clone(self), set)))
-                },
-            )
+            let exact = |budget: &Budget| self.stable_set_by_algebra(budget);
+            let enclosed = |budget: &Budget| {
+                let set = self.stable_set_by_enclosures(budget)?;
+                Ok(set.map(|set| Answer::new(Arc::clone(self), set)))
+            };
+            // Exact polynomials that were seen to be long are not tried twice.
+            if self.is_long(budget)? {
+                enclosed_or_exact(budget, enclosed, exact)
+            } else {
+                self.exact_or_enclosed(budget, exact, enclosed)
+            }
         })?
     }
 
@@ -110,18 +125,58 @@ impl Problem {
     }
 
     /// The same where the parameter is inside of functions: its values are all that is known of the coefficients.
+    ///
+    /// Boxes of one side show where no root comes to the boundary, and its functions have their zeros in what is left.
     fn stable_set_by_values(self: &Arc<Self>, budget: &Budget) -> Result<Option<StableSet>, Error> {
-        // At 0 roots come together, as at a sample time of 0, and without end functions die away: values do not tell how.
-        let domain = &self.parameter().domain;
-        let is_bounded = domain.lower.as_ref().is_some_and(|lower| !lower.is_zero()) && domain.upper.is_some();
         let of = self.in_boxes(budget)?;
-        if !is_bounded || Arc::ptr_eq(self, &of) {
+        if Arc::ptr_eq(self, &of) {
             return Ok(None);
         }
-        let Some(p) = of.symbolic(budget)? else { return Ok(None) };
-        let found = stable_set_of_parts(&[p], domain, self.shape(), budget)?;
+        let (Some(p), Some(family)) = (of.symbolic(budget)?, of.moving_family(budget)?) else { return Ok(None) };
+        let domain = &self.parameter().domain;
+        let Some([from, to]) = self.bounds_of_values() else { return Ok(None) };
+        let open = open_parts(&family, [&from, &to], budget)?;
+        let range = Range::between(Some(from.clone()), Some(to.clone()));
+        let found = stable_set_of_parts(&[p.with_open_parts(open)], &range, self.shape(), budget)?;
+        let is_whole = domain.lower.as_ref() == Some(&from) && domain.upper.as_ref() == Some(&to);
+        if is_whole && found.undecided().is_empty() {
+            return Ok(Some(found));
+        }
         // What values do not tell exact polynomials may.
-        Ok(Some(found).filter(|found| found.undecided().is_empty()))
+        match self.stable_set_by_algebra(&budget.clone().within_work(WORK_OF_EXACT)) {
+            Ok(answer) => return Ok(Some(answer.into_value())),
+            Err(Error::Stopped(stopped)) if !stopped.stop.is_precision() && budget.check().is_ok() => {}
+            Err(error) => return Err(error),
+        }
+        let nothing = || StableSet::from_intervals(Vec::new(), Vec::new());
+        let beside = |lower: Option<Rational>, upper: Option<Rational>| {
+            let is_empty = lower == upper && lower.is_some();
+            let part = (!is_empty).then(|| UndecidedBracket::new(lower, upper, NOT_LOOKED_AT));
+            StableSet::from_intervals(Vec::new(), part.into_iter().collect())
+        };
+        let before =
+            if domain.lower.as_ref() == Some(&from) { nothing() } else { beside(domain.lower.clone(), Some(from)) };
+        let after = if domain.upper.as_ref() == Some(&to) { nothing() } else { beside(Some(to), domain.upper.clone()) };
+        Ok(Some(before.followed_by(found, None).followed_by(after, None)))
+    }
+
+    /// Between which values a parameter inside of functions is looked at by values: its domain, or some octaves around the nominal value. At 0 roots may
+    /// come together, as they do at a sample time of 0, and values do not tell how. `None` where there is no such interval.
+    fn bounds_of_values(&self) -> Option<[Rational; 2]> {
+        let free = self.parameter();
+        let near = |bits: i64| {
+            let scale = free.nominal.clone().filter(|x| x.sign().is_gt())?;
+            Some(&scale * &Rational::from(2).pow(bits)?)
+        };
+        let is_bound = |x: &&Rational| !x.is_zero();
+        let lower = free.domain.lower.as_ref().filter(is_bound).cloned();
+        let upper = free.domain.upper.as_ref().filter(is_bound).cloned();
+        if free.domain.lower.is_none() || (free.domain.upper.as_ref().is_some_and(Rational::is_zero)) {
+            return None;
+        }
+        let to = upper.or_else(|| near(OCTAVES_ABOVE))?;
+        let from = lower.or_else(|| near(-OCTAVES_BELOW))?;
+        (from < to).then_some([from, to])
     }
 
     /// The stable set by exact polynomials.

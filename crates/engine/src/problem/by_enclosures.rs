@@ -31,8 +31,8 @@ pub(crate) use quotient::EnclosedQuotient;
 use std::sync::Arc;
 pub(super) use steady_state::steady_state;
 
-/// Work that exact polynomials over the constants of a held loop may be before enclosures of coefficients are asked: less than a second.
-const WORK_BEFORE: u64 = 6_000_000;
+/// Work that exact polynomials over the constants of a held loop may be before enclosures of coefficients are asked: a fifth of a second.
+const WORK_BEFORE: u64 = 20_000_000;
 
 /// The same of a loop with several rates, whose polynomials have many times the degree in the constants: at ten rates the drive takes 0.04 s by
 /// enclosures and ten times as long by exact polynomials.
@@ -58,6 +58,24 @@ impl Problem {
     /// # Errors
     /// As [`Problem::closed_loop_over_symbols`].
     pub(crate) fn enclosed_parts(&self, budget: &Budget) -> Result<Option<EnclosedParts>, Error> {
+        Ok(self.enclosed_with_order(budget)?.map(|(parts, _)| parts))
+    }
+
+    /// The whole loop with enclosed coefficients, where the parameter acts on all of it; `None` as in [`Problem::enclosed_parts`].
+    ///
+    /// # Errors
+    /// As [`Problem::enclosed_parts`].
+    pub(crate) fn enclosed_whole(&self, budget: &Budget) -> Result<Option<SymbolicPolynomial>, Error> {
+        let Some((EnclosedParts::Parts(mut parts), order)) = self.enclosed_with_order(budget)? else { return Ok(None) };
+        let whole = parts.pop().filter(|p| p.formal_degree() == order);
+        Ok(whole.map(|p| match self.parameter().nominal.clone() {
+            Some(usual) => p.with_usual_value(usual),
+            None => p,
+        }))
+    }
+
+    /// The parts, and the order of the loop.
+    fn enclosed_with_order(&self, budget: &Budget) -> Result<Option<(EnclosedParts, usize)>, Error> {
         let [free] = self.free() else { return Ok(None) };
         let radius = match self.region() {
             Region::Disc(Bound::Number(radius)) => radius,
@@ -76,14 +94,15 @@ impl Problem {
         let found = budget.enter(|| self.model().closed_loop_in_numbers(&kept, self.set(), budget))??;
         let Some(found) = found.filter(|found| found.symbols.has_flows()) else { return Ok(None) };
         budget.step("coefficients by enclosures");
-        Ok(budget.enter(|| EnclosedParts::of(&found, radius))?)
+        let order = found.closed_loop.a.rows();
+        Ok(budget.enter(|| Some((EnclosedParts::of(&found, radius)?, order)))?)
     }
 }
 
 impl Problem {
     /// The same of a loop with several rates: the map over a hyperperiod at as many whole values
     /// of the parameter as the degree asks for, each by products of matrices of numbers. `None` where the degree is large.
-    fn lifted_parts(&self, name: &str, budget: &Budget) -> Result<Option<EnclosedParts>, Error> {
+    fn lifted_parts(&self, name: &str, budget: &Budget) -> Result<Option<(EnclosedParts, usize)>, Error> {
         let Some(samples) = self.model().samples_in(name, self.set(), budget)? else { return Ok(None) };
         let degree = samples.parts.iter().map(|part| part.degree).max().unwrap_or(0);
         if degree > MOST_LIFTED_POWERS || !samples.symbols.has_flows() {
@@ -93,7 +112,11 @@ impl Problem {
         // What is exact is read off the loop without the parameter.
         let given: Vec<_> = self.set().iter().cloned().chain([(name.to_owned(), Rational::ZERO)]).collect();
         match budget.enter(|| self.model().closed_loop_in_numbers(&[], &given, budget))? {
-            Ok(Some(at_zero)) => Ok(budget.enter(|| EnclosedParts::lifted(samples, at_zero, budget))??),
+            Ok(Some(at_zero)) => {
+                let order = at_zero.closed_loop.a.rows();
+                let found = budget.enter(|| EnclosedParts::lifted(samples, at_zero, budget))??;
+                Ok(found.map(|parts| (parts, order)))
+            }
             Err(stopped @ Error::Stopped(_)) => Err(stopped),
             Ok(None) | Err(_) => Ok(None),
         }
@@ -223,6 +246,18 @@ fn exact_within<T>(
         Err(Error::Stopped(stopped)) if is_too_long(&stopped) && budget.check().is_ok() => {}
         answer => return answer,
     }
+    enclosed_or_exact(budget, enclosed, exact)
+}
+
+/// The same where exact polynomials are known to be long.
+///
+/// # Errors
+/// As [`exact_or_enclosed`].
+pub(crate) fn enclosed_or_exact<T>(
+    budget: &Budget,
+    enclosed: impl FnOnce(&Budget) -> Result<Option<T>, Error>,
+    exact: impl Fn(&Budget) -> Result<T, Error>,
+) -> Result<T, Error> {
     match enclosed(&budget.clone().within_work(WORK_OF_ENCLOSURES)) {
         Ok(Some(answer)) => return Ok(answer),
         Ok(None) => {}

@@ -25,7 +25,7 @@ mod rounded;
 mod substitution;
 
 pub use block::EnclosedBlock;
-pub(crate) use by_enclosures::{EnclosedParts, EnclosedQuotient, OpenedByValues, exact_or_enclosed};
+pub(crate) use by_enclosures::{EnclosedParts, EnclosedQuotient, OpenedByValues, enclosed_or_exact, exact_or_enclosed};
 pub(crate) use delayed::base_delay;
 pub(crate) use delayed::refused;
 pub use delayed::{BaseDelay, DelayedLoop};

@@ -141,7 +141,9 @@ impl Search<'_> {
         let [from, to] = &part.sides[0];
         let values = Values::between(from, to);
         let halvings = u64::from(part.halvings[0]);
-        let (bits, arcs) = (BITS + halvings * (self.p.degree() as u64 + 2), ARCS + halvings);
+        // In steps: points of the edge are remembered with their bits.
+        let more = (halvings * (self.p.degree() as u64 + 2)).next_multiple_of(BITS);
+        let (bits, arcs) = (BITS + more, ARCS + halvings);
         let open = match self.budget.enter(|| self.p.walk(&values, bits, arcs, MOST_OPEN))? {
             Walk::Count(_) => return Ok(Some(Seen::Decided(None))),
             Walk::Open(open) => open,

@@ -12,6 +12,7 @@ use super::{DelayMargin, HeldDelay};
 use crate::answer::Verdict;
 use crate::coverage::refusals::{NO_DAMPING, NO_SAMPLE_TIME};
 use crate::error::Error;
+use crate::model::Time;
 use crate::precisions::REQUIRED_DELAY;
 use crate::problem::Problem;
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -276,7 +277,8 @@ impl Problem {
     /// logarithm of their frequency.
     pub(crate) fn refuse_undamped(&self, requirements: &[Requirement], budget: &Budget) -> Result<(), Error> {
         let is_damping = requirements.iter().any(|one| matches!(one.rule(), Rule::Sector(_)));
-        if !is_damping {
+        // The dead time of a discrete loop is that of a hold: states.
+        if !is_damping || self.time() == Time::Discrete {
             return Ok(());
         }
         let algebra = self.algebra_over_symbols(budget)?;

@@ -311,7 +311,15 @@ impl Problem {
             let message = "a settling time is required of discrete loops with a sample time that is a number";
             return Err(Diagnostic::error(Code::Require, message).into());
         }
-        let closed = self.without_region().symbolic(budget)?;
+        let whole = self.without_region();
+        let closed = if whole.is_long(budget)? {
+            match whole.enclosed_whole(budget)? {
+                Some(p) => Some(p),
+                None => whole.in_boxes(budget)?.symbolic(budget)?,
+            }
+        } else {
+            whole.symbolic(budget)?
+        };
         let found = closed.and_then(|p| OnRoots::of(requirement, &p, self.shape()));
         found.ok_or_else(|| not_decided(requirement))
     }

@@ -13,7 +13,8 @@ use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly};
 use jurist_algebra::symbols::MovingSymbols;
-use std::sync::Arc as Shared;
+use std::collections::HashMap;
+use std::sync::{Arc as Shared, Mutex, PoisonError};
 
 /// A complex number in balls.
 #[derive(Clone, Debug)]
@@ -105,6 +106,8 @@ pub(super) struct OnSpiral {
     usual: Rational,
     /// Terms of the Taylor polynomials in the parameter: with a sample time that goes to 0 all coefficients vanish but one.
     terms: usize,
+    /// Points of the edge: all walks begin with the same arcs.
+    points: Shared<Mutex<HashMap<(Rational, u64), Complex>>>,
 }
 
 /// Which number the powers are counted from.
@@ -166,17 +169,35 @@ pub(super) enum Walk {
 
 /// The edge is cut into `2^FIRST_LEVEL` arcs at first.
 pub(super) const FIRST_LEVEL: u64 = 5;
+/// No more points are remembered.
+const MOST_POINTS: usize = 1 << 15;
 /// So far all open arcs are halved, however many.
 const EVERYWHERE: u64 = 8;
 
 impl OnSpiral {
-    /// Of a closed loop in one parameter or none; `None` where only enclosures of its coefficients are known.
+    /// Of a closed loop in one parameter or none; `None` where a coefficient is not defined beside the parameter.
     pub fn of(p: &SymbolicPolynomial, damping: &Rational) -> Option<OnSpiral> {
         let one_more = Poly::new(vec![MultiPoly::one(), MultiPoly::one()]);
         let coefficients = [p.polynomial().clone(), p.polynomial().compose(&one_more)].map(|p| p.into_coeffs().into());
         let (symbols, usual) = (p.moving_symbols()?, p.usual().clone());
         let terms = if p.fixed_symbols().is_some() { 2 } else { p.formal_degree() + 2 };
-        Some(OnSpiral { coefficients, symbols, damping: damping.clone(), usual, terms })
+        Some(OnSpiral { coefficients, symbols, damping: damping.clone(), usual, terms, points: Shared::default() })
+    }
+
+    /// [`point`], remembered.
+    fn known_point(&self, angle: Rational, with: &Constants) -> Complex {
+        let known = || self.points.lock().unwrap_or_else(PoisonError::into_inner);
+        let key = (angle, with.bits);
+        if let Some(found) = known().get(&key) {
+            return found.clone();
+        }
+        let found = point(&key.0, with);
+        let mut known = known();
+        if known.len() >= MOST_POINTS {
+            known.clear();
+        }
+        known.insert(key, found.clone());
+        found
     }
 
     /// A usual value of the parameter.
@@ -242,7 +263,8 @@ impl OnSpiral {
             checkpoint(bits * self.degree() as u64);
             let angles = arc.ends();
             let coefficients = if Origin::of(&angles) == Origin::One { &from_one } else { &from_zero };
-            on(coefficients, &angles, values, &constants).half_plane()
+            let z = self.known_point(angles[0].midpoint(&angles[1]), &constants);
+            on(coefficients, &z, (&angles, values), &constants).half_plane()
         };
         let mut arcs: Vec<(Arc, Option<u8>)> = first.map(|arc| (plane(&arc), arc)).map(|(p, arc)| (arc, p)).collect();
         for level in FIRST_LEVEL..halvings {
@@ -329,11 +351,15 @@ fn jet(z: &Complex, coefficients: &Coefficients, with: &Constants) -> Jet {
     }
 }
 
-/// The function on an arc: by its value in the middle and its derivatives on the whole.
-fn on(coefficients: &Coefficients, angles: &[Rational; 2], values: &Values, with: &Constants) -> Complex {
-    let z = point(&angles[0].midpoint(&angles[1]), with);
-    let value = horner(coefficients.middle.iter(), &coefficients.origin.to(&z), with.bits);
-    let whole = jet(&around(&z, angles, with), coefficients, with);
+/// The function on an arc with this point in the middle: by its value in the middle and its derivatives on the whole.
+fn on(
+    coefficients: &Coefficients,
+    z: &Complex,
+    (angles, values): (&[Rational; 2], &Values),
+    with: &Constants,
+) -> Complex {
+    let value = horner(coefficients.middle.iter(), &coefficients.origin.to(z), with.bits);
+    let whole = jet(&around(z, angles, with), coefficients, with);
     let side = |from: &Rational, to: &Rational| {
         let half = (to - from) * Rational::dyadic(&Integer::ONE, 1);
         Ball::between(&-&half, &half, with.bits)

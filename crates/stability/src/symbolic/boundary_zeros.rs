@@ -72,6 +72,8 @@ pub(super) struct Reach {
     pub upper: Option<Rational>,
     /// What lies outside of them in the range.
     pub undecided: Vec<Bracket>,
+    /// Zeros are looked for in these parts alone.
+    pub only: Option<Arc<[(Rational, Rational)]>>,
 }
 
 impl Reach {
@@ -96,6 +98,7 @@ impl Reach {
             lower: Some(from.clone()),
             upper: range.upper.clone(),
             undecided: Vec::new(),
+            only: None,
         };
         if range.lower.is_none() {
             reach.undecided.push((None, Some(from)));
@@ -121,7 +124,15 @@ impl Reach {
             lower: end(from),
             upper: end(to),
             undecided: Vec::new(),
+            only: None,
         }
+    }
+
+    /// The parts of an interval that are looked at.
+    fn parts_of(&self, (from, to): &(Rational, Rational)) -> Vec<(Rational, Rational)> {
+        let Some(only) = &self.only else { return vec![(from.clone(), to.clone())] };
+        let within = |(low, high): &(Rational, Rational)| (low.max(from).clone(), high.min(to).clone());
+        only.iter().map(within).filter(|(low, high)| low < high).collect()
     }
 
     /// Whether there is more below that is not looked at.
@@ -210,7 +221,8 @@ fn zeros_of(
 ) -> Result<Zeros, Exhausted> {
     let DefinedParts { parts, gaps } = symbols.defined_parts(&reach.from, &reach.to, budget)?;
     let (mut zeros, mut open) = (Vec::new(), gaps);
-    for (from, to) in &parts {
+    let looked_at = parts.iter().flat_map(|part| reach.parts_of(part));
+    for (from, to) in &looked_at.collect::<Vec<_>>() {
         let found = symbols.zeros_in(part, from, to, usual, budget)?;
         zeros.extend(found.zeros);
         open.extend(found.undecided);

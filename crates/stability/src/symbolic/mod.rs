@@ -86,6 +86,8 @@ pub struct SymbolicPolynomial {
     usual: Rational,
     /// The loop is unstable where the parameter is beyond this number or its negative.
     unstable_beyond: Option<Rational>,
+    /// Roots come to the boundary, and the loop ceases to be defined, in these closed parts alone.
+    open_parts: Option<Arc<[(Rational, Rational)]>>,
 }
 
 /// What the symbols stand for.
@@ -129,6 +131,7 @@ impl SymbolicPolynomial {
             poles,
             usual: Rational::ONE,
             unstable_beyond: None,
+            open_parts: None,
         }
     }
 
@@ -142,8 +145,17 @@ impl SymbolicPolynomial {
         poles: Vec<MultiPoly>,
     ) -> Self {
         let symbols = Table::Fixed(Arc::clone(symbols));
-        let (usual, unstable_beyond) = (Rational::ONE, None);
-        SymbolicPolynomial { symbols, polynomial, degree_loss, formal_degree, poles, usual, unstable_beyond }
+        let (usual, unstable_beyond, open_parts) = (Rational::ONE, None, None);
+        SymbolicPolynomial {
+            symbols,
+            polynomial,
+            degree_loss,
+            formal_degree,
+            poles,
+            usual,
+            unstable_beyond,
+            open_parts,
+        }
     }
 
     /// With a number beyond which, and beyond whose negative, the loop is known to be unstable: zeros are looked for between the two. Then the
@@ -151,6 +163,13 @@ impl SymbolicPolynomial {
     #[must_use]
     pub fn unstable_beyond(self, number: Rational) -> Self {
         SymbolicPolynomial { unstable_beyond: Some(number), ..self }
+    }
+
+    /// With the closed parts of a bounded range in which alone roots come to the boundary, ascending and apart, where symbols depend on the parameter:
+    /// the stable set in that range is asked for.
+    #[must_use]
+    pub fn with_open_parts(self, parts: Vec<(Rational, Rational)>) -> Self {
+        SymbolicPolynomial { open_parts: Some(parts.into()), ..self }
     }
 
     /// With a usual value of the parameter: where nothing else bounds it, it is looked at up to a multiple of that.

@@ -40,7 +40,12 @@ pub(super) fn moving_stable_set(
     };
     // What lies beyond a number at which functions are undefined is another question.
     let (part, beyond) = connected(symbols, &defined, &p.usual);
-    let reach = reach(&counter, &conditions, &part, &usual, budget)?;
+    let reach = match (&p.open_parts, &part.lower, &part.upper) {
+        (Some(only), Some(lower), Some(upper)) => {
+            Reach { only: Some(Arc::clone(only)), ..Reach::between(lower, upper) }
+        }
+        _ => reach(&counter, &conditions, &part, &usual, budget)?,
+    };
     let (boundaries, basis) = split(conditions, symbols, budget)?;
     let (boundaries, basis) = (&boundaries[..], &basis[..]);
     let looked = Looked { boundaries, basis, symbols, usual: &usual, is_scale: p.usual.is_zero(), budget };
@@ -65,7 +70,10 @@ pub(super) fn moving_stable_set(
     let mut brackets = Vec::with_capacity(undecided.len());
     for (bracket, is_looked_at) in undecided.iter().zip(looked_at(&undecided, &p.usual)) {
         let parts = match bracket {
-            (Some(lower), Some(upper)) if is_looked_at => counter.decided(lower, upper, &p.usual, budget)?,
+            // Parts that were looked at before show nothing more.
+            (Some(lower), Some(upper)) if is_looked_at && p.open_parts.is_none() => {
+                counter.decided(lower, upper, &p.usual, budget)?
+            }
             _ => Vec::new(),
         };
         brackets.push((bracket.clone(), parts));

@@ -81,8 +81,8 @@ impl SymbolicPolynomial {
         Some(ParametricPolynomial::new(&coefficients, self.formal_degree, poles))
     }
 
-    /// The table of symbols as functions of the parameter; a constant becomes a constant function. Returns `None` if a constant is known by
-    /// enclosures alone.
+    /// The table of symbols as functions of the parameter; a constant becomes a constant function. Returns `None` if a definition has no
+    /// arguments beside the parameter.
     ///
     /// Cost: a copy of the table.
     pub fn moving_symbols(&self) -> Option<Arc<MovingSymbols>> {
@@ -91,10 +91,7 @@ impl SymbolicPolynomial {
             Table::Moving(symbols) => return Some(Arc::clone(symbols)),
         };
         let beside = |f: &RationalFunction| f.map_variables(|i| i + 1);
-        let define = |(i, name): (usize, String)| match symbols.definition(i) {
-            Definition::Enclosed(_) => None,
-            definition => Some((name, definition.try_map(beside)?)),
-        };
+        let define = |(i, name): (usize, String)| Some((name, symbols.definition(i).try_map(beside)?));
         let table: Option<Vec<_>> = symbols.names().into_iter().enumerate().map(define).collect();
         Some(Arc::new(MovingSymbols::new(table?)))
     }

@@ -29,6 +29,14 @@ impl Problem {
         Ok(self.in_boxes.get_or_init(|| found).clone().unwrap_or_else(|| Arc::clone(self)))
     }
 
+    /// Whether a loop behind holds has long exact coefficients, and these have values instead.
+    ///
+    /// # Errors
+    /// As [`Problem::in_boxes`].
+    pub(crate) fn is_long(self: &Arc<Self>, budget: &Budget) -> Result<bool, Error> {
+        Ok(self.model().hyperperiod() == 1 && !Arc::ptr_eq(self, &self.in_boxes(budget)?))
+    }
+
     /// Algebra by values; `None` where exact algebra is short, or the loop is not of this form.
     fn by_values(&self, budget: &Budget) -> Result<Option<Algebra>, Error> {
         let radius = match self.region() {

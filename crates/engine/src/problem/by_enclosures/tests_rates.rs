@@ -108,7 +108,9 @@ fn an_integral_gain_has_the_set_of_the_exact_polynomial() {
 #[test]
 fn a_number_beyond_which_a_loop_is_unstable_is_one() {
     let problem = cascade("gain = 1\nevery = 3", "gain = 'K'", "transfer = '1/(s + 1)'\ndiscretize = 'zoh'", "min = 0");
-    let Some(EnclosedParts::Parts(parts)) = problem.lifted_parts("K", &Budget::unlimited()).unwrap() else { panic!() };
+    let Some((EnclosedParts::Parts(parts), _)) = problem.lifted_parts("K", &Budget::unlimited()).unwrap() else {
+        panic!()
+    };
     let end = parts[0].known_unstable_beyond().expect("a number").clone();
     let [limits, _] = both(&problem).unwrap();
     let upper = limits[0][1].clone().expect("an end").0.parse::<f64>().unwrap();
@@ -162,7 +164,9 @@ fn roots_at_the_origin_of_loops_with_registers_are_known() {
         let problem = cascade(slow, "gain = '1/4'\nevery = 2", plant, "max = 40");
         let budget = Budget::unlimited();
         let at_origin = |p: &SymbolicPolynomial| p.polynomial().coeffs().iter().take_while(|c| c.is_zero()).count();
-        let Some(EnclosedParts::Parts(parts)) = problem.lifted_parts("K", &budget).unwrap() else { panic!("{slow}") };
+        let Some((EnclosedParts::Parts(parts), _)) = problem.lifted_parts("K", &budget).unwrap() else {
+            panic!("{slow}")
+        };
         let exact = at_origin(&problem.symbolic(&budget).unwrap().expect("not a constant"));
         assert!(exact > 0, "{slow}");
         assert_eq!(parts.iter().map(at_origin).sum::<usize>(), exact, "{slow}");
