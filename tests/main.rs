@@ -150,6 +150,7 @@ mod certificates {
     mod rates_held;
     mod readers;
     mod refused;
+    mod roots_and_delays;
     mod smt;
     mod tuned;
 }
