@@ -120,6 +120,7 @@ mod tolerances {
     mod moving;
     mod program;
     mod published;
+    mod random_families;
     mod required;
     mod shares;
     mod spiral;

@@ -123,15 +123,15 @@ impl<'a, F: Family> Search<'a, F> {
         self.refine();
     }
 
-    /// Begins from a point that is not stable.
+    /// Begins from a point that is not stable; whether a crossing before the known one was found. That the known one became narrower tells nothing new.
     pub fn run_from(&mut self, point: &[Rational]) -> bool {
-        let before = self.best.as_ref().map(|b| b.hi.clone());
+        let before = self.best.as_ref().map(|b| b.lo.clone());
         if let Some(direction) = self.towards(point) {
             self.improve(direction);
         }
         self.refine();
         match (&self.best, before) {
-            (Some(best), Some(before)) => best.hi < before,
+            (Some(best), Some(before)) => best.hi <= before,
             (best, _) => best.is_some(),
         }
     }
