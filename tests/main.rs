@@ -120,6 +120,7 @@ mod tolerances {
     mod moving;
     mod program;
     mod published;
+    mod random_families;
     mod required;
     mod shares;
     mod spiral;
@@ -150,6 +151,7 @@ mod certificates {
     mod rates_held;
     mod readers;
     mod refused;
+    mod roots_and_delays;
     mod smt;
     mod tuned;
 }

@@ -757,7 +757,7 @@ class Loop:
         loop = table(root.get("loop"), "characteristic matrix A B C K states inputs E outputs")
         forms = ("characteristic" in loop, "matrix" in loop, any(k in loop for k in "ABCK"), "block" in root)
         need(sum(forms) == 1, "the model has not exactly one form of loop")
-        need(not cut or cut.kind == "parameter" or forms[3], "a loop without blocks is cut at a parameter")
+        need(not cut or cut.kind in ("parameter", "variable") or forms[3], "a loop without blocks is cut at a parameter")
         self.inputs, self.signals, self.states, self.outputs = [], [], [], []
         if forms[0]:
             written = self.scope.value(loop["characteristic"], {self.z: scalar(Z)}, division_by_z=False)
@@ -1698,6 +1698,8 @@ def loop_of(text, kept, values, boxed=(), symbols=None, cut=None):
         count += cut.names
     if isinstance(symbols, Moving):
         symbols.next = 2 + len(values) + count  # behind all others
+        if cut and cut.requirement == "delay_margin":
+            cut.factor = symbols.delayed(cut.factor)
     return model, Loop(model, variables, values, Table() if symbols is None else symbols, count, cut), values
 
 def characteristic_polynomial(text, kept, values, symbols=None):
@@ -3658,6 +3660,12 @@ def judge_of(text, names, values, sides, region, precision, cut=None):
         cut.is_real, sides = not is_complex, sides[:len(names)] + cut.sides(not is_complex)
     models = Models(*precision, len(sides))
     parts, positive = [own], []  # the real and the imaginary part, of what has complex coefficients
+    has_delay = any(name == "delay" for name, *_ in sources.sources)
+    if cut:
+        is_linear = cut.requirement != "delay_margin" or all(p.degree(3 + len(names)) < 2 + is_complex for p in own)
+        need(cut.kind != "parameter" or is_linear, "require: the loop is not linear in what is cut")
+        need(cut.kind != "variable" or not has_delay, "require: where the roots of a loop with dead time are has no certificate")
+        parts = [own] = [cut.of_variable(own, 2 + len(names))]
     if cut and cut.is_complex:
         parts, divisors = cut.in_parts(own, divisors, 2 + len(names))
         positive = cut.positive(2 + len(names))
@@ -3666,7 +3674,6 @@ def judge_of(text, names, values, sides, region, precision, cut=None):
         """Whether a name of the cut is in a divisor."""
         return any(p.degree(v) for ways in lists for p in ways for v in range(2 + len(names), 2 + len(sides)))
 
-    has_delay = any(name == "delay" for name, *_ in sources.sources)
     common = ONE if enclosed else in_common(sum(parts, []), 2 + len(sides) if has_delay else 1 << FIELD)
     if any(common):  # where it vanishes, all coefficients do; the last divisor has a meaning of its own
         parts, divisors = [[c / common if c else c for c in part] for part in parts], [[common], *divisors]
@@ -3745,39 +3752,75 @@ class Cut:
     """A requirement: where the loop is cut, and the factor that it has there, in names of its own. The loop meets the requirement where it is stable
     with the factor for all values of these. Those of a disc are r and t, delta = r (1 + j t)/(1 - j t)."""
 
-    def __init__(self, item):
-        further = ["turns"] if isinstance(item, dict) and item.get("kind") == "phase_margin" else []
-        self.requirement, at, bound, *turns = parts(item, ["kind", "at", "bound"] + further)
-        need(isinstance(at, dict) and len(at) == 1 and set(at) <= {"signal", "input", "parameter"}, "require: a cut is a signal, an input or a parameter")
-        [(self.kind, name)] = at.items()
-        self.name, self.bound = text_of(name) if self.kind == "input" else name_of(name), of_few_digits(bound)
-        self.is_complex, self.is_real, x = self.requirement != "gain_margin", True, self.bound
-        self.names = 2
-        need(x > 0, "require: a bound is not positive")
-        if self.requirement == "phase_margin":
+    def __init__(self, item, discrete):
+        need(isinstance(item, dict) and isinstance(item.get("kind"), str), "require: no kind")
+        self.requirement = kind = item["kind"]
+        key = {"phase_margin": "turns", "damping": "slopes", "log_radius": "radii"}.get(kind)
+        if kind in ("damping", "log_radius"):  # where the roots are: the cut is wherever the loop's variable stands
+            self.kind, self.name = "variable", ""
+            _, bound, *around = parts(item, ["kind", "bound", key])
+        else:
+            _, at, bound, *around = parts(item, ["kind", "at", "bound"] + ([key] if key else []))
+            need(isinstance(at, dict) and len(at) == 1 and set(at) <= {"signal", "input", "parameter"}, "require: a cut is a signal, an input or a parameter")
+            [(self.kind, name)] = at.items()
+            self.name = text_of(name) if self.kind == "input" else name_of(name)
+        self.bound = x = of_few_digits(bound)
+        self.is_complex, self.is_real = kind not in ("gain_margin", "delay_margin", "log_radius"), True
+        self.names = 1 if key or not self.is_complex else 2
+        need(not discrete or kind not in ("damping", "delay_margin"), "require: it is not of discrete time")
+        need(discrete or kind != "log_radius", "require: it is not of continuous time")
+        need(x < 0 if kind == "log_radius" else x > 0, "require: a bound has another sign")
+        if key:
+            self.around = items(around[0], of_few_digits)
+            need(len(self.around) == 2 and 0 < self.around[0] <= self.around[1], "require: there are not two positive numbers in order")
+        if kind == "phase_margin":
             need(x < 180, "require: a phase margin is not below 180 degrees")
-            self.names, self.turns = 1, self.around_tangent(items(turns[0], of_few_digits))
-        elif self.requirement == "gain_margin":
+            self.need_around_tangent()
+        elif kind == "damping":
+            need(x < 1, "require: a damping is not below 1")
+            low, high = (t * t * (1 - x * x) for t in self.around)
+            need(low <= x * x <= high, "require: the tangent is not between the 'slopes'")
+        elif kind == "log_radius":
+            self.need_around_exponential()
+        elif kind == "delay_margin":
+            pass  # any time will do
+        elif kind == "gain_margin":
             need(x > 1, "require: a gain margin is not above 1")
-            self.names = 1
-        elif self.requirement == "disk_margin":
+        elif kind == "disk_margin":
             need(x < 2, "require: a disk margin is not below 2")
         else:
-            need(self.requirement in ("modulus_margin", "complementary_peak"), "require: unknown kind")
-            need(self.requirement == "complementary_peak" or x < 1, "require: a modulus margin is not below 1")
+            need(kind in ("modulus_margin", "complementary_peak"), "require: unknown kind")
+            need(kind == "complementary_peak" or x < 1, "require: a modulus margin is not below 1")
 
-    def around_tangent(self, turns):
-        """Two numbers, the tangent of half the angle between them."""
-        need(len(turns) == 2 and 0 < turns[0] <= turns[1], "require: 'turns' are not two positive numbers in order")
+    def need_around_tangent(self):
+        """The tangent of half the angle is between two numbers."""
+        turns = self.around
         if self.bound == 90:
             need(turns[0] <= 1 <= turns[1], "require: the tangent is not between the 'turns'")
-            return turns
+            return
         bits = 128 + 4 * size(x for q in (*turns, self.bound) for x in q.as_integer_ratio())
         pi = scaled_by(inverse_tangent(1 << bits, bits), 4)
         low, high = (scaled_by(arc(enclosed(t, bits), bits), 360 * self.bound.denominator) for t in turns)
         angle = scaled_by(pi, self.bound.numerator)
         need(low[1] <= angle[0] and angle[1] <= high[0], "require: the tangent is not between the 'turns'")
-        return turns
+
+    def need_around_exponential(self):
+        bits = 128 + 4 * size(x for q in (*self.around, self.bound) for x in q.as_integer_ratio())
+        [exponential] = solutions([Fraction(1)], -self.bound, bits)
+        low, high = (enclosed(r, bits) for r in self.around)
+        need(low[1] <= exponential[0] and exponential[1] <= high[0], "require: the exponential is not between the 'radii'")
+
+    def of_variable(self, own, first):
+        """The coefficients of D(f x) for those of D(x), where the factor f of the variable x is r, or 1 + j t."""
+        if self.kind != "variable":
+            return own
+        factor, power, found = P({1 << FIELD * first: 1}), ONE, []
+        if self.is_complex:
+            factor = ONE + factor * P({UNIT: 1})
+        for c in own:
+            found.append(short(c * power))
+            power = short(power * factor)
+        return found
 
     def begin(self, first):
         """From here on the variables are its own."""
@@ -3787,12 +3830,19 @@ class Cut:
         """The ranges of its names. What has real coefficients without the factor is stable for a factor where it is for its conjugate."""
         if self.requirement == "gain_margin":
             return [[1 / self.bound, self.bound]]
-        t = self.turns[0 if refuting else 1] if self.requirement == "phase_margin" else Fraction(1)
+        if self.requirement == "delay_margin":
+            return [[Fraction(0), self.bound]]
+        if self.requirement == "log_radius":
+            return [[self.around[refuting]] * 2]
+        t = self.around[not refuting] if self.names == 1 else Fraction(1)
         return [[-t, t]] * (self.names - 1) + [[Fraction(0) if is_real else -t, t]]
 
     def boxes(self, sides, judge):
         """The boxes of a leaf `+`: it says that the loop is stable in each of them. A disc has three. No factor of its edge may move a root to the boundary;
-        then one point of the axes decides for the inside. Of a real loop real factors are enough there."""
+        then one point of the axes decides for the inside. Of a real loop real factors are enough there. A sector has one for each edge."""
+        if self.requirement == "damping":
+            [[low, high]] = self.sides(self.is_real)
+            return [sides + [[t, t]] for t in ([high] if self.is_real else [high, low])]
         if self.names < 2 or not sides or judge.divides_by_factor:
             return [sides + self.sides(self.is_real)]
         [disc, turn], middle = self.sides(self.is_real), [[(low + high) / 2] * 2 for low, high in sides]
@@ -3801,12 +3851,16 @@ class Cut:
 
     def positive(self, first):
         """What has no zero where the factors are asked about."""
+        if self.kind == "variable":
+            return []
         top, bottom = self.quotient(first)
         found = [squared_modulus(short(p)).primitive() for p in ([bottom] if self.requirement == "complementary_peak" else [bottom, top])]
         return [p for i, p in enumerate(found) if any(p) and p not in found[:i]]
 
     def quotient(self, first):
-        """The factor over a denominator that has no zero."""
+        """The factor over a denominator that has no zero; one of the variable is put in before."""
+        if self.kind == "variable":
+            return ONE, ONE
         t = P({UNIT | 1 << FIELD * (first + self.names - 1): 1})
         plus, minus, x = ONE + t, ONE + -t, self.bound / 2 if self.requirement == "disk_margin" else self.bound
         if self.requirement == "phase_margin":
@@ -3832,14 +3886,17 @@ class Cut:
         return [list(part) for part in zip(*found)], divisors
 
     def in_words(self):
-        return f"{WISHES[self.requirement].format(exact(self.bound))} {self.where()}"
+        return f"{WISHES[self.requirement].format(exact(self.bound))}{self.where()}"
 
     def where(self):
-        return {"signal": "at {}", "parameter": "at the parameter {}", "input": "at the input of '{}'"}[self.kind].format(CONTROL.sub(" ", self.name))
+        if self.kind == "variable":
+            return ""
+        return {"signal": " at {}", "parameter": " at the parameter {}", "input": " at the input of '{}'"}[self.kind].format(CONTROL.sub(" ", self.name))
 
 WISHES = {"phase_margin": "a phase margin of at least {} degrees", "gain_margin": "a gain margin of at least {} both ways",
           "modulus_margin": "a modulus margin of at least {}", "disk_margin": "a disk margin of at least {}",
-          "complementary_peak": "a peak of the complementary sensitivity of at most {}"}
+          "complementary_peak": "a peak of the complementary sensitivity of at most {}", "delay_margin": "a delay margin of at least {}",
+          "damping": "a damping of all roots of at least {}", "log_radius": "a radius of all roots of at most exp({})"}
 
 def of_few_digits(text):
     q = rational(text)
@@ -3940,7 +3997,7 @@ def check_for_all(model, document, statement, values, discrete, extent):
     *_, axes, for_all, require, tree, beyond = parts(statement, keys)
     need(extent != "parameter", "the region has no parameter here")
     need(1 <= count(order) <= 8 and 64 <= count(bits) <= 1024, "order or bits: out of range")
-    axes, for_all, require = ranges_of(axes), ranges_of(for_all), items(require, Cut)
+    axes, for_all, require = ranges_of(axes), ranges_of(for_all), items(require, lambda item: Cut(item, discrete))
     need(len(axes) <= 2 and all(low < high for low, high in axes.values()), "the window is empty, or has more than two axes")
     need(not set(axes) & set(for_all), "a name has two ranges")
     need(len(require) <= 9 and (axes or for_all or require), "there is nothing that has a range, or more than nine requirements")
@@ -4072,7 +4129,7 @@ class Level:
     """A number of the loop that is to be best: a region, or a requirement."""
 
     def __init__(self, item, discrete):
-        self.discrete, self.cut = discrete, Cut(item) if isinstance(item, dict) and "kind" in item else None
+        self.discrete, self.cut = discrete, Cut(item, discrete) if isinstance(item, dict) and "kind" in item else None
         if not self.cut:
             [bound] = parts(item, ["radius" if discrete else "decay"])
             self.bound = of_few_digits(bound)
@@ -4083,7 +4140,7 @@ class Level:
         if self.cut and other.cut:
             need((a.requirement, a.kind, a.name) == (b.requirement, b.kind, b.name), "the levels are not of the same kind")
         need(bool(self.cut) == bool(other.cut), "the levels are not of the same kind")
-        is_least_best = a.requirement == "complementary_peak" if self.cut else self.discrete
+        is_least_best = a.requirement in ("complementary_peak", "log_radius") if self.cut else self.discrete
         return a.bound < b.bound if is_least_best else a.bound > b.bound
 
 class Gains(Proofs):
@@ -4151,7 +4208,7 @@ def check_gains(model, document, statement, values, discrete, extent):
     *_, gains, require, objective, found, tree = parts(statement, keys)
     need(extent != "parameter", "the region has no parameter here")
     need(1 <= count(order) <= 8 and 64 <= count(bits) <= 1024, "order or bits: out of range")
-    gains, require = ranges_of(gains), items(require, Cut)
+    gains, require = ranges_of(gains), items(require, lambda item: Cut(item, discrete))
     names, sides = [*gains], [*gains.values()]
     need(1 <= len(gains) <= 5 and all(low < high for low, high in sides), "there are no gains or more than five, or the box is empty")
     need(len(require) <= 7, "more than seven requirements")

@@ -62,9 +62,14 @@ pub(super) struct Cell {
 }
 
 /// Degree and bits of the Taylor models.
-pub(super) fn precision(problem: &Problem, names: usize, budget: &Budget) -> Result<(usize, usize), Error> {
-    let has_dead_time =
-        problem.model().hyperperiod() == 1 && !problem.algebra_over_symbols(budget)?.symbols().delays().is_empty();
+pub(super) fn precision(
+    problem: &Problem,
+    requirements: &[Requirement],
+    names: usize,
+    budget: &Budget,
+) -> Result<(usize, usize), Error> {
+    let has_dead_time = requirements.iter().any(Requirement::is_delay_margin)
+        || problem.model().hyperperiod() == 1 && !problem.algebra_over_symbols(budget)?.symbols().delays().is_empty();
     Ok(match has_dead_time {
         true => (ORDER_WITH_DEAD_TIME, BITS_WITH_DEAD_TIME),
         false => (ORDERS[names.min(ORDERS.len()) - 1], BITS),
@@ -76,7 +81,8 @@ impl ForAll {
     /// [`Error::Refused`] (`E-no-certificate`) where the checkers do not read the model or the claim.
     pub fn new(problem: &Problem, claim: &ForAllClaim, budget: &Budget) -> Result<(ForAll, (usize, usize)), Error> {
         let own = if claim.requirements.is_empty() { 0 } else { 2 };
-        let precision = precision(problem, (claim.axes.len() + claim.all.len() + own).max(1), budget)?;
+        let precision =
+            precision(problem, &claim.requirements, (claim.axes.len() + claim.all.len() + own).max(1), budget)?;
         let draft = problem.for_all_certificate(claim, "?", precision, budget)?;
         let judge = ForAllJudge::new(&problem.model().source().text, &draft, &Limits::within(Duration::MAX));
         let judge = judge.map_err(|rejection| {

@@ -73,7 +73,7 @@ pub fn certify_tolerance(
         }
     }
     for required in &answer.value().required {
-        required.requirement.refuse_uncertified()?;
+        required.requirement.refuse_uncertified(answer.problem().time())?;
     }
     let none = || {
         let (why, help) = match misses_at_nominal(answer.value()) {

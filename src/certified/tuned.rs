@@ -209,9 +209,12 @@ fn candidates(target: &Target<'_>, optimum: &Optimum) -> Result<Vec<FoundClaim>,
 /// What a check sees, with the degree and the bits of its models.
 fn judge(answer: &TuneAnswer, claim: &TuneClaim, budget: &Budget) -> Result<(TuneJudge, (usize, usize)), Error> {
     let problem = &answer.problem;
-    let is_plain =
-        claim.requirements.is_empty() && !matches!(claim.best, Some(BestOf::Level(LevelAsked::Requirement(_))));
-    let precision = precision(problem, claim.gains.len() + if is_plain { 0 } else { 2 }, budget)?;
+    let mut asked = claim.requirements.clone();
+    if let Some(BestOf::Level(LevelAsked::Requirement(level))) = &claim.best {
+        asked.push(level.clone());
+    }
+    let own = if asked.is_empty() { 0 } else { 2 };
+    let precision = precision(problem, &asked, claim.gains.len() + own, budget)?;
     let draft = problem.tune_certificate(claim, "", precision, budget)?;
     let judge = TuneJudge::new(&problem.model().source().text, &draft, &Limits::within(Duration::MAX));
     let judge = judge.map_err(|rejection| {

@@ -124,6 +124,12 @@ fn known(kind: usize, random: &mut Random) -> (Design, &'static str, Rational) {
             (design.require(Requirement::modulus_margin(pole.clone()).unwrap()), "min K", one() + pole)
         }
         6 => (pi(ratio(99, 1)).within(Region::half_plane(rate.clone())), "min k", &rate * &two - &a),
+        // s^2 + a s + K has the damping a/(2 sqrt(K)).
+        7 => {
+            let design = Design::new(loop_of("continuous", &format!("K/(s*(s + {a}))"), K), &[("K", nothing, wide)]);
+            let best = (&a * &half).checked_div(&pole).unwrap();
+            (design.require(Requirement::damping(pole).unwrap()), "max K", &best * &best)
+        }
         // s^3 + (a + b) s^2 + (a b + k) s + ki
         _ => {
             let text = loop_of("continuous", &format!("(k*s + ki)/(s*(s + {a})*(s + {b}))"), PI);
@@ -141,7 +147,7 @@ fn exact(json: &Value) -> Rational {
 fn best_values_that_are_known_are_between_what_is_found_and_what_is_proved() {
     let mut random = Random::new(3);
     for round in 0..40 {
-        let (design, objective, best) = known(round % 8, &mut random);
+        let (design, objective, best) = known(round % 9, &mut random);
         let found = design.certified(objective);
         let of = &found["statement"];
         let (low, high) = match of["objective"].get("level") {
@@ -188,7 +194,7 @@ fn impossible(kind: usize, random: &mut Random) -> Design {
 fn specifications_that_cannot_be_met_are_certified() {
     let mut random = Random::new(4);
     for round in 0..40 {
-        let design = impossible(round % 8, &mut random);
+        let design = impossible(round % 9, &mut random);
         // Some bounds may have no gains between them.
         if design.gains.iter().any(|(_, [low, high])| low >= high) {
             continue;
@@ -239,7 +245,12 @@ fn what_has_no_certificate_is_said() {
     };
     let text = loop_of("continuous", "K/(s*(s + 1)*(s + 2))", K);
     let lags = loop_of("continuous", "(K*s + 1/5)/(s*(s + 1)^3)", K);
-    refused(&Design::new(lags, &[("K", ratio(1, 10), ratio(9, 1))]), "max damping", "damping");
+    let design = Design::new(lags, &[("K", ratio(1, 10), ratio(9, 1))]);
+    refused(&design, "min norm r y", "norm");
+    // Levels that follow from where roots are, and from a dead time, have one.
+    for objective in ["max damping", "max delay_margin"] {
+        assert!(design.certified(objective)["statement"]["found"]["level"].is_object());
+    }
     // The gain margin has no bound.
     let first = loop_of("continuous", "K/(s + 1)", K);
     refused(&Design::new(first, &[("K", ratio(1, 10), ratio(9, 1))]), "max gain_margin", "no best value");

@@ -17,7 +17,7 @@ use super::characteristic::Form;
 use super::clock::Clock;
 use super::declarations::Declarations;
 use super::expression::{Base, Scope};
-use super::factor::Cut;
+use super::factor::{Cut, PutIn};
 use super::hold::{Hold, MovingHold};
 use super::model::{Ports, names, outputs};
 use super::multivariate::{Fraction, Multi};
@@ -121,7 +121,8 @@ pub(super) fn system_matrix<'t>(
     let numbered = driven.iter().enumerate().map(|(i, name)| (*name, i)).chain(external);
     let signals = numbered.map(|(name, i)| (name.to_owned(), i)).collect();
     // Behind a factor a signal is another one.
-    let cut = scope.factor.as_ref().filter(|factor| !matches!(factor.cut, Cut::Parameter(_))).map(|_| driven.len());
+    let is_signal = |factor: &&PutIn| matches!(factor.cut, Cut::Signal(_) | Cut::Input(_));
+    let cut = scope.factor.as_ref().filter(is_signal).map(|_| driven.len());
     let unknowns = driven.len() + usize::from(cut.is_some());
     let (rows, alone) = (Vec::new(), Vec::new());
     let (rates, rate) = (Rates::default(), Rate { every: 1, phase: 0 });

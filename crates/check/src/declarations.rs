@@ -204,9 +204,9 @@ impl<'t> Declarations<'t> {
             last = last.max(factor.names.end - 1);
             // Where the name has another meaning it keeps that one.
             scope.unit = Some(meaning.unit);
-            scope.factor = Some(factor.clone());
         }
         scope.moving = is_moving.then(|| Moving::new(last + 1, !self.discrete));
+        scope.factor = meaning.factor.clone().map(|own| own.with_dead_time(scope.moving.as_mut())).transpose()?;
         for (name, text) in self.constants.iter().filter(|(name, _)| !meaning.variables.contains_key(*name)) {
             let value = match meaning.replaced.get(name) {
                 Some(value) => Fraction::number(value),

@@ -1,7 +1,8 @@
 //! A factor at a cut of a loop: what a requirement on a margin asks the loop to bear.
 
 use super::clock::Clock;
-use super::complex::square;
+use super::complex::{short, square};
+use super::moving::Moving;
 use super::multivariate::{Fraction, Multi};
 use super::number::{Q, Z};
 use super::over_symbols::primitive;
@@ -16,6 +17,8 @@ pub(super) enum Cut {
     Input(String),
     /// Wherever a parameter stands.
     Parameter(String),
+    /// Wherever the loop's variable stands: what is asked is where the roots are.
+    Variable,
 }
 
 /// The factors, by one or two names of their own: the last is `t`, or the factor itself. With `d = r (1 + j t)/(1 - j t)`:
@@ -31,6 +34,12 @@ pub(super) enum Family {
     Disk(Q),
     /// `1 + d/M`.
     Complementary(Q),
+    /// `exp(-T s)`, a dead time `T`.
+    Delay,
+    /// `1 + j t`: of the variable, for roots in a sector.
+    Sector,
+    /// `r`: of the variable, for roots in a disc.
+    Disc,
 }
 
 /// A factor in a model.
@@ -41,15 +50,27 @@ pub(super) struct PutIn {
     /// The variables that are its own names.
     pub names: Range<usize>,
     is_complex: bool,
+    is_delay: bool,
 }
 
 impl PutIn {
     /// Its own names are the variables from `first` on.
     pub fn new(of: &Factor, first: usize, unit: usize, clock: &Clock) -> Result<Self, String> {
         let [numerator, scalar] = of.family.quotient(first, unit, clock)?;
+        // Of a dead time it is the time, until exponentials are read.
         let value = Fraction::over(numerator, scalar);
         let names = first..first + of.family.names();
-        Ok(PutIn { cut: of.cut.clone(), value, names, is_complex: of.family.is_complex() })
+        let is_delay = of.family == Family::Delay;
+        Ok(PutIn { cut: of.cut.clone(), value, names, is_complex: of.family.is_complex(), is_delay })
+    }
+
+    /// With the exponential of a dead time in its place.
+    pub fn with_dead_time(self, moving: Option<&mut Moving>) -> Result<Self, String> {
+        if !self.is_delay {
+            return Ok(self);
+        }
+        let moving = moving.ok_or("a dead time at a cut is read with functions alone")?;
+        Ok(PutIn { value: moving.delayed(self.value)?, ..self })
     }
 
     /// Whether it is complex, and occurs.
@@ -67,8 +88,26 @@ pub(super) struct Factor {
 }
 
 impl Factor {
-    pub fn is_complex_at_parameter(&self) -> bool {
-        self.family.is_complex() && matches!(self.cut, Cut::Parameter(_))
+    /// Whether the loop has to be linear in the parameter that is cut: everywhere but where another number stands for it.
+    pub fn needs_linear_parameter(&self) -> bool {
+        self.family != Family::Gain && matches!(self.cut, Cut::Parameter(_))
+    }
+
+    /// `D(f x)` for a polynomial `D(x)`, if the cut is at the variable.
+    pub fn of_variable(&self, d: Vec<Multi>, first: usize, unit: usize, clock: &Clock) -> Result<Vec<Multi>, String> {
+        if self.cut != Cut::Variable {
+            return Ok(d);
+        }
+        let [factor, _] = self.family.quotient(first, unit, clock)?;
+        let mut power = Multi::one();
+        let mut out = Vec::with_capacity(d.len());
+        for c in d {
+            let c = c.times(&power, clock)?;
+            out.push(if self.family.is_complex() { short(&c, unit, clock)? } else { c });
+            power = power.times(&factor, clock)?;
+            power = if self.family.is_complex() { short(&power, unit, clock)? } else { power };
+        }
+        Ok(out)
     }
 }
 
@@ -76,20 +115,20 @@ impl Family {
     /// The number of its own names.
     pub fn names(&self) -> usize {
         match self {
-            Family::Gain | Family::Turn => 1,
+            Family::Gain | Family::Turn | Family::Delay | Family::Sector | Family::Disc => 1,
             Family::Modulus(_) | Family::Disk(_) | Family::Complementary(_) => 2,
         }
     }
 
     pub fn is_complex(&self) -> bool {
-        *self != Family::Gain
+        !matches!(self, Family::Gain | Family::Delay | Family::Disc)
     }
 
     /// Numerator and denominator, polynomials in the own names, which are the variables from `first` on, and the imaginary unit. The denominator is
     /// nowhere zero for real names, between -1 and 1 where there are two.
     fn quotient(&self, first: usize, unit: usize, clock: &Clock) -> Result<[Multi; 2], String> {
         let [one, last] = [Multi::one(), Multi::variable(first + self.names() - 1)];
-        if *self == Family::Gain {
+        if !self.is_complex() {
             return Ok([last, one]);
         }
         let turned = last.times(&Multi::variable(unit), clock)?;
@@ -101,7 +140,8 @@ impl Family {
             Ok([whole.plus(&d), whole.minus(&d), whole])
         };
         Ok(match self {
-            Family::Gain | Family::Turn => [minus, plus],
+            Family::Gain | Family::Delay | Family::Disc | Family::Turn => [minus, plus],
+            Family::Sector => [plus, one],
             Family::Modulus(m) => {
                 let [_, below, whole] = shares(m)?;
                 [whole, below]
@@ -168,6 +208,9 @@ mod tests {
             Family::Disk(q(7, 4)),
             Family::Complementary(q(3, 2)),
             Family::Gain,
+            Family::Delay,
+            Family::Sector,
+            Family::Disc,
         ] {
             let [top, below] = family.quotient(0, family.names(), &clock).unwrap();
             let positive = family.positive(0, &clock).unwrap();
@@ -178,7 +221,9 @@ mod tests {
                 let d = turn.map(|x| x * r);
                 let plus = |x: f64, share: f64| [x + share * d[0], share * d[1]];
                 let [expected, over] = match family {
-                    Family::Gain => [[t, 0.0], [1.0, 0.0]],
+                    // Of a dead time it is the time.
+                    Family::Gain | Family::Delay | Family::Disc => [[t, 0.0], [1.0, 0.0]],
+                    Family::Sector => [[1.0, t], [1.0, 0.0]],
                     Family::Turn => [[turn[0], -turn[1]], [1.0, 0.0]],
                     Family::Modulus(_) => [[1.0, 0.0], plus(1.0, -0.75)],
                     Family::Disk(_) => [plus(1.0, 0.875), plus(1.0, -0.875)],

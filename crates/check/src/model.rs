@@ -120,13 +120,14 @@ fn read_for(
             // Without the factor it must be right as well.
             let of = Values { numbers: &meaning.values, first, table, base };
             let plain = evaluated(&root, &declared, (&meaning, is_moving), Some(of), clock)?;
-            let (Cut::Parameter(name) | Cut::Signal(name) | Cut::Input(name)) = &factor.cut;
-            let is_parameter = matches!(factor.cut, Cut::Parameter(_));
-            if is_parameter && !declared.is_parameter(name, clock) {
-                return Err(format!("the loop has no parameter '{}' to be cut at", shorten(name)));
-            }
-            if !is_parameter && !matches!(plain.form, Form::System(..)) {
-                return Err("a loop without blocks is cut at a parameter alone".into());
+            match &factor.cut {
+                Cut::Parameter(name) if !declared.is_parameter(name, clock) => {
+                    return Err(format!("the loop has no parameter '{}' to be cut at", shorten(name)));
+                }
+                Cut::Signal(_) | Cut::Input(_) if !matches!(plain.form, Form::System(..)) => {
+                    return Err("a loop without blocks is cut at a parameter alone".into());
+                }
+                _ => {}
             }
             // Conjugated factors make conjugated loops of real ones.
             is_complex = plain.divisors.iter().any(|divisor| has_unit(divisor, meaning.unit));

@@ -334,5 +334,10 @@ impl Function {
     }
 }
 
+/// `exp(x)` of a number.
+pub(super) fn exponential_of(x: &Q, p: &Precision, clock: &Clock) -> Result<Taylor, String> {
+    Function::Exponential.at(Taylor::number(x, p), p, clock)
+}
+
 #[cfg(test)]
 mod tests;

@@ -10,7 +10,7 @@ use super::characteristic::{Form, closed};
 use super::clock::Clock;
 use super::complex::{parts, real_divisor, short, square_of_root};
 use super::enclosed::Determinant;
-use super::factor::{Factor, Family};
+use super::factor::{Cut, Factor, Family};
 use super::model::{self, Boxed, Functions};
 use super::moving::Sources;
 use super::multivariate::{Fraction, Multi};
@@ -73,7 +73,7 @@ pub(super) fn with_sources(
     clock: &Clock,
 ) -> Result<(OverBox, Sources), String> {
     let asked = model::asked_over_box(text, boxed, functions, clock)?;
-    if let Some(factor) = boxed.factor.filter(|factor| factor.is_complex_at_parameter()) {
+    if let Some(factor) = boxed.factor.filter(|factor| factor.needs_linear_parameter()) {
         // Linear in a gain there, or, doubled, of twice the degree.
         let factor = Factor { family: Family::Gain, ..factor.clone() };
         let (plain, _) = with_sources(text, Boxed { factor: Some(&factor), ..boxed }, functions, by, clock)?;
@@ -92,7 +92,14 @@ pub(super) fn with_sources(
             .collect::<Result<Vec<_>, _>>()?;
         let sources =
             asked.moving.map_or_else(|| Ok(Sources::default()), |moving| moving.with_values(reader.values, clock))?;
-        let (coefficients, sources) = reader.coefficients(&asked.form, by, sources, &mut divisors)?;
+        let (mut coefficients, sources) = reader.coefficients(&asked.form, by, sources, &mut divisors)?;
+        if let Some(factor) = boxed.factor.filter(|factor| factor.cut == Cut::Variable) {
+            if sources.have_dead_time() {
+                return Err("where the roots of a loop with dead time are has no certificate".into());
+            }
+            let unit = asked.unit.unwrap_or_default();
+            coefficients = factor.of_variable(coefficients, FIRST + boxed.names.len(), unit, clock)?;
+        }
         let [coefficients, imaginary] = reader.in_parts(coefficients);
         let found = OverBox {
             discrete: asked.discrete,

@@ -28,7 +28,7 @@ impl Diagram<'_, '_> {
                 let new = Row::from([(behind, Fraction::number(&Q::one()))]);
                 self.cut_input = Some(std::mem::replace(input, new));
             }
-            Cut::Input(_) | Cut::Parameter(_) => {}
+            Cut::Input(_) | Cut::Parameter(_) | Cut::Variable => {}
         }
         Ok(())
     }
@@ -47,7 +47,7 @@ impl Diagram<'_, '_> {
                 let input = self.cut_input.take();
                 input.ok_or_else(|| format!("no block is called '{}' to be cut at", shorten(name)))?
             }
-            Cut::Parameter(_) => return Ok(()),
+            Cut::Parameter(_) | Cut::Variable => return Ok(()),
         };
         let mut row = Row::from([(behind, Fraction::from(factor.value.scalar.clone()))]);
         let minus = Fraction::from(factor.value.numerator.clone()).negated();

@@ -162,7 +162,7 @@ impl ForAllJudge {
     }
 
     /// The boxes of a leaf `+` over these axes, in their order: the leaf says that the loop is stable in each of them. The factors of a disc have three, where there
-    /// are axes or names for all: two for its edge, and one for its inside at a point of the axes.
+    /// are axes or names for all: two for its edge, and one for its inside at a point of the axes. A sector has two where the loop is complex.
     ///
     /// Cost: that of copying the sides.
     pub fn proofs(&self, axes: &JudgedBox, number: usize) -> Vec<JudgedBox> {
@@ -179,7 +179,7 @@ impl ForAllJudge {
                 let middle: Vec<_> = sides.iter().map(|side| Part::of(side)(Part::Middle)).collect();
                 vec![with(&sides, plus), with(&sides, minus), with(&middle, across)]
             }
-            _ => vec![with(&sides, requirement.ranges(of.is_complex, false))],
+            _ => requirement.proofs(of.is_complex).into_iter().map(|own| with(&sides, own)).collect(),
         }
     }
 

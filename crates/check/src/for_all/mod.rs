@@ -64,7 +64,10 @@ impl Loops {
         let discrete = is_discrete(time)?;
         let extent = fixed_extent(region, discrete)?;
         let (axes, for_all) = (ranges(axes, "'axes'", false)?, ranges(for_all, "'for_all'", true)?);
-        let require = list(require, "'require'")?.iter().map(Requirement::read).collect::<Result<Vec<_>, _>>()?;
+        let require = list(require, "'require'")?
+            .iter()
+            .map(|own| Requirement::read(own, discrete))
+            .collect::<Result<Vec<_>, _>>()?;
         if axes.len() > 2 || require.len() > MAX_REQUIREMENTS {
             return Err("there are more than two axes, or more than nine requirements".into());
         }

@@ -51,7 +51,10 @@ impl Statement {
         if names.iter().enumerate().any(|(i, name)| names[..i].contains(name)) {
             return Err("a gain has two ranges".into());
         }
-        let require = list(require, "'require'")?.iter().map(Requirement::read).collect::<Result<Vec<_>, _>>()?;
+        let require = list(require, "'require'")?
+            .iter()
+            .map(|own| Requirement::read(own, discrete))
+            .collect::<Result<Vec<_>, _>>()?;
         if require.len() + 2 > MAX_REQUIREMENTS {
             return Err("there are too many requirements".into());
         }

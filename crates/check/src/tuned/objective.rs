@@ -153,7 +153,7 @@ pub(super) enum Level {
 impl Level {
     pub fn read(json: &Json, discrete: bool) -> Result<Self, String> {
         if json.get("kind").is_some() {
-            return Ok(Level::Requirement(Box::new(Requirement::read(json)?)));
+            return Ok(Level::Requirement(Box::new(Requirement::read(json, discrete)?)));
         }
         let Extent::Number(bound) = fixed_extent(json, discrete)? else { return Err("a level is a number".into()) };
         let bound = short(bound)?;

@@ -2,10 +2,12 @@
 
 mod bounds;
 mod decide;
+mod family_box;
 mod held;
 mod limit;
 mod one_name;
 mod required;
+mod required_families;
 
 pub(crate) use held::{SYMBOL_BITS, Truth};
 

@@ -130,7 +130,7 @@ pub(crate) static NO_CERTIFICATE: Refusal =
 pub(crate) static REQUIREMENT_NOT_CERTIFIED: Refusal = Refusal::new(
     Code::NoCertificate,
     "no certificate of '{asked}': the checkers know margins that are stability for all factors at a cut of the loop",
-    "phase, gain, modulus and disk margins and the peak of T are such, at a signal or a block; the answer is printed without '--certificate'",
+    "phase, gain, modulus and disk margins and the peak of T are such, at a signal or a block, in continuous time delay margins, too, and dampings; the answer is printed without '--certificate'",
 );
 pub(crate) static WIDE_DISK: Refusal = Refusal::new(
     Code::NoCertificate,

@@ -7,7 +7,7 @@ use crate::coverage::refusals::{REQUIREMENT_NOT_CERTIFIED, WIDE_DISK};
 use crate::error::Error;
 use crate::model::Cut;
 use crate::problem::{Problem, Region};
-use crate::response::{AllOf, Level, Requirement, Rule, half_tangent};
+use crate::response::{AllOf, Level, Requirement, Rule, half_tangent, radius_below};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::poly::RealAlgebraic;
@@ -21,6 +21,12 @@ const DISK: &str = "disk_margin";
 
 /// The tangent of half of an angle is enclosed to so many bits.
 const TURN_BITS: u64 = 48;
+
+/// What the bound of a requirement on roots stands for is enclosed to so many bits.
+const AROUND_BITS: u64 = 64;
+
+/// Smaller radii than two to this power have no certificate.
+const MOST_ZEROS: u64 = 512;
 
 /// A factor that is not rational is rounded to so many digits.
 const FACTOR_DIGITS: usize = 12;
@@ -125,7 +131,10 @@ impl Problem {
         at: Option<&str>,
         budget: &Budget,
     ) -> Result<Value, Error> {
-        requirement.refuse_uncertified()?;
+        requirement.refuse_uncertified(self.time())?;
+        if let Some(of_roots) = of_roots(requirement.rule()) {
+            return Ok(of_roots);
+        }
         let mut bound = match requirement.rule() {
             Rule::Factors(factor) => vec![("bound", number(&above(factor)))],
             Rule::Turned { twice_cosine } => {
@@ -141,7 +150,8 @@ impl Problem {
                 return Err(WIDE_DISK.diagnostic(&[("asked", &requirement.text())]).into());
             }
             Rule::Circle(circle) => vec![("bound", number(circle.asked()))],
-            Rule::DeadTime(_) | Rule::Sector(_) | Rule::Modulus { .. } => unreachable!("it is refused"),
+            Rule::DeadTime(least) => vec![("bound", number(least))],
+            Rule::Sector(_) | Rule::Modulus { .. } => unreachable!("it is one about roots"),
         };
         let cut = match self.model().cut(at)? {
             Cut::Signal(name) => object([("signal", name.into())]),
@@ -155,6 +165,27 @@ impl Problem {
         all.append(&mut bound);
         Ok(Value::Object(all.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()))
     }
+}
+
+/// A requirement on where the roots are; `None` of one at a cut.
+fn of_roots(rule: &Rule) -> Option<Value> {
+    let (kind, bound, key, around) = match rule {
+        Rule::Sector(least) => {
+            let square = least * least;
+            let square = square.checked_div(&(Rational::ONE - &square)).expect("a damping is below 1");
+            let slope = Enclosure::from_rational(square).sqrt(AROUND_BITS);
+            ("damping", least, "slopes", [slope.lower().clone(), slope.upper().clone()])
+        }
+        Rule::Modulus { exponent } => {
+            // As many bits behind the first one that is not zero, unless that is very far.
+            let zeros = exponent.floor().to_i64().map_or(MOST_ZEROS, i64::unsigned_abs).min(MOST_ZEROS);
+            let bits = AROUND_BITS + 2 * zeros;
+            let below = radius_below(exponent, bits);
+            ("log_radius", exponent, "radii", [below.clone(), below + Rational::dyadic(&1.into(), bits)])
+        }
+        Rule::Factors(_) | Rule::Turned { .. } | Rule::Circle(_) | Rule::DeadTime(_) => return None,
+    };
+    Some(object([("kind", kind.into()), ("bound", number(bound)), (key, around.iter().map(number).collect())]))
 }
 
 pub(super) fn range(of: &AllOf) -> Value {

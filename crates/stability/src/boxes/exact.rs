@@ -12,18 +12,18 @@
 //! One parameter may be inside of its side: it stays where it is along these paths, and at the zero of least `rho` its
 //! determinant vanishes too, which [`super::tangent`] turns into a polynomial in the factor.
 
+use super::critical::{CELLS, CriticalCell, around, cover};
 use super::determinants::{derivatives, product};
 use super::factor::ToleranceProblem;
 use super::family::Path;
 use super::largest::LargestFactor;
 use super::polynomial::Bundle;
-use super::prove::{Cell, Closing, Outcome, closed_by_constant, closed_by_sign, closed_by_vector, keeps_sign};
+use super::prove::{Outcome, closed_by_constant, closed_by_sign, closed_by_vector, keeps_sign};
 use super::search::ray;
 use super::sides::{Side, at_factor};
 use super::tangent::touching;
 use super::tensor::{FrequencyScale, Tensor, expand};
-use super::tree::{Node, Tree};
-use crate::subdivision::{Look, Order, Tally, subdivide};
+use super::tree::Tree;
 use crate::{Cause, End};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational, Sign};
@@ -35,9 +35,6 @@ const DEPTHS: [u32; 7] = [2, 4, 6, 9, 13, 18, 24];
 
 /// How much beyond the end the box is taken: this share of it.
 const BEYOND: u64 = 52;
-
-/// Cells of one attempt.
-const CELLS: usize = 4000;
 
 /// Why the end of the worst line is the largest factor.
 #[derive(Clone, Debug)]
@@ -68,15 +65,6 @@ pub enum Place {
     Inside,
 }
 
-/// A cell of the box around its worst point.
-#[derive(Clone, Debug)]
-#[non_exhaustive]
-pub struct CriticalCell {
-    /// The part of each parameter's side, as shares from 0 to 1; last that of the frequency axis, as `t` in
-    /// `v = 4^scale t / (1 - t)`.
-    pub parts: Vec<[Rational; 2]>,
-}
-
 impl ToleranceProblem<'_> {
     /// Whether the end of the worst line is the largest factor; `None` where that is not proved.
     ///
@@ -103,22 +91,21 @@ impl ToleranceProblem<'_> {
             return Ok(None);
         }
         let causes: Vec<Cause> = end.causes.iter().collect();
-        let [cause] = causes.as_slice() else { return Ok(None) };
+        let &[cause] = causes.as_slice() else { return Ok(None) };
+        let worst = WorstLine { direction, interval: [&from, &to], cause, end, zeros };
         // A parameter that stays at its nominal value may be one on which the zero does not depend: any side will do then.
         let mut tried = None;
         for idle in [Place::High, Place::Inside] {
             let Some(place) = self.places(direction, idle).filter(|place| tried.as_ref() != Some(place)) else {
                 continue;
             };
-            let Some(value) = self.candidate(&place, direction, [&from, &to], *cause, end, zeros, budget)? else {
-                continue;
-            };
+            let Some(value) = self.candidate(&place, &worst, budget)? else { continue };
             let sides = at_factor(&self.sides, &to);
             let idle = direction.iter().map(Rational::is_zero).collect();
             let known = Known { from: from.clone(), to: to.clone(), value, place: place.clone(), idle };
             let found = budget.enter(|| match cause {
                 Cause::ComplexPair => self.exact_pair(known, &sides, shares, factor, budget),
-                _ => self.exact_real(known, &sides, *cause, budget),
+                _ => self.exact_real(known, &sides, cause, budget),
             })??;
             if found.is_some() {
                 return Ok(found);
@@ -129,26 +116,17 @@ impl ToleranceProblem<'_> {
     }
 
     /// The only factor in an interval at which a zero can come first, by where the parameters are then.
-    #[expect(clippy::too_many_arguments, reason = "all of them are read once")]
-    fn candidate(
-        &self,
-        place: &[Place],
-        direction: &[Rational],
-        [from, to]: [&Rational; 2],
-        cause: Cause,
-        end: &End,
-        zeros: &[RealAlgebraic],
-        budget: &Budget,
-    ) -> Result<Option<Real>, Exhausted> {
+    fn candidate(&self, place: &[Place], worst: &WorstLine<'_>, budget: &Budget) -> Result<Option<Real>, Exhausted> {
+        let [from, to] = worst.interval;
         let Some(inside) = place.iter().position(|p| *p == Place::Inside) else {
             let between = |z: &&RealAlgebraic| z.compare_rational(from).is_gt() && z.compare_rational(to).is_le();
-            return Ok((zeros.iter().filter(between).count() == 1).then(|| end.value.clone()));
+            return Ok((worst.zeros.iter().filter(between).count() == 1).then(|| worst.end.value.clone()));
         };
-        if cause != Cause::ComplexPair {
+        if worst.cause != Cause::ComplexPair {
             return Ok(None);
         }
-        let line = ray(&self.sides, direction);
-        Ok(touching(&self.p.pair(), &line, inside, [from, to], budget)?.map(Real::from))
+        let line = ray(&self.sides, worst.direction);
+        Ok(touching(&self.p.pair(), &line, inside, worst.interval, budget)?.map(Real::from))
     }
 
     /// Where the parameters are in a direction, those at their nominal value `idle`; `None` where more than one is inside of its
@@ -346,34 +324,15 @@ impl ToleranceProblem<'_> {
     }
 }
 
-/// A tree of cells that are closed, but for those inside the critical cell; `None` where it takes too many.
-fn cover(tensor: Tensor, critical: &CriticalCell, closed: Closing, budget: &Budget) -> Result<Option<Tree>, Exhausted> {
-    let parts = &critical.parts;
-    let frequency = parts.len() - 1;
-    let look = |cell: &mut Cell, tally: Tally| {
-        let hint = match closed(cell, tally.looks()) {
-            Ok(node) => return Ok(Look::Decided(node)),
-            Err(hint) => hint,
-        };
-        let own: Vec<[Rational; 2]> = (0..=frequency).map(|axis| cell.part(axis)).collect();
-        let beyond: Vec<usize> =
-            (0..=frequency).filter(|&i| own[i][0] < parts[i][0] || own[i][1] > parts[i][1]).collect();
-        if beyond.is_empty() {
-            return Ok(Look::Decided(Node::Critical));
-        }
-        let meets = (0..=frequency).all(|i| own[i][0] < parts[i][1] && own[i][1] > parts[i][0]);
-        if tally.cells() > CELLS {
-            return Ok(Look::Open(()));
-        }
-        let axis = match hint {
-            Some(axis) if !meets || beyond.contains(&axis) => Some(axis),
-            _ if meets => cell.tensor.best_axis_of(&beyond),
-            _ => cell.tensor.best_axis(),
-        };
-        Ok(axis.or_else(|| meets.then(|| beyond[0])).map_or(Look::Open(()), Look::Cut))
-    };
-    let steps = subdivide([Cell::whole(tensor)], Order::Depth, budget, look)?;
-    Ok(steps.ok().map(|steps| Tree::of(steps, frequency)))
+/// The line on which stability is lost first.
+struct WorstLine<'w> {
+    direction: &'w [Rational],
+    /// The end is between these factors, and up to the second one nothing worse is to come.
+    interval: [&'w Rational; 2],
+    cause: Cause,
+    end: &'w End,
+    /// The critical factors of the line.
+    zeros: &'w [RealAlgebraic],
 }
 
 /// What the exact proof begins with.
@@ -391,22 +350,4 @@ impl Known {
         let Known { from, to, value, place, .. } = self;
         ExactProof { from, to, value, place, cell, tree }
     }
-}
-
-impl CriticalCell {
-    /// The part of the box.
-    fn sides(&self, whole: &[[Rational; 2]]) -> Vec<[Rational; 2]> {
-        let part = |([low, high], shares): (&[Rational; 2], &[Rational; 2])| {
-            shares.each_ref().map(|share| low + &(&(high - low) * share))
-        };
-        whole.iter().zip(&self.parts).map(part).collect()
-    }
-}
-
-/// Five parts of `2^-(halvings + 2)` of the unit interval around a share.
-fn around(share: &Rational, halvings: u64) -> [Rational; 2] {
-    let unit = Rational::dyadic(&Integer::ONE, halvings + 2);
-    let at = share.checked_div(&unit).expect("a unit is not zero").floor();
-    let edge = |k: i64| (&unit * &Rational::from(&at + &Integer::from(k))).max(Rational::ZERO).min(Rational::ONE);
-    [edge(-2), edge(3)]
 }

@@ -1,7 +1,8 @@
 //! The largest factor by which all tolerances can be scaled, between a proof and a point.
 
+use super::bracketing::{Bracketing, Open};
 use super::family::{Family, Path};
-use super::largest::{LargestFactor, Witness, lowered};
+use super::largest::{LargestFactor, Witness};
 use super::polynomial::BoxPolynomial;
 use super::prove::{BoxProof, MOST_COEFFICIENTS, Outcome};
 use super::reason::OpenReason;
@@ -16,21 +17,6 @@ const CELLS: usize = 4000;
 
 /// A box that needs more cells than this is not decided.
 const MOST_CELLS: usize = 1 << 18;
-
-/// How often a box that is not decided is made smaller.
-const RETREATS: u32 = 6;
-
-/// How often a box is made as small as leaves out the cell at which its proof ended, before it is made smaller by a share.
-const WITHDRAWALS: u32 = 8;
-
-/// How often the upper end moves to a point at which a proof failed.
-const REFUTATIONS: u32 = 64;
-
-/// All corners of so many parameters are tried where a proof does not come through.
-const MOST_FOR_CORNERS: usize = 6;
-
-/// Without any crossing the largest factor that is proved.
-const FAR: i64 = 1 << 10;
 
 /// A point just beyond the worst one is so many binary digits away.
 const BEYOND: u64 = 40;
@@ -208,107 +194,26 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
     /// that depends on the upper end.
     pub fn bracket(
         &self,
-        mut search: Search<F>,
+        search: Search<F>,
         known: Option<BoxProof>,
         gap: &dyn Fn(&Rational) -> Rational,
         most: Option<&Rational>,
         budget: &Budget,
     ) -> Result<LargestFactor, Exhausted> {
-        let mut proved = known.map(|proof| (Rational::ONE, proof));
-        let mut open = None;
-        let mut coarser = Rational::ONE;
-        // The box does not reach the cell at which a proof ended: there stability may be touched and not lost.
-        let mut beneath: Option<Rational> = None;
-        let (mut withdrawals, mut retreats, mut refutations) = (0, 0, 0);
-        // At first not so near to the end: if that is not the nearest one, a box is refuted sooner than it is left open.
-        let mut is_rough = true;
         budget.step("proving the largest box");
-        loop {
-            if let Some(hi) = search.best.as_ref().map(|best| best.hi.clone()) {
-                let share = &gap(&hi) * &Rational::dyadic(&Integer::ONE, 3);
-                // A budget that runs out is noticed by the proof.
-                let _ = budget.enter(|| search.sharpen(&share));
-            }
-            let end = search.best.as_ref().map(|b| &b.lo).into_iter().chain(most).chain(&beneath).min();
-            let target = match end {
-                None => Rational::from(FAR),
-                Some(end) => {
-                    let least = if is_rough { Rational::new(1.into(), 1000.into()) } else { Rational::ZERO };
-                    lowered(end, &(&gap(end) * &coarser).max(least).min(Rational::new(7.into(), 8.into())))
-                }
+        let mut bracketing = Bracketing::new(self, search, known, (gap, most), budget);
+        while let Some(target) = bracketing.target() {
+            let goes_on = match self.attempt(&target, CELLS, budget) {
+                Err(exhausted) => bracketing.exhausted(exhausted)?,
+                Ok(Outcome::Stable(proof)) => bracketing.proved(target, proof),
+                Ok(Outcome::Refuted(point)) => bracketing.refuted(&point)?,
+                Ok(Outcome::Open { why, cell }) => bracketing.left_open(&target, why, cell),
             };
-            if proved.as_ref().is_some_and(|(lower, _)| *lower >= target) {
+            if !goes_on {
                 break;
             }
-            let outcome = match self.attempt(&target, CELLS, budget) {
-                Err(exhausted) if proved.is_none() => return Err(exhausted),
-                Err(_) => {
-                    open.get_or_insert((OpenReason::Time, Vec::new()));
-                    break;
-                }
-                Ok(outcome) => outcome,
-            };
-            match outcome {
-                Outcome::Stable(proof) => {
-                    proved = Some((target, proof));
-                    if !is_rough {
-                        break;
-                    }
-                    is_rough = false;
-                }
-                Outcome::Refuted(point) => {
-                    refutations += 1;
-                    if refutations > REFUTATIONS {
-                        open = Some((OpenReason::Refutations, Vec::new()));
-                        break;
-                    }
-                    budget.step("looking for the worst point");
-                    let nearer = budget.enter(|| search.run_from(&point));
-                    budget.step("proving the largest box");
-                    let is_bounded = nearer.is_err() || self.reaches(&mut search, &point);
-                    if !is_bounded && matches!(nearer, Ok(false)) {
-                        open = Some((OpenReason::Unreached, Vec::new()));
-                        break;
-                    }
-                    match nearer {
-                        Err(exhausted) if proved.is_none() => return Err(exhausted),
-                        Err(_) => {
-                            open = Some((OpenReason::Time, Vec::new()));
-                            break;
-                        }
-                        Ok(_) => {}
-                    }
-                    // A new end, a new attempt at the full precision.
-                    (coarser, retreats, open, is_rough) = (Rational::ONE, 0, None, proved.is_none());
-                }
-                Outcome::Open { why, cell } => {
-                    // Where the proof does not come through, a point may be that the search has missed.
-                    refutations += 1;
-                    let missed = |search: &mut Search<F>| {
-                        let middle: Vec<Rational> = cell.iter().map(|[lo, hi]| lo.midpoint(hi)).collect();
-                        (middle.len() == self.parameters() && search.run_from(&middle))
-                            || self.run_from_corners(search, &target)
-                    };
-                    if refutations <= REFUTATIONS && matches!(budget.enter(|| missed(&mut search)), Ok(true)) {
-                        (coarser, retreats, open, is_rough) = (Rational::ONE, 0, None, proved.is_none());
-                        continue;
-                    }
-                    let nearest = self.nearest_factor(&cell);
-                    open.get_or_insert((why, cell));
-                    let is_progress = proved.as_ref().map_or(!nearest.is_zero(), |(lower, _)| *lower < nearest);
-                    if withdrawals < WITHDRAWALS && is_progress && nearest < target {
-                        withdrawals += 1;
-                        beneath = Some(nearest);
-                        continue;
-                    }
-                    retreats += 1;
-                    if retreats > RETREATS {
-                        break;
-                    }
-                    coarser = &coarser * &Rational::from(16);
-                }
-            }
         }
+        let Bracketing { search, proved, open, .. } = bracketing;
         Ok(self.bracketed(search, proved, open))
     }
 
@@ -320,21 +225,8 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
         Some((factor, point))
     }
 
-    /// Whether a search from one of the box's corners, where these are few, finds a nearer end.
-    fn run_from_corners(&self, search: &mut Search<F>, factor: &Rational) -> bool {
-        let sides = at_factor(&self.sides, factor);
-        if sides.len() > MOST_FOR_CORNERS {
-            return false;
-        }
-        (0..1usize << sides.len()).fold(false, |is_nearer, corner| {
-            let point: Vec<Rational> =
-                sides.iter().enumerate().map(|(i, side)| side[corner >> i & 1].clone()).collect();
-            search.run_from(&point) || is_nearer
-        })
-    }
-
     /// A point that is not stable bounds the factor, however the line to it runs.
-    fn reaches(&self, search: &mut Search<F>, point: &[Rational]) -> bool {
+    pub(super) fn reaches(&self, search: &mut Search<F>, point: &[Rational]) -> bool {
         let Some(direction) = search.towards(point) else { return false };
         let line = search.line(&direction);
         let factor = self.factor_of(point);
@@ -357,18 +249,13 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
     }
 
     /// The least factor whose box holds a point of a cell.
-    fn nearest_factor(&self, cell: &[[Rational; 2]]) -> Rational {
+    pub(super) fn nearest_factor(&self, cell: &[[Rational; 2]]) -> Rational {
         let sides = self.sides.iter().zip(cell);
         let nearest = |(side, [low, high]): (&Side, &[Rational; 2])| side.nominal().max(low).min(high).clone();
         self.factor_of(&sides.map(nearest).collect::<Vec<_>>())
     }
 
-    fn bracketed(
-        &self,
-        search: Search<F>,
-        proved: Option<(Rational, BoxProof)>,
-        open: Option<(OpenReason, Vec<[Rational; 2]>)>,
-    ) -> LargestFactor {
+    fn bracketed(&self, search: Search<F>, proved: Option<(Rational, BoxProof)>, open: Option<Open>) -> LargestFactor {
         let (lower, proof) = match proved {
             Some((lower, proof)) => (lower, Some(proof)),
             None => (Rational::ZERO, None),

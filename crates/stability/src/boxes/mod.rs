@@ -6,6 +6,8 @@
 //! values are not affine in it ([ZettlerGarloff1998](jurist_algebra::bibliography#zettlergarloff1998),
 //! [Farouki2012](jurist_algebra::bibliography#farouki2012)).
 
+mod bracketing;
+mod critical;
 mod delayed;
 mod delayed_look;
 mod delayed_prove;
@@ -39,8 +41,9 @@ mod tree;
 mod volume;
 mod window;
 
+pub use critical::CriticalCell;
 pub use delayed::DelayedFunction;
-pub use exact::{CriticalCell, ExactProof, Place};
+pub use exact::{ExactProof, Place};
 pub use factor::{BoxDecision, ToleranceProblem};
 pub use family::{Family, Gradient, Path};
 pub use intervals::open_parts;
@@ -53,7 +56,7 @@ pub use polynomial::BoxPolynomial;
 pub use prove::{BoxProof, MOST_COEFFICIENTS, Outcome};
 pub use range::range_over;
 pub use reason::OpenReason;
-pub use search::ray;
+pub use search::{Search, ray};
 pub use sides::Side;
 pub use tree::Tree;
 pub use volume::{BoxVolume, MOST_PARAMETERS};

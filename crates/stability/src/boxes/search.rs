@@ -39,6 +39,7 @@ pub(super) struct Crossing {
     pub hi: Rational,
 }
 
+/// The nearest points that are not stable, as far as they are found.
 pub struct Search<'a, F: Family> {
     p: &'a F,
     sides: &'a [Side],
@@ -48,7 +49,7 @@ pub struct Search<'a, F: Family> {
 }
 
 impl<'a, F: Family> Search<'a, F> {
-    pub fn new(p: &'a F, sides: &'a [Side], reference: &'a [Sign]) -> Self {
+    pub(super) fn new(p: &'a F, sides: &'a [Side], reference: &'a [Sign]) -> Self {
         Search { p, sides, reference, best: None }
     }
 
@@ -59,7 +60,7 @@ impl<'a, F: Family> Search<'a, F> {
     }
 
     /// The direction through a point, if it has any.
-    pub fn towards(&self, point: &[Rational]) -> Option<Vec<Rational>> {
+    pub(super) fn towards(&self, point: &[Rational]) -> Option<Vec<Rational>> {
         let shares = self.sides.iter().zip(point).map(|(side, x)| {
             let offset = x - side.nominal();
             offset.checked_div(side.width(offset.sign())).unwrap_or(Rational::ZERO)
@@ -116,22 +117,22 @@ impl<'a, F: Family> Search<'a, F> {
     }
 
     /// Begins from directions of its own.
-    pub fn run(&mut self, scale: i64) {
+    pub(super) fn run(&mut self, scale: i64) {
         for start in self.starts(scale) {
             self.improve(start);
         }
         self.refine();
     }
 
-    /// Begins from a point that is not stable.
-    pub fn run_from(&mut self, point: &[Rational]) -> bool {
-        let before = self.best.as_ref().map(|b| b.hi.clone());
+    /// Begins from a point that is not stable; whether a crossing before the known one was found. That the known one became narrower tells nothing new.
+    pub(super) fn run_from(&mut self, point: &[Rational]) -> bool {
+        let before = self.best.as_ref().map(|b| b.lo.clone());
         if let Some(direction) = self.towards(point) {
             self.improve(direction);
         }
         self.refine();
         match (&self.best, before) {
-            (Some(best), Some(before)) => best.hi < before,
+            (Some(best), Some(before)) => best.hi <= before,
             (best, _) => best.is_some(),
         }
     }
@@ -247,7 +248,7 @@ impl<'a, F: Family> Search<'a, F> {
     }
 
     /// Narrows the stretch of the best crossing.
-    pub fn refine(&mut self) {
+    pub(super) fn refine(&mut self) {
         // What rounded numbers found is tested exactly.
         if let Some(Crossing { direction, lo, hi }) = self.best.take() {
             let line = self.line(&direction);

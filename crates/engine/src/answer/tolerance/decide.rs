@@ -1,17 +1,15 @@
-//! The answer about a box, step by step: a point that is not stable, a proof, the largest factor.
+//! The question about a box, and which family of loops answers it.
 
-use super::bounds::{agreed, bounded_by};
+use super::family_box::FamilyBox;
 use super::held::Truth;
-use super::required::{nearer, worse};
-use super::{ExactFactor, ToleranceAnswer, ToleranceRequest, WorstEnd};
+use super::{ToleranceAnswer, ToleranceRequest, WorstEnd};
 use crate::answer::Answer;
 use crate::coverage::refusals::DECAY;
 use crate::error::{Code, Diagnostic, Error};
 use crate::problem::Problem;
 use crate::response::Requirement;
 use crate::stability::boxes::{
-    BoxDecision, BoxPolynomial, BoxVolume, Family, LargestFactor, MOST_PARAMETERS, OpenReason, Side, ToleranceProblem,
-    ray,
+    BoxDecision, BoxPolynomial, BoxVolume, Family, LargestFactor, MOST_PARAMETERS, Side, ToleranceProblem, ray,
 };
 use crate::stability::{AtPoint, Range};
 use jurist_algebra::limits::Budget;
@@ -23,9 +21,6 @@ use std::sync::Arc;
 
 /// The part of the time that may be spent on the exact end of the worst line.
 const END_SHARE: (u32, u32) = (1, 3);
-
-/// The part of the time that may be spent on the bracket of the largest factor.
-const BRACKET_SHARE: (u32, u32) = (4, 5);
 
 /// The part of the time that may be spent on the volume: what was found has to be said.
 const VOLUME_SHARE: (u32, u32) = (9, 10);
@@ -65,190 +60,20 @@ impl Problem {
                 return Ok(self.answered(sides, AtPoint::Zero, decision));
             };
             let truth = Truth::beside_constants(self, &constants);
-            return self.tolerance_of(&p, &truth, sides, asked, budget);
+            return FamilyBox { problem: self, p: &p, truth: &truth, sides: &sides, asked, budget }.answer();
         }
         if let Some(p) = self.moving_family(budget)? {
-            return self.tolerance_of(&p, &Truth::of_points(self), sides, asked, budget);
+            let truth = Truth::of_points(self);
+            return FamilyBox { problem: self, p: &p, truth: &truth, sides: &sides, asked, budget }.answer();
         }
         let truth = Truth::of(self, budget)?;
         let poles = d.poles.iter().cloned().chain(self.positive()).collect();
         let d = &CharacteristicPolynomial { poles, ..d.clone() };
         let p = budget.enter(|| BoxPolynomial::over(d, truth.beside(&sides).len(), self.shape()))?;
-        self.tolerance_of(&p, &truth, sides, asked, budget)
+        FamilyBox { problem: self, p: &p, truth: &truth, sides: &sides, asked, budget }.answer()
     }
 
-    /// The answer where not even the nominal values of the tolerances are good for all values of the other names' ranges.
-    fn spoilt_by_ranges<F: Family>(
-        self: &Arc<Self>,
-        (p, truth): (&F, &Truth),
-        sides: &[Side],
-        asked: Asked<'_>,
-        budget: &Budget,
-    ) -> Result<Option<Answer<ToleranceAnswer>>, Error> {
-        if sides.iter().all(Side::grows) {
-            return Ok(None);
-        }
-        let request = ToleranceRequest {
-            tolerances: Vec::new(),
-            for_all: Vec::new(),
-            limit: None,
-            exact: false,
-            volume: None,
-            factor: !asked.request.requirements.is_empty(),
-            ..asked.request.clone()
-        };
-        let ranges = sides.iter().map(Side::without_tolerance).collect();
-        let found = self.tolerance_of(p, truth, ranges, Asked { request: &request, told: &|_| () }, budget)?;
-        let ToleranceAnswer { decision, required, nominal, .. } = found.into_value();
-        if decision.is_stable() {
-            return Ok(None);
-        }
-        let value = ToleranceAnswer { required, ..self.bare(sides.to_vec(), nominal, decision) };
-        Ok(Some(Answer::new(Arc::clone(self), value)))
-    }
-
-    /// The answer about a family of loops.
-    fn tolerance_of<F: Family>(
-        self: &Arc<Self>,
-        p: &F,
-        truth: &Truth,
-        sides: Vec<Side>,
-        asked: Asked<'_>,
-        budget: &Budget,
-    ) -> Result<Answer<ToleranceAnswer>, Error> {
-        if let Some(spoilt) = self.spoilt_by_ranges((p, truth), &sides, asked, budget)? {
-            return Ok(spoilt);
-        }
-        let request = asked.request;
-        let all = truth.beside(&sides);
-        let degree = self.algebra_over_symbols(budget)?.formal_degree();
-        let nominal: Vec<Rational> = sides.iter().map(|side| side.nominal().clone()).collect();
-        let at = truth.at(p, &nominal, budget)?;
-        if let [side] = sides.as_slice()
-            && at.is_stable(degree)
-            && p.as_polynomial().is_none()
-            && request.limit.is_none()
-            && request.requirements.is_empty()
-            && let Some(answer) = self.tolerance_of_one(p, truth, (side, &at), asked, budget)?
-        {
-            return Ok(answer);
-        }
-        let boxes = match at.is_stable(degree) {
-            true => budget.enter(|| ToleranceProblem::new(p, all.clone()))?,
-            false => None,
-        };
-        let Some(boxes) = boxes else {
-            let decision = match at.is_stable(degree) {
-                false => BoxDecision::not_stable_at(nominal, at.clone()),
-                true => BoxDecision::Undecided { why: OpenReason::Constants, cell: Vec::new() },
-            };
-            let bare = self.bare(sides, at, decision);
-            let volume = volume(p, &all, request, budget);
-            return Ok(Answer::new(Arc::clone(self), ToleranceAnswer { volume, ..bare }));
-        };
-        let polynomial = p.as_polynomial().and_then(|p| ToleranceProblem::new(p, all.clone()));
-        if let Some(polynomial) = polynomial.as_ref().filter(|boxes| boxes.coefficients().is_none()) {
-            return Err(too_many(polynomial));
-        }
-        if !request.factor {
-            let decision = truth.decision(p, boxes.decide(&Rational::ONE, budget)?, budget)?;
-            if decision.is_stable() {
-                return Ok(self.answered(sides, at, decision));
-            }
-        }
-        let domain_factor = self.domain_factor(&sides);
-        let search = boxes.searched(budget)?;
-        let refuted = boxes.refuted(&search, &Rational::ONE).map(|witness| truth.confirmed(p, witness, budget));
-        let decision = match refuted.transpose()?.flatten() {
-            Some(witness) => BoxDecision::NotStable { witness: Some(witness) },
-            None => truth.decision(p, boxes.decide(&Rational::ONE, budget)?, budget)?,
-        };
-        let known = match &decision {
-            BoxDecision::Stable(proof) => Some(proof.clone()),
-            _ => None,
-        };
-        // A proof stands, whatever is found of larger boxes.
-        if decision.is_stable() && request.requirements.is_empty() {
-            (asked.told)(&self.answered(sides.clone(), at.clone(), decision.clone()));
-        }
-        let part = budget.share(BRACKET_SHARE.0, BRACKET_SHARE.1);
-        // Of functions a requirement is decided sooner than stability is lost: no box beyond its end is asked for.
-        let is_first = p.as_polynomial().is_none();
-        let mut earlier = Vec::new();
-        for requirement in request.requirements.iter().filter(|_| is_first) {
-            earlier.push(self.required_box(
-                requirement,
-                (&sides, truth),
-                request,
-                domain_factor.as_ref(),
-                p,
-                budget,
-            )?);
-        }
-        let ends = earlier.iter().filter_map(|found| found.factor.as_ref()?.upper.as_ref());
-        let most = ends.chain(&domain_factor).min().cloned();
-        let mut earlier = earlier.into_iter();
-        let factor = boxes.bracket(search, known, &|_| request.gap.clone(), most.as_ref(), &part)?;
-        let factor = truth.factor(&boxes, p, factor, budget)?;
-        let decision = agreed(decision, &factor, None);
-        let factor = bounded_by(&decision, factor, &sides);
-        let (mut decision, mut factor) = (decision, Some(factor));
-        let (mut required, mut binding) = (Vec::new(), None);
-        for (k, requirement) in request.requirements.iter().enumerate() {
-            let nearest = factor.as_ref().and_then(|factor| factor.upper.as_ref());
-            let most = nearest.into_iter().chain(&domain_factor).min().cloned();
-            let found = match earlier.next() {
-                Some(found) => found,
-                None => self.required_box(requirement, (&sides, truth), request, most.as_ref(), p, budget)?,
-            };
-            decision = worse(decision, found.decision.clone());
-            factor = match (factor, found.factor.clone()) {
-                (Some(known), Some(own)) => {
-                    let (nearest, is_own) = nearer(known, own);
-                    binding = if is_own { Some(k) } else { binding };
-                    Some(nearest)
-                }
-                _ => None,
-            };
-            required.push(found);
-        }
-        let Some(factor) = factor else {
-            let value = ToleranceAnswer { required, ..self.bare(sides, at, decision) };
-            return Ok(Answer::new(Arc::clone(self), value));
-        };
-        let (worst, cells) = match binding {
-            None => self.worst_end(&sides, &factor, budget)?.unzip(),
-            Some(_) => (None, None),
-        };
-        let limit = match &request.limit {
-            None => None,
-            Some(name) => Some(self.tolerance_limit(p, &sides, truth, name, request, budget)?),
-        };
-        let exact = match (&worst, &cells, &polynomial) {
-            (Some(worst), Some(cells), Some(boxes)) if request.exact && truth.is_exact() => {
-                boxes.exact(&factor, &worst.end, cells, budget)?.map(ExactFactor::from)
-            }
-            _ => None,
-        };
-        let volume = volume(p, &all, request, budget);
-        let decision = agreed(decision, &factor, exact.as_ref());
-        let value = ToleranceAnswer {
-            sides,
-            nominal: at,
-            decision,
-            factor: Some(factor),
-            worst,
-            exact,
-            domain_factor,
-            limit,
-            volume,
-            required,
-            binding,
-        };
-        Ok(Answer::new(Arc::clone(self), value))
-    }
-
-    fn answered(
+    pub(super) fn answered(
         self: &Arc<Self>,
         sides: Vec<Side>,
         nominal: AtPoint,

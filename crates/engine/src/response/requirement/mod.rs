@@ -238,22 +238,29 @@ impl Requirement {
     /// The refusal of a certificate of a requirement that has none.
     ///
     /// # Errors
-    /// `E-no-certificate` unless the requirement is stability for all factors at a cut.
+    /// `E-no-certificate` unless the requirement is stability for all factors at a cut, or of the variable.
     ///
     /// ```
+    /// use jurist_engine::model::Time;
     /// use jurist_engine::response::Requirement;
-    /// assert!(Requirement::modulus_margin("1/2".parse().unwrap()).unwrap().refuse_uncertified().is_ok());
-    /// assert!(Requirement::delay_margin("1/2".parse().unwrap()).unwrap().refuse_uncertified().is_err());
+    /// let half = Requirement::delay_margin("1/2".parse().unwrap()).unwrap();
+    /// assert!(half.refuse_uncertified(Time::Continuous).is_ok());
+    /// assert!(half.refuse_uncertified(Time::Discrete).is_err());
     /// ```
-    pub fn refuse_uncertified(&self) -> Result<(), Error> {
-        match self.rule {
-            Rule::Factors(_) | Rule::Turned { .. } | Rule::Circle(_) if self.signals().is_none() => Ok(()),
-            _ => Err(REQUIREMENT_NOT_CERTIFIED.diagnostic(&[("asked", &self.text())]).into()),
+    pub fn refuse_uncertified(&self, time: Time) -> Result<(), Error> {
+        let has_certificate = match self.rule {
+            Rule::Factors(_) | Rule::Turned { .. } | Rule::Circle(_) => self.signals().is_none(),
+            Rule::DeadTime(_) | Rule::Sector(_) => time == Time::Continuous,
+            Rule::Modulus { .. } => true,
+        };
+        match has_certificate {
+            true => Ok(()),
+            false => Err(REQUIREMENT_NOT_CERTIFIED.diagnostic(&[("asked", &self.text())]).into()),
         }
     }
 
     /// Whether it is about the dead time that the loop bears.
-    pub(crate) fn is_delay_margin(&self) -> bool {
+    pub fn is_delay_margin(&self) -> bool {
         matches!(self.rule, Rule::DeadTime(_))
     }
 

@@ -1,0 +1,188 @@
+//! The way to a bracket of the largest factor: what is tried next, and what follows from it.
+
+use super::factor::ToleranceProblem;
+use super::family::Family;
+use super::largest::lowered;
+use super::prove::BoxProof;
+use super::reason::OpenReason;
+use super::search::Search;
+use super::sides::at_factor;
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::{Integer, Rational};
+
+/// How often a box that is not decided is made smaller.
+const RETREATS: u32 = 6;
+
+/// How often a box is made as small as leaves out the cell at which its proof ended, before it is made smaller by a share.
+const WITHDRAWALS: u32 = 8;
+
+/// How often the upper end moves to a point at which a proof failed.
+const REFUTATIONS: u32 = 64;
+
+/// All corners of so many parameters are tried where a proof does not come through.
+const MOST_FOR_CORNERS: usize = 6;
+
+/// Without any crossing the largest factor that is proved.
+const FAR: i64 = 1 << 10;
+
+/// Where a proof of a closer bracket ended.
+pub(super) type Open = (OpenReason, Vec<[Rational; 2]>);
+
+/// The relative width of a bracket, by its upper end.
+pub(super) type Gap<'b> = &'b dyn Fn(&Rational) -> Rational;
+
+/// What is known of the largest factor, and how often what was tried.
+pub(super) struct Bracketing<'b, 'a, F: Family> {
+    of: &'b ToleranceProblem<'a, F>,
+    gap: Gap<'b>,
+    /// Where the domains end.
+    most: Option<&'b Rational>,
+    budget: &'b Budget,
+    /// The upper end.
+    pub search: Search<'b, F>,
+    /// The lower end.
+    pub proved: Option<(Rational, BoxProof)>,
+    pub open: Option<Open>,
+    /// The gap is so many times as wide.
+    coarser: Rational,
+    /// The box does not reach the cell at which a proof ended: there stability may be touched and not lost.
+    beneath: Option<Rational>,
+    withdrawals: u32,
+    retreats: u32,
+    refutations: u32,
+    /// At first not so near to the end: if that is not the nearest one, a box is refuted sooner than it is left open.
+    is_rough: bool,
+}
+
+impl<'b, 'a, F: Family> Bracketing<'b, 'a, F> {
+    pub fn new(
+        of: &'b ToleranceProblem<'a, F>,
+        search: Search<'b, F>,
+        known: Option<BoxProof>,
+        (gap, most): (Gap<'b>, Option<&'b Rational>),
+        budget: &'b Budget,
+    ) -> Self {
+        Bracketing {
+            of,
+            gap,
+            most,
+            budget,
+            search,
+            proved: known.map(|proof| (Rational::ONE, proof)),
+            open: None,
+            coarser: Rational::ONE,
+            beneath: None,
+            withdrawals: 0,
+            retreats: 0,
+            refutations: 0,
+            is_rough: true,
+        }
+    }
+
+    /// The factor whose box is tried next; `None` where a larger one is proved.
+    pub fn target(&mut self) -> Option<Rational> {
+        if let Some(hi) = self.search.best.as_ref().map(|best| best.hi.clone()) {
+            let share = &(self.gap)(&hi) * &Rational::dyadic(&Integer::ONE, 3);
+            // A budget that runs out is noticed by the proof.
+            let _ = self.budget.enter(|| self.search.sharpen(&share));
+        }
+        let end = self.search.best.as_ref().map(|b| &b.lo).into_iter().chain(self.most).chain(&self.beneath).min();
+        let target = match end {
+            None => Rational::from(FAR),
+            Some(end) => {
+                let least = if self.is_rough { Rational::new(1.into(), 1000.into()) } else { Rational::ZERO };
+                let gap = (&(self.gap)(end) * &self.coarser).max(least);
+                lowered(end, &gap.min(Rational::new(7.into(), 8.into())))
+            }
+        };
+        let is_proved = self.proved.as_ref().is_some_and(|(lower, _)| *lower >= target);
+        (!is_proved).then_some(target)
+    }
+
+    /// An attempt was ended by the budget.
+    pub fn exhausted(&mut self, exhausted: Exhausted) -> Result<bool, Exhausted> {
+        if self.proved.is_none() {
+            return Err(exhausted);
+        }
+        self.open.get_or_insert((OpenReason::Time, Vec::new()));
+        Ok(false)
+    }
+
+    /// The box of a factor is stable; whether there is more to try.
+    pub fn proved(&mut self, factor: Rational, proof: BoxProof) -> bool {
+        self.proved = Some((factor, proof));
+        std::mem::replace(&mut self.is_rough, false)
+    }
+
+    /// A box was refuted by a point; whether there is more to try.
+    pub fn refuted(&mut self, point: &[Rational]) -> Result<bool, Exhausted> {
+        self.refutations += 1;
+        if self.refutations > REFUTATIONS {
+            self.open = Some((OpenReason::Refutations, Vec::new()));
+            return Ok(false);
+        }
+        self.budget.step("looking for the worst point");
+        let nearer = self.budget.enter(|| self.search.run_from(point));
+        self.budget.step("proving the largest box");
+        let is_bounded = nearer.is_err() || self.of.reaches(&mut self.search, point);
+        match nearer {
+            Ok(false) if !is_bounded => {
+                self.open = Some((OpenReason::Unreached, Vec::new()));
+                Ok(false)
+            }
+            Err(exhausted) if self.proved.is_none() => Err(exhausted),
+            Err(_) => {
+                self.open = Some((OpenReason::Time, Vec::new()));
+                Ok(false)
+            }
+            Ok(_) => {
+                self.begin_again();
+                Ok(true)
+            }
+        }
+    }
+
+    /// A new end, a new attempt at the full precision.
+    fn begin_again(&mut self) {
+        (self.coarser, self.retreats, self.open) = (Rational::ONE, 0, None);
+        self.is_rough = self.proved.is_none();
+    }
+
+    /// A box was not decided; whether there is more to try.
+    pub fn left_open(&mut self, factor: &Rational, why: OpenReason, cell: Vec<[Rational; 2]>) -> bool {
+        // Where the proof does not come through, a point may be that the search has missed.
+        self.refutations += 1;
+        if self.refutations <= REFUTATIONS && matches!(self.budget.enter(|| self.has_missed(factor, &cell)), Ok(true)) {
+            self.begin_again();
+            return true;
+        }
+        let nearest = self.of.nearest_factor(&cell);
+        self.open.get_or_insert((why, cell));
+        let is_progress = self.proved.as_ref().map_or(!nearest.is_zero(), |(lower, _)| *lower < nearest);
+        if self.withdrawals < WITHDRAWALS && is_progress && nearest < *factor {
+            self.withdrawals += 1;
+            self.beneath = Some(nearest);
+            return true;
+        }
+        self.retreats += 1;
+        self.coarser = &self.coarser * &Rational::from(16);
+        self.retreats <= RETREATS
+    }
+
+    /// Whether a search from the middle of a cell, or from one of the box's corners where these are few, finds a nearer end.
+    fn has_missed(&mut self, factor: &Rational, cell: &[[Rational; 2]]) -> bool {
+        let sides = at_factor(&self.of.sides, factor);
+        let middle: Vec<Rational> = cell.iter().map(|[lo, hi]| lo.midpoint(hi)).collect();
+        if middle.len() == sides.len() && self.search.run_from(&middle) {
+            return true;
+        }
+        if sides.len() > MOST_FOR_CORNERS {
+            return false;
+        }
+        (0..1usize << sides.len()).fold(false, |is_nearer, corner| {
+            let point: Vec<Rational> =
+                sides.iter().enumerate().map(|(i, side)| side[corner >> i & 1].clone()).collect();
+            self.search.run_from(&point) || is_nearer
+        })
+    }
+}
