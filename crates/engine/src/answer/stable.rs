@@ -171,9 +171,6 @@ impl Problem {
         let is_bound = |x: &&Rational| !x.is_zero();
         let lower = free.domain.lower.as_ref().filter(is_bound).cloned();
         let upper = free.domain.upper.as_ref().filter(is_bound).cloned();
-        if free.domain.lower.is_none() || (free.domain.upper.as_ref().is_some_and(Rational::is_zero)) {
-            return None;
-        }
         let to = upper.or_else(|| near(OCTAVES_ABOVE))?;
         let from = lower.or_else(|| near(-OCTAVES_BELOW))?;
         (from < to).then_some([from, to])

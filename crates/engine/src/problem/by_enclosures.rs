@@ -31,8 +31,8 @@ pub(crate) use quotient::EnclosedQuotient;
 use std::sync::Arc;
 pub(super) use steady_state::steady_state;
 
-/// Work that exact polynomials over the constants of a held loop may be before enclosures of coefficients are asked: a fifth of a second.
-const WORK_BEFORE: u64 = 20_000_000;
+/// Work that exact polynomials over the constants of a held loop may be before enclosures of coefficients are asked: a tenth of a second.
+const WORK_BEFORE: u64 = 10_000_000;
 
 /// The same of a loop with several rates, whose polynomials have many times the degree in the constants: at ten rates the drive takes 0.04 s by
 /// enclosures and ten times as long by exact polynomials.

@@ -206,3 +206,43 @@ fn a_root_at_rest_is_told_by_numbers() {
         assert_eq!((exact.count, exact.verdict), (Some(count), verdict));
     }
 }
+
+/// The ends of a sample time and of constants of the plant by values, as exact polynomials have them; beside a bounded part nothing is said.
+#[test]
+fn stable_sets_by_values_are_those_of_exact_coefficients() {
+    let budget = Budget::unlimited();
+    let model = model(&[("3", "1/5"), ("5", "3/10")], " + ");
+    for (gain, value, name, low, high, ends) in
+        [("K", "3/5", "T", "1/100", "3", 3), ("Ki", "2", "w0", "1/2", "20", 2), ("Ki", "2", "d1", "1/20", "2", 2)]
+    {
+        let domain = Range::between(Some(number(low)), Some(number(high)));
+        let asked = || model.ask().set(gain, number(value)).free(name).domain(name, domain.clone()).problem().unwrap();
+        let (exact, long) = (asked(), asked());
+        let by_values = long.with_algebra(long.coefficients_by_values(&Rational::ONE, &budget).unwrap().unwrap());
+        long.in_boxes.get_or_init(|| Some(Arc::new(by_values)));
+        let [expected, found] = [exact, long].map(|problem| problem.stable_set(&budget).unwrap().into_value());
+        assert!(found.undecided().is_empty() && found.intervals().len() == expected.intervals().len(), "{name}");
+        let all = |set: &crate::stability::StableSet| -> Vec<(String, crate::stability::Causes)> {
+            let ends = set.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten();
+            ends.map(|end| (end.value.decimal(30), end.causes.clone())).collect()
+        };
+        assert_eq!(all(&found), all(&expected), "{name}");
+        let limits = all(&found).iter().filter(|(_, causes)| !causes.contains(crate::stability::Cause::Domain)).count();
+        assert_eq!(limits, ends, "{name}");
+    }
+}
+
+#[test]
+fn the_whole_loop_has_enclosed_coefficients_where_the_parameter_acts_on_all_of_it() {
+    let budget = Budget::unlimited();
+    let model = model(&[("3", "1/5"), ("5", "3/10")], " + ");
+    let problem = free(&model, &["K"]);
+    let whole = problem.enclosed_whole(&budget).unwrap().expect("one part");
+    let exact = problem.symbolic(&budget).unwrap().unwrap();
+    assert_eq!((whole.formal_degree(), whole.usual()), (5, exact.usual()));
+    for k in ["-1/2", "1/5", "3", "40"] {
+        let [found, expected] = [&whole, &exact].map(|p| p.at(&number(k), problem.shape(), &budget).unwrap());
+        assert_eq!(found, expected, "{k}");
+    }
+    assert!(free(&model, &["T"]).enclosed_whole(&budget).unwrap().is_none());
+}

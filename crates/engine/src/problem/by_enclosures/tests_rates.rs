@@ -24,7 +24,7 @@ type Ends = Vec<[Option<(String, String)>; 2]>;
 /// The sets by enclosures and by exact polynomials; `None` where enclosures do not tell, so that the program asks exact polynomials.
 fn both(problem: &Problem) -> Option<[Ends; 2]> {
     let (budget, domain) = (Budget::unlimited(), &problem.parameter().domain);
-    let own = match problem.lifted_parts("K", &budget).unwrap()? {
+    let own = match problem.lifted_parts("K", &budget).unwrap()?.0 {
         EnclosedParts::Unstable => Ok(StableSet::from_intervals(Vec::new(), Vec::new())),
         EnclosedParts::Parts(parts) => stable_set_of_parts(&parts, domain, Shape::UnitDisc, &budget),
     };
