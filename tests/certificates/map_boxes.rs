@@ -408,8 +408,8 @@ fn the_program_certifies_boxes() {
             "tau=1..2",
         ),
         (
-            "time = 'continuous'\nparameters = { K = {}, a = {} }\nloop.characteristic = 's^2 + s + K*a'\nrequire.damping = 0.3",
-            "K=1..2",
+            "time = 'discrete'\nparameters = { K = {}, a = {} }\nloop.characteristic = 'z^2 - z + K*a'\nrequire.damping = 0.3",
+            "K=0.1..0.2",
             "a=1..2",
         ),
     ] {

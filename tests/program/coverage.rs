@@ -4,8 +4,8 @@ use crate::helpers::thorough::is_tried;
 use jurist::Ask;
 use jurist::cli::captured;
 use jurist_algebra::limits::{Budget, parallel_map};
-use jurist_engine::coverage::{Asked, CoefficientRing, Coverage, rows};
-use jurist_engine::error::{Code, Error, Source};
+use jurist_engine::coverage::{Asked, CoefficientRing, Coverage, Refusal, rows};
+use jurist_engine::error::{Code, Diagnostic, Error, Source};
 use jurist_engine::model::{Model, Time};
 use std::path::Path;
 
@@ -98,6 +98,13 @@ fn outcome(arguments: &[String], model: &Model) -> Result<String, Error> {
     }
 }
 
+/// Whether a diagnostic may be a refusal: the texts between braces are in it, in their order.
+fn is_of(found: &Diagnostic, refusal: &Refusal) -> bool {
+    let mut rest = found.message.as_str();
+    let mut parts = refusal.message.split(['{', '}']).step_by(2);
+    refusal.code == found.code && parts.all(|part| rest.find(part).map(|at| rest = &rest[at + part.len()..]).is_some())
+}
+
 fn check(row: &jurist_engine::coverage::Row, of: &Loop, file: &str) -> Result<(), String> {
     let arguments = arguments(row.command, of.model.time(), file);
     let coverage = row.asked.over(of.ring);
@@ -107,7 +114,7 @@ fn check(row: &jurist_engine::coverage::Row, of: &Loop, file: &str) -> Result<()
     match (coverage, found) {
         (Coverage::Refused(refusal) | Coverage::InPart(_, refusal), Err(Error::Refused(found))) => {
             let first = &found.diagnostics()[0];
-            match refusal.is_of(first.code, &first.message) {
+            match is_of(first, refusal) {
                 true => Ok(()),
                 false => Err(format!("{what}: the table says {refusal:?}, and it is {first:?}")),
             }

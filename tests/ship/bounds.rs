@@ -8,7 +8,7 @@ use jurist_algebra::number::{Integer, Rational};
 use jurist_engine::response::Requirements;
 use jurist_ship::answer::{Beside, ShipAnswer};
 use jurist_ship::asked::{Asked, Overrides};
-use jurist_ship::program::LinearSystem;
+use jurist_ship::program::{LinearSystem, Operand, Program};
 
 /// The plant passes the controller's output on after one sample: so every signal is a number of the format.
 const LOOP: &str = "time = 'discrete'\n[loop]\ninputs = ['r']\noutputs = ['y']\n\
@@ -35,13 +35,19 @@ struct Unrounded {
     output: usize,
 }
 
+/// The node that is the output.
+fn output_node(program: &Program) -> usize {
+    let [Operand::Node(node)] = program.outputs.as_slice() else { panic!("the output is a node") };
+    *node
+}
+
 impl Unrounded {
     fn of(answer: &ShipAnswer) -> Unrounded {
         let program = &answer.shipped.realised.program;
         let values: Vec<Rational> = answer.shipped.coefficients.iter().map(|c| c.value.clone()).collect();
         let system = program.system(&values);
         let x = vec![Rational::ZERO; system.a.len()];
-        Unrounded { system, x, y: Rational::ZERO, output: program.output_node(0).unwrap() }
+        Unrounded { system, x, y: Rational::ZERO, output: output_node(program) }
     }
 
     /// The nodes, and the output of the loop before the step.
@@ -118,7 +124,7 @@ fn long_runs_stay_within_their_bounds() {
         let answer = shipped(realisation, round);
         let ranges = answer.ranges.as_ref().unwrap().as_ref().unwrap();
         let fixed = answer.shipped.fixed_program().unwrap();
-        let output = &ranges.nodes[answer.shipped.realised.program.output_node(0).unwrap() + 1];
+        let output = &ranges.nodes[output_node(&answer.shipped.realised.program) + 1];
         let bound = output.greatest.as_ref().unwrap()[1].clone() + &output.rounding;
         let bound = (bound / fixed.signal.unit()).floor();
         let found = ranges.problem.peak_to_peak("r", &output.output, 6, &budget).unwrap();

@@ -89,12 +89,16 @@ fn of_two_gains() {
     assert!(low <= best + 1e-6 && best <= high && high <= low * 1.011, "{best}: {found}");
 }
 
-/// A delay margin that is required: `pi/(2 K) >= 1/2`.
+/// A delay margin that is required: `pi/(2 K) >= 1/2`. Of one gain its exact set tells the end, with bounds of the gain and without.
 #[test]
 fn that_is_required() {
-    let options = ["K/s", "--free", "K", "--bound", "K=1..10", "--objective", "max K", "--delay-margin", "1/2"];
-    let (_, found) = tune(&options);
-    holds(&found, std::f64::consts::PI, 1e-3);
+    for bounds in [&[][..], &["--bound", "K=1..10"]] {
+        let options = ["K/s", "--free", "K", "--objective", "max K", "--delay-margin", "1/2"];
+        let (_, found) = tune(&[&options[..], bounds].concat());
+        let best = &found["optimum"];
+        assert_eq!(best["decimal"], "3.14159265358979", "{found}");
+        assert!(best["binding"] == serde_json::json!(["delay_margin"]) && found["cells"].is_null(), "{found}");
+    }
     let none = ["K/s", "--free", "K", "--bound", "K=4..10", "--objective", "none", "--delay-margin", "1/2"];
     assert_eq!(tune(&none).0, 1);
 }
@@ -106,6 +110,21 @@ fn for_all_plants() {
     let plant = ["K*a/s", "--free", "K", "--bound", "K=1..4", "--for-all", "a=1..2", "--gap", "10%"];
     let (_, found) = tune(&[&plant[..], &OBJECTIVE].concat());
     holds(&found, std::f64::consts::FRAC_PI_4, 0.1);
+}
+
+/// `K z^-k/(z - 1)` is stable with one sample more up to `K = 1`, with two up to `2 sin(pi/10)`.
+#[test]
+fn of_one_gain_it_is_required_in_samples() {
+    let text = "time = 'discrete'\nsample_time = 1\nparameters.K = {}\nloop = { inputs = ['r'], outputs = ['y'] }\n[[block]]\n\
+        name = 'P'\ninput = 'r - y'\noutput = 'y'\ntransfer = 'K/(z - 1)'\n";
+    let folder = Folder::new(&[("loop.toml", text)]);
+    for (samples, best) in [("1", 1.0), ("2", 2.0 * (std::f64::consts::PI / 10.0).sin())] {
+        let options = ["tune", "loop.toml", "--free", "K", "--objective", "max K", "--json", "--delay-margin", samples];
+        let run = folder.jurist(&options);
+        let found: Value = serde_json::from_str(&run.stdout).unwrap_or_else(|_| panic!("{}", run.stderr));
+        let value = found["optimum"]["decimal"].as_str().unwrap_or_else(|| panic!("{found}")).parse::<f64>().unwrap();
+        assert!((value - best).abs() < 1e-9, "{samples}: {found}");
+    }
 }
 
 /// In discrete time it is counted in samples.

@@ -63,7 +63,7 @@ def loops_of(model, of):
     names, sides = [name for r in ranges for name in r], [side for r in ranges for side in r.values()]
     values = {name: Fraction(x) for name, x in claim["set"].items()}
     [extent], discrete = map(Fraction, claim["region"].values()), claim["time"] == "discrete"
-    cuts = [check.Cut(item) for item in claim["require"]] or [None]
+    cuts = [check.Cut(item, claim["time"] == "discrete") for item in claim["require"]] or [None]
     return [(cut, check.judge_of(model, names, values, sides, (discrete, extent), (of["order"], of["bits"]), cut)) for cut in cuts], sides
 
 def strongest(judge, box):

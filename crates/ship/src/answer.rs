@@ -13,7 +13,6 @@ use jurist_engine::error::Error;
 use jurist_engine::problem::Problem;
 use jurist_engine::response::{Margins, RequirementMet, Requirements};
 use jurist_engine::stability::Range;
-use jurist_engine::stability::boxes::BoxDecision;
 use std::sync::Arc;
 
 /// An answer, or why there is none: refused in words, or stopped.
@@ -163,20 +162,6 @@ impl ShipAnswer {
             Error::Stopped(stopped) => Some(stopped),
             _ => None,
         })
-    }
-
-    /// Whether every rounding holds; `None` where that is not decided. Of a controller without coefficients to round it is so where the loop is
-    /// stable.
-    pub fn every_rounding_holds(&self) -> Option<bool> {
-        match &self.every_rounding {
-            None => Some(self.exact.verdict.value().verdict == Verdict::Stable),
-            Some(Err(_)) => None,
-            Some(Ok(answer)) => match &answer.value().decision {
-                BoxDecision::Stable(_) => Some(true),
-                BoxDecision::NotStable { .. } => Some(false),
-                BoxDecision::Undecided { .. } => None,
-            },
-        }
     }
 }
 

@@ -116,14 +116,6 @@ impl Program {
         let ((a, b), (c, d)) = (split(&next), split(&nodes));
         LinearSystem { a, b, c, d }
     }
-
-    /// The node that an operand is, if it is one.
-    pub fn output_node(&self, output: usize) -> Option<usize> {
-        match self.outputs.get(output)? {
-            Operand::Node(at) => Some(*at),
-            _ => None,
-        }
-    }
 }
 
 impl Term {

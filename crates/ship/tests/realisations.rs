@@ -3,6 +3,7 @@
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Enclosure, Integer, Rational, parse_number};
 use jurist_ship::format::{Fixed, Rounding};
+use jurist_ship::program::Operand;
 use jurist_ship::realise::{Realisation, Realised, delta, direct, parallel, sections, state};
 use jurist_ship::run::{FixedProgram, Overflow};
 use proptest::prelude::*;
@@ -33,7 +34,7 @@ fn response_of(realised: &Realised, samples: usize) -> Vec<Rational> {
     let values: Vec<Rational> =
         realised.program.coefficients.iter().map(|c| c.exact.lower().midpoint(c.exact.upper())).collect();
     let system = realised.program.system(&values);
-    let node = realised.program.output_node(0).expect("the output is a node");
+    let Operand::Node(node) = realised.program.outputs[0] else { panic!("the output is a node") };
     let dot = |row: &[Rational], x: &[Rational]| row.iter().zip(x).fold(Rational::ZERO, |sum, (a, b)| sum + a * b);
     let mut x = vec![Rational::ZERO; system.a.len()];
     let mut out = Vec::new();

@@ -245,11 +245,13 @@ impl<'a> Lines<'a> {
         Lines { asked: self.asked, base, ranges, region, formula: self.formula.clone(), budget }
     }
 
-    /// Whether a delay margin is required, or to be best: no set of one gain and no map tells it.
+    /// Whether a delay margin is required, or to be best, and no set of one gain tells it. No map does.
     fn is_delay_margin_asked(&self) -> bool {
         let name = Level::DelayMargin.name();
-        self.asked.level() == Some(Level::DelayMargin)
-            || self.asked.requirements.list.iter().any(|requirement| requirement.name() == name)
+        let is_end_of_set =
+            matches!(self.asked.objective, Objective::Greatest(_) | Objective::Least(_) | Objective::Anything);
+        let is_required = self.asked.requirements.list.iter().any(|requirement| requirement.name() == name);
+        self.asked.level() == Some(Level::DelayMargin) || is_required && !(is_end_of_set && self.asked.gains.len() == 1)
     }
 
     /// Where margins are taken.

@@ -47,19 +47,6 @@ impl Refusal {
     pub fn is_complete(&self) -> bool {
         ![self.message, self.help].iter().any(|text| text.contains('{'))
     }
-
-    /// True if an error of this message may be this refusal: the texts between braces are in it, in their order.
-    pub fn is_of(&self, code: Code, message: &str) -> bool {
-        let mut rest = message;
-        self.code == code
-            && self.message.split(['{', '}']).step_by(2).all(|part| match rest.find(part) {
-                Some(at) => {
-                    rest = &rest[at + part.len()..];
-                    true
-                }
-                None => false,
-            })
-    }
 }
 
 fn filled(text: &str, words: &[(&str, &str)]) -> String {

@@ -3,7 +3,7 @@
 use jurist_algebra::number::{BinaryFormat, Integer, Rational};
 use jurist_ship::emit::{Arithmetic, Shipped, Target, TooWide, text};
 use jurist_ship::format::Fixed;
-use jurist_ship::program::Program;
+use jurist_ship::program::{Operand, Program};
 use jurist_ship::realise::Realisation;
 use jurist_ship::run::{FixedProgram, FloatProgram, Overflow};
 
@@ -196,7 +196,7 @@ fn worst_signs(case: &Case, length: usize) -> Vec<bool> {
         Numbers::Fixed { stored, coefficient, .. } => stored.iter().map(|k| coefficient.value(k)).collect(),
         Numbers::Float { stored, .. } => stored.clone(),
     };
-    let (Some(node), true) = (program.output_node(0), program.inputs > 0) else { return vec![true] };
+    let (Some(&Operand::Node(node)), true) = (program.outputs.first(), program.inputs > 0) else { return vec![true] };
     let system = program.system(&values);
     let dot = |row: &[Rational], x: &[Rational]| row.iter().zip(x).fold(Rational::ZERO, |sum, (a, b)| sum + a * b);
     let mut x: Vec<Rational> = system.b.iter().map(|row| row[0].clone()).collect();
