@@ -25,7 +25,7 @@
 //! # The way from text to answer
 //!
 //! A [`Model`] is what the loop is: read from a text ([`Model::from_toml`]) or built in code ([`Model::builder`]). A
-//! [`Question`] begins with [`Model::ask`]: values ([`Question::set`]), what is free ([`Question::free`]), the region in which
+//! [`Question`] begins with [`Ask::ask`]: values ([`Question::set`]), what is free ([`Question::free`]), the region in which
 //! all roots have to lie ([`Question::within`]). Resolved it is a [`Problem`], whose algebra is computed once. Each way of
 //! asking gives an [`Answer`]:
 //!

@@ -406,7 +406,7 @@ pub struct Pwm {
 }
 
 /// A requirement as it is written in the section `[require]` of a model file; what it means is found out when it is
-/// [asked for](Model::requirements).
+/// asked for.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct RequirementText {
