@@ -256,6 +256,12 @@ mod tests {
             let rates: Vec<Rational> = (0..9).map(rate).collect();
             let at_number = |u: &Ball| exponential(&BallMatrix::from_fn(3, |i, j| Ball::from_rational(&rates[3 * i + j], BITS).mul(u)));
             let (first, slope) = (ball(c, 8), ball(b, 64));
+            let line = TaylorModel::linear(&first, &slope, 4);
+            if exponential_along(3, &rates, &line).is_none() {
+                // So many powers count that functions are quicker.
+                prop_assert!(far);
+                return Ok(());
+            }
             let generic = |u: &Series| {
                 let entries = rates.iter().map(|r| u.mul(&u.constant(&Ball::from_rational(r, BITS)))).collect::<Vec<_>>();
                 exponential_of(3, &entries).unwrap()
@@ -271,7 +277,6 @@ mod tests {
             let model = &MultiTaylorModel::linear(&[(ball(0, 1), ball(1, 1)), (first.clone(), slope.clone())], 3)[1];
             let off = ball(1, 1 << 20);
             let wrong = model.add(&model.constant(&off.union(&off.neg())));
-            let line = TaylorModel::linear(&first, &slope, 4);
             let [of_wide, of_model, of_wrong, of_line] = [
                 exponential_along(3, &rates, &wide).unwrap().iter().map(|s| s.range()).collect::<Vec<_>>(),
                 exponential_along(3, &rates, model).unwrap().iter().map(|m| value(m, 3)).collect(),

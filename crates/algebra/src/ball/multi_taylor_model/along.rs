@@ -1,8 +1,8 @@
 //! Taylor models on parts of their polydisc.
 
 use super::super::solutions::Scaled;
-use super::super::{Ball, Elementary, Enclosed};
-use super::MultiTaylorModel;
+use super::super::{Along, Ball, Elementary, Enclosed};
+use super::{MultiTaylorModel, middle_and_radius};
 use crate::number::{Integer, Rational};
 
 impl MultiTaylorModel {
@@ -12,6 +12,39 @@ impl MultiTaylorModel {
         let is_line = self.coefficients[last.min(self.coefficients.len())..].iter().all(Integer::is_zero);
         let number = |units: &Integer| Rational::dyadic(units, self.bits);
         is_line.then(|| (number(&self.coefficients[0]), number(&self.around())))
+    }
+
+    /// The line in one variable that the polynomial is.
+    pub(super) fn in_one_variable(&self) -> Option<Along> {
+        let mut others = (1..self.coefficients.len()).filter(|&k| !self.coefficients[k].is_zero());
+        let place = others.next();
+        let is_line = others.next().is_none() && place.is_none_or(|k| k < self.monomials.starts[2]);
+        let exactly = |c: &Integer| Ball::from_units(c.clone(), c.clone(), self.bits);
+        is_line.then(|| Along {
+            first: exactly(&self.coefficients[0]),
+            slope: place.map_or_else(|| Ball::zero(self.bits), |k| exactly(&self.coefficients[k])),
+            variable: place.map(|k| k - 1),
+            terms: self.monomials.degree + 1,
+            rest: self.rest.clone(),
+        })
+    }
+
+    /// The sum of coefficients times powers of one variable; powers beyond the degree are left out.
+    pub(super) fn with_powers(&self, variable: Option<usize>, coefficients: &[Ball]) -> MultiTaylorModel {
+        let mut out = self.nothing();
+        for (place, exponents) in self.monomials.exponents.iter().enumerate() {
+            let power: u32 = exponents.iter().sum();
+            let is_own = power == 0 || variable.is_some_and(|i| exponents[i] == power);
+            if let Some(c) = coefficients.get(power as usize).filter(|_| is_own) {
+                let (middle, radius) = middle_and_radius(c);
+                out.coefficients[place] = middle;
+                out.rest += &radius;
+            }
+        }
+        for c in coefficients.iter().skip(self.monomials.degree + 1) {
+            out.rest += &c.magnitude_units();
+        }
+        out
     }
 
     /// The same function of lines within the polydisc, which may be in other variables.
