@@ -1,6 +1,6 @@
 //! Answers computed where there is no clock and no thread; `run.mjs` asks and compares.
 
-use jurist::{Budget, Model, Source};
+use jurist::{Ask, Budget, Model, Source};
 use std::fmt::Write;
 use std::time::Duration;
 
