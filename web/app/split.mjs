@@ -55,10 +55,15 @@ function firstScreens(ask) {
   at(drive, set);
   const [y, x] = set.map(([name]) => name);
   const but = (...names) => set.filter(([name]) => !names.includes(name));
-  for (const value of ["0.01", "1/3", "551", "549.99"]) at(drive, [[y, value], ...but(y)]);
-  for (const name of [x, y]) {
-    program(drive, "intervals", "-", "--param", name, "--json", ...options(but(name)));
-    program(drive, "locus", "-", "--param", name, "--json", "--quiet", ...options(but(name)));
+  const along = (name, set) => {
+    program(drive, "intervals", "-", "--param", name, "--json", ...options(set));
+    program(drive, "locus", "-", "--param", name, "--json", "--quiet", ...options(set));
+  };
+  for (const name of [x, y]) along(name, but(name));
+  // Few values of a parameter call the rare branches of a locus.
+  for (const value of ["0.01", "1/3", "549.99", "551", ...Array.from({ length: 24 }, (_, k) => `${25 * (k + 1)}`)]) {
+    at(drive, [[y, value], ...but(y)]);
+    along(x, [[y, value]]);
   }
   for (const [across, up] of [[x, y], [y, x]]) ask({ ask: "map", model: drive, set: [], x: across, y: up, method: "auto", undecided: "1/20", work: 1e9 });
   for (const command of ["margins", "bode"]) program(drive, command, "-", "--json", ...options(set));
