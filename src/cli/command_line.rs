@@ -164,6 +164,13 @@ impl CommandLine {
                 message.push_str(line);
             }
         }
+        if let Some(line) = self.negative_line(error) {
+            let shown = &self.source.text[line.start..line.end];
+            let message = format!("'{shown}' begins with a minus, so it is read as options");
+            let help = "a loop that begins with a minus stands behind all options, after '--': \"jurist intervals -- '-K/(s + 1)'\"";
+            let diagnostic = Diagnostic::error(Code::Usage, message).help(help).at(line, "");
+            return Diagnostics::new(Some(Arc::clone(&self.source)), vec![diagnostic]);
+        }
         if let Some(command) = self.command_meant(error) {
             help = vec![command];
         }
@@ -172,6 +179,20 @@ impl CommandLine {
             diagnostic = diagnostic.at(span, "");
         }
         Diagnostics::new(Some(Arc::clone(&self.source)), vec![diagnostic])
+    }
+
+    /// The place of a loop in one line that was taken for options, as it begins with a minus.
+    fn negative_line(&self, error: &clap::Error) -> Option<Span> {
+        let (ErrorKind::UnknownArgument, Some(ContextValue::String(option))) =
+            (error.kind(), error.get(ContextKind::InvalidArg))
+        else {
+            return None;
+        };
+        let is_meant = |value: &str| {
+            value.starts_with(option) && !value.starts_with("--") && LoopLine::read(value, None, None).is_ok()
+        };
+        let found = self.shown.iter().take_while(|shown| shown.value != "--").find(|shown| is_meant(&shown.value));
+        found.filter(|shown| shown.value.contains(['/', '*', '(', '^'])).map(|shown| shown.span)
     }
 
     /// Which commands take what was given without one: an option of theirs, or a model file.

@@ -69,7 +69,7 @@ fn points_are_certified_on_both_sides_of_known_numbers() {
     }
 }
 
-/// At the edge nothing is strict: neither statement has a certificate. Next to it both sides of the number around are told apart.
+/// Proofs need strict inequalities: a damping that is met with equality has a certificate neither of yes nor of no. A number next to it has the true one.
 #[test]
 fn at_the_edge_there_is_no_certificate() {
     for met in [true, false] {

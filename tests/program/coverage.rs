@@ -6,7 +6,7 @@ use jurist::cli::captured;
 use jurist_algebra::limits::{Budget, parallel_map};
 use jurist_engine::coverage::{Asked, CoefficientRing, Coverage, Refusal, rows};
 use jurist_engine::error::{Code, Diagnostic, Error, Source};
-use jurist_engine::model::{Model, Time};
+use jurist_engine::model::{Between, Cut, Model, Time};
 use std::path::Path;
 
 /// A loop over a ring with the names `K`, which decides the ring, `L` and `W`.
@@ -105,6 +105,11 @@ fn is_of(found: &Diagnostic, refusal: &Refusal) -> bool {
     refusal.code == found.code && parts.all(|part| rest.find(part).map(|at| rest = &rest[at + part.len()..]).is_some())
 }
 
+/// Whether every name in braces of a refusal was replaced.
+fn is_filled(found: &Diagnostic) -> bool {
+    ![Some(&found.message), found.help.as_ref()].into_iter().flatten().any(|text| text.contains(['{', '}']))
+}
+
 fn check(row: &jurist_engine::coverage::Row, of: &Loop, file: &str) -> Result<(), String> {
     let arguments = arguments(row.command, of.model.time(), file);
     let coverage = row.asked.over(of.ring);
@@ -114,7 +119,7 @@ fn check(row: &jurist_engine::coverage::Row, of: &Loop, file: &str) -> Result<()
     match (coverage, found) {
         (Coverage::Refused(refusal) | Coverage::InPart(_, refusal), Err(Error::Refused(found))) => {
             let first = &found.diagnostics()[0];
-            match is_of(first, refusal) {
+            match is_of(first, refusal) && is_filled(first) {
                 true => Ok(()),
                 false => Err(format!("{what}: the table says {refusal:?}, and it is {first:?}")),
             }
@@ -145,6 +150,25 @@ fn every_question_of_a_loop_over_each_ring_has_the_outcome_of_the_table() {
     let wrong = wrong.concat();
     std::fs::remove_dir_all(Path::new(&folder)).expect("removed");
     assert!(wrong.is_empty(), "{} cells:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+/// The loop between two signals was refused with `{known}` in the place of what can be asked.
+#[test]
+fn refusals_of_complex_loops_have_no_names_in_braces() {
+    let between = Cut::Between(Between::new("r", "y"));
+    for of in complex_loops() {
+        let unit = ["K", "L", "W"].map(|name| (name.to_owned(), jurist_algebra::number::Rational::ONE));
+        let Err(Error::Refused(found)) = of.model.opened(&between, &[], &unit, &Budget::unlimited()) else {
+            panic!("a complex loop between two signals is not refused")
+        };
+        assert!(found.diagnostics().iter().all(is_filled), "{found:?}");
+        for words in [&["charpoly", "-", "--transfer", "r", "y"][..], &["jury", "-", "--param", "K"]] {
+            let words: Vec<String> = words.iter().map(|&word| word.to_owned()).collect();
+            if let Err(Error::Refused(found)) = outcome(&words, &of.model) {
+                assert!(found.diagnostics().iter().all(is_filled), "{words:?}: {found:?}");
+            }
+        }
+    }
 }
 
 /// Loops with complex coefficients over each ring that they may have.

@@ -133,6 +133,17 @@ fn mistakes_point_into_the_line() {
 }
 
 #[test]
+fn a_line_with_a_minus_is_not_taken_for_an_option_in_silence() {
+    for line in ["-K/(s+1)", "-0.5*(s+3)/(s^2+s+1)"] {
+        let run = refused(&["verdict", line, "--set", "K=1"], "E-usage");
+        assert!(run.stderr.contains(&format!("'{line}' begins with a minus")), "{}", run.stderr);
+        assert!(run.stderr.contains("after '--'"), "{}", run.stderr);
+    }
+    let run = refused(&["verdict", "-q", "--nothing", "K/(s+1)"], "E-usage");
+    assert!(!run.stderr.contains("minus"), "{}", run.stderr);
+}
+
+#[test]
 fn a_certificate_of_a_line_is_checked_against_the_line() {
     let file = std::env::temp_dir().join(format!("jurist-line-{}.json", std::process::id()));
     let file = file.to_str().unwrap();

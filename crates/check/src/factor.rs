@@ -17,7 +17,7 @@ pub(super) enum Cut {
     Input(String),
     /// Wherever a parameter stands.
     Parameter(String),
-    /// Wherever the loop's variable stands: what is asked is where the roots are.
+    /// At the variable of the characteristic polynomial: the requirement is one on its roots.
     Variable,
 }
 

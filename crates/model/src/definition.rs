@@ -112,6 +112,22 @@ pub struct Parameter {
 }
 
 impl Parameter {
+    /// A parameter of which nothing but the name is known.
+    pub(crate) fn named(name: String, span: Span) -> Self {
+        Parameter {
+            name,
+            span,
+            nominal: None,
+            nominal_formula: None,
+            min: None,
+            max: None,
+            closed: false,
+            unit: None,
+            description: None,
+            tolerance: None,
+        }
+    }
+
     /// Whether `value` lies in the domain.
     pub fn contains(&self, value: &Rational) -> bool {
         let is_bound = [&self.min, &self.max].into_iter().flatten().any(|bound| bound == value);

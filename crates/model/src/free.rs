@@ -14,16 +14,9 @@ impl Model {
             return Err(Diagnostics::new(Some(self.source().clone()), vec![diagnostic]));
         }
         let constant = |c: &Constant| Parameter {
-            name: c.name.clone(),
-            span: c.span,
             nominal: c.number.clone(),
-            nominal_formula: None,
-            min: None,
-            max: None,
-            closed: false,
-            unit: None,
-            description: None,
             tolerance: c.tolerance.clone(),
+            ..Parameter::named(c.name.clone(), c.span)
         };
         let found = self.parameter(name).cloned().or_else(|| self.constant(name).map(constant));
         found.ok_or_else(|| unknown_parameter(self, name).into())

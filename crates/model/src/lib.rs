@@ -73,7 +73,7 @@ pub use symbols::{Definition, Meaning, Symbol, Symbols, value_approximate};
 pub use symbols::{beside, quotient_at};
 pub use text::is_blank_letter;
 pub use text::names::shorten;
-pub use text::{Expression, Factor, Function, MAX_DEPTH, MAX_EXPONENT, Node, Sign, nearest_name};
+pub use text::{Expression, Factor, Function, Level, MAX_DEPTH, MAX_EXPONENT, Node, Sign, nearest_name};
 pub use tolerance::Tolerance;
 pub use tuning::Tuning;
 pub use written::Written;

@@ -2,7 +2,7 @@
 
 use super::Target;
 use jurist_algebra::number::{Integer, Rational, parse_number};
-use jurist_engine::model::{Expression, Factor, Node, Sign};
+use jurist_engine::model::{Expression, Factor, Level, Node, Sign};
 
 /// A formula in the notation of a program.
 pub(super) fn formula(target: &dyn Target, e: &Expression) -> String {
@@ -56,25 +56,11 @@ fn write(target: &dyn Target, e: &Expression, least: Level, out: &mut String) {
     }
 }
 
-/// Binding strength, weakest first.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Level {
-    Sum,
-    Negative,
-    Product,
-    Power,
-    Atom,
-}
-
+/// The level of an expression, of a number that of its text.
 fn level(e: &Expression, number: Option<&str>) -> Level {
-    match &e.node {
-        Node::Sum(_) => Level::Sum,
-        Node::Negative(_) => Level::Negative,
-        Node::Product(_) => Level::Product,
-        Node::Power(..) => Level::Power,
-        Node::Number(value) if value.is_negative() => Level::Negative,
-        Node::Number(_) if number.is_some_and(|text| text.contains('/')) => Level::Product,
-        Node::Number(_) | Node::Name(_) | Node::Call(..) => Level::Atom,
+    match (&e.node, number) {
+        (Node::Number(value), Some(text)) if !value.is_negative() && !text.contains('/') => Level::Atom,
+        _ => e.level(),
     }
 }
 

@@ -33,8 +33,7 @@ pub trait Elementary: Enclosed {
     }
     /// The exponential of a matrix of so many rows, given row by row; `None` where it may have too many bits to be of use.
     fn exponential_of(n: usize, matrix: &[Self]) -> Option<Vec<Self>>;
-    /// `a` and `b` where this is `a + b y` with one of the variables, up to a bound in units of the sum of the absolute values of what it is wrong by;
-    /// `None` of other functions.
+    /// The line `a + b y` in one variable that this number is, with a bound of its distance from the line; `None` of other functions.
     fn line(&self) -> Option<Along>;
     /// The sum of `c_k y^k` with the variable of a line, or with none for a constant.
     fn of_powers(&self, variable: Option<usize>, coefficients: &[Ball]) -> Self;
@@ -50,7 +49,7 @@ pub trait Elementary: Enclosed {
     }
 }
 
-/// `a + b y`, `y` the variable of this number, if it is no constant.
+/// A line `a + b y` in one of the variables, or a constant.
 #[derive(Clone, Debug)]
 pub struct Along {
     /// The constant term.
@@ -59,9 +58,9 @@ pub struct Along {
     pub slope: Ball,
     /// The number of the variable.
     pub variable: Option<usize>,
-    /// So many powers of a variable are kept.
+    /// The number of powers of a variable that numbers of this kind keep.
     pub terms: usize,
-    /// What the line is wrong by, in units.
+    /// A bound of the distance from the line, in units.
     pub rest: Integer,
 }
 

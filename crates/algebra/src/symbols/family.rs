@@ -42,7 +42,7 @@ pub struct MatrixFamily {
     parameters: usize,
     steps: Vec<Step>,
     flows: Vec<RationalMatrix>,
-    /// For each of the flows, where its matrix is one of numbers times a function: both.
+    /// For each of the flows `R` and `f` if its matrix is `R f`, numbers times one function.
     rates: Vec<Option<(Vec<Rational>, RationalFunction)>>,
     constant: RationalMatrix,
     slopes: Vec<RationalMatrix>,
@@ -184,7 +184,7 @@ impl MatrixFamily {
     }
 }
 
-/// The numbers and the function of which a matrix is the product, if it is one.
+/// The matrix `R` of numbers and the function `f` with `m = R f`; `None` of any other matrix, and of zero.
 fn rates(m: &RationalMatrix) -> Option<(Vec<Rational>, RationalFunction)> {
     let along = m.entries().iter().find(|f| !f.is_zero())?;
     let over = along.recip()?;

@@ -160,8 +160,8 @@ impl Problem {
         Ok(Some(before.followed_by(found, None).followed_by(after, None)))
     }
 
-    /// Between which values a parameter inside of functions is looked at by values: its domain, or some octaves around the nominal value. At 0 roots may
-    /// come together, as they do at a sample time of 0, and values do not tell how. `None` where there is no such interval.
+    /// The interval in which values of functions decide: the domain of the parameter, or some octaves around its nominal value. An end at 0 is left out:
+    /// roots may come together there, as they do at a sample time of 0, and values do not tell how. `None` where there is no such interval.
     fn bounds_of_values(&self) -> Option<[Rational; 2]> {
         let free = self.parameter();
         let near = |bits: i64| {

@@ -1,4 +1,4 @@
-//! Problems about loops whose coefficients may be complex: what is not known of them is refused.
+//! Loops with complex coefficients: the questions that only real loops have an answer to refuse them here.
 
 use super::{Free, Problem};
 use crate::coverage::Asked;
@@ -19,7 +19,7 @@ impl Problem {
         }
     }
 
-    /// Refuses a loop with complex coefficients, of which what is asked is not known.
+    /// Refuses a loop with complex coefficients.
     ///
     /// Cost: for a model without imaginary unit and frames none; else the expressions are evaluated.
     ///

@@ -278,7 +278,6 @@ mod tests {
     /// An integrator, a lag and two samples of delay with a zero: roots at 1 for the gain 0, at the end of the domain. The values are
     /// mpmath's at 50 digits: there a negative root and a pair leave the spiral.
     #[test]
-    #[ignore = "long: CI runs it"]
     fn gains_at_which_roots_have_the_damping_of_two_fifths() {
         let budget = Budget::unlimited();
         let polynomial =

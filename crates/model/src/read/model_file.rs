@@ -264,18 +264,7 @@ fn read_parameters(root: &Table, reader: &mut Reader) -> Vec<Parameter> {
     let mut parameters = Vec::new();
     for entry in section(root, "parameters", reader).into_iter().flat_map(Table::iter) {
         let Some(Name { name, span }) = reader.name(&entry.key, entry.key_span, "a parameter") else { continue };
-        let mut parameter = Parameter {
-            name,
-            span,
-            nominal: None,
-            nominal_formula: None,
-            min: None,
-            max: None,
-            closed: false,
-            unit: None,
-            description: None,
-            tolerance: None,
-        };
+        let mut parameter = Parameter::named(name, span);
         match &entry.value.kind {
             Kind::Table(table) => read_parameter(table, &mut parameter, reader),
             Kind::Number(_) | Kind::String(_) => {

@@ -166,7 +166,7 @@ impl Expression {
     }
 
     /// How tightly the outermost operator binds, for printing.
-    fn level(&self) -> Level {
+    pub fn level(&self) -> Level {
         match &self.node {
             Node::Sum(_) => Level::Sum,
             Node::Negative(_) => Level::Negative,
@@ -221,13 +221,24 @@ impl Expression {
     }
 }
 
-/// Binding strength, weakest first.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Level {
+/// How tightly the outermost operator of an expression binds, weakest first.
+///
+/// ```
+/// use jurist_model::{Expression, Level};
+/// assert_eq!(Expression::parse("a*b").unwrap().level(), Level::Product);
+/// assert!(Level::Sum < Level::Product);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Level {
+    /// A sum or a difference.
     Sum,
+    /// A leading minus.
     Negative,
+    /// A product or a quotient.
     Product,
+    /// A power.
     Power,
+    /// A name, a number without sign and without stroke, a call of a function.
     Atom,
 }
 

@@ -11,7 +11,7 @@ mod toml_hints;
 pub(crate) mod toml_reader;
 pub(crate) mod toml_value;
 
-pub use expression::{Expression, Factor, Node, Sign};
+pub use expression::{Expression, Factor, Level, Node, Sign};
 pub use function::Function;
 pub(crate) use function::{PI, UNIT, hint};
 pub use lexer::is_blank_letter;

@@ -1,4 +1,4 @@
-//! The way to a bracket of the largest factor: what is tried next, and what follows from it.
+//! The steps that narrow the bracket of the largest factor: the next factor to try, and what each outcome changes.
 
 use super::factor::ToleranceProblem;
 use super::family::Family;
@@ -31,7 +31,7 @@ pub(super) type Open = (OpenReason, Vec<[Rational; 2]>);
 /// The relative width of a bracket, by its upper end.
 pub(super) type Gap<'b> = &'b dyn Fn(&Rational) -> Rational;
 
-/// What is known of the largest factor, and how often what was tried.
+/// The bracket of the largest factor so far, and how often each kind of step was taken.
 pub(super) struct Bracketing<'b, 'a, F: Family> {
     of: &'b ToleranceProblem<'a, F>,
     gap: Gap<'b>,
@@ -50,7 +50,7 @@ pub(super) struct Bracketing<'b, 'a, F: Family> {
     withdrawals: u32,
     retreats: u32,
     refutations: u32,
-    /// At first not so near to the end: if that is not the nearest one, a box is refuted sooner than it is left open.
+    /// True as long as boxes stay away from the end: where a nearer end exists, such a box is refuted rather than left open.
     is_rough: bool,
 }
 

@@ -17,11 +17,11 @@ use std::sync::Arc;
 /// The part of the time that may be spent on the bracket of the largest factor.
 const BRACKET_SHARE: (u32, u32) = (4, 5);
 
-/// A family of loops over a box, and what is asked of it.
+/// A question about tolerances: the family of loops, the box, and the request.
 pub(super) struct FamilyBox<'a, F> {
     pub problem: &'a Arc<Problem>,
     pub p: &'a F,
-    /// Who tells what is true of a point.
+    /// It counts the roots at a point.
     pub truth: &'a Truth<'a>,
     pub sides: &'a [Side],
     pub asked: Asked<'a>,
