@@ -46,7 +46,8 @@ function firstScreens(ask) {
   const common = (model) => {
     const described = ask({ ask: "describe", model });
     const set = (described.model?.parameters ?? []).filter((p) => p.nominal !== null).map((p) => [p.name, p.nominal]);
-    program(model, "verdict", "-", "--json", ...options(set));
+    // At the nominal values the page names none.
+    for (const given of [[], options(set)]) program(model, "verdict", "-", "--json", ...given);
     return set;
   };
   const read = (file) => readFileSync(join(examples, file), "utf8");

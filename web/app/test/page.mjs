@@ -520,8 +520,7 @@ test("from a server it is kept, and opens again without one", async () => {
   }
 });
 
-// What needs the second part waits without end here: the limit makes of that a failure.
-test("the first screens, and dragging, need nothing of the second part of the engine", { timeout: 120_000 }, async () => {
+test("the first screens, and dragging, need nothing of the second part of the engine", async () => {
   await page.open(fromFile);
   await page.value(`(async () => {
     const { engine, page } = jurist;
