@@ -38,6 +38,7 @@ mod models {
 
 /// Whole loops in one parameter, beyond what the corpus says of them.
 mod loops {
+    mod beside_constants;
     mod circles;
     mod clocks;
     mod corridor;

@@ -352,6 +352,38 @@ def dead_time_beside(r):
     return made(r, "dead time beside a root", "continuous", blocks, at, (some(r, 1, 4, 5), some(r, 1, 2, 2)))
 
 
+def dead_time_beside_pi(r):
+    f, tau = some(r, 1, 4, 5), Fraction(r.randint(1, 10), 20)
+    blocks = [f"transfer = 'K*W*exp(-{tau}*s)/(s/(2*pi*{f}) + 1)'", "transfer = '2*pi*L/(s*(s + 3))'"]
+
+    def at(p):
+        den = np.polymul([1 / (2 * np.pi * float(f)), 1], [1, 3, 0])
+        return Numbers(p["K"] * p["W"] * np.array([2 * np.pi * p["L"]]), den, tau=float(tau))
+
+    return made(r, "dead time beside pi", "continuous", blocks, at, (some(r, 1, 4, 5), some(r, 1, 2, 2)))
+
+
+def free_dead_time_beside(r):
+    n, b = r.choice([2, 3, 5]), some(r, 1, 4, 2)
+    blocks = ["gain = 'L*W/4'", f"transfer = 'exp(-K*s)/((s + sqrt({n}))*(s + {b}))'"]
+
+    def at(p):
+        return Numbers([p["L"] * p["W"] / 4], np.polymul([1, np.sqrt(n)], [1, float(b)]), tau=p["K"])
+
+    return made(r, "free dead time beside a root", "continuous", blocks, at, (Fraction(r.randint(1, 10), 10), some(r, 1, 4, 2)))
+
+
+def dead_time_beside_function(r):
+    n, tau = r.choice([1, 2, 3]), Fraction(r.randint(1, 10), 10)
+    blocks = ["transfer = 'W*(s + L)/s'", f"transfer = 'exp(-{tau}*s)/((s + 1)*(s + sqrt(K + {n})))'"]
+
+    def at(p):
+        den = np.polymul(np.polymul([1, 0], [1, 1]), [1, np.sqrt(p["K"] + n)])
+        return Numbers(p["W"] * np.array([1, p["L"]]), den, tau=float(tau))
+
+    return made(r, "dead time beside a function", "continuous", blocks, at, (some(r, 1, 4, 5), some(r, 1, 2, 2)))
+
+
 def varying_order(r):
     words, poly = factors(r, r.randint(1, 2))
     delay = Fraction(r.randint(2, 12), 20)
@@ -370,6 +402,7 @@ GENERATORS = {
     "constants": [behind_hold, hold_with_delay, square_root, pulses, complex_hold],
     "functions": [sample_time, sample_time_with_delay, plant_pole, root_of_name],
     "dead time": [dead_time, free_dead_time, neutral],
-    "dead time beside functions": [dead_time_beside],
+    "dead time beside constants": [dead_time_beside, dead_time_beside_pi, free_dead_time_beside],
+    "dead time beside functions": [dead_time_beside_function],
     "varying order": [varying_order],
 }

@@ -42,7 +42,8 @@ fn loops() -> Vec<Loop> {
         of_blocks(Functions, "L/(s + K)", zoh),
         of_blocks(Functions, "L/((s + sqrt(K + 1))*(s + 1)*(s + 2))", ""),
         of_blocks(DeadTime, "L*exp(-s/2)/(s + 1)", ""),
-        of_blocks(DeadTimeBesideFunctions, "L*exp(-s/2)/(s + sqrt(2))", ""),
+        of_blocks(DeadTimeBesideConstants, "L*exp(-s/2)/(s + sqrt(2))", ""),
+        of_blocks(DeadTimeBesideFunctions, "L*exp(-s/2)/(s + sqrt(K + 1))", ""),
         of_blocks(VaryingOrder, "L/(5*(s + 1))", "discretize = { method = 'zoh', delay = '13/10' }\n"),
     ]
 }

@@ -316,7 +316,7 @@ fn what_is_not_asked_of_dead_time_is_refused() {
         Err(Error::Refused(list)) => assert_eq!(list.diagnostics()[0].code, Code::NoCertificate),
         other => panic!("{other:?}"),
     }
-    let other = function("K = { nominal = 1 }\na = { nominal = 1 }", "s + K*exp(-s) + exp(-a)");
+    let other = function("K = { nominal = 1 }\na = { nominal = 1 }", "s + K*exp(-s) + exp(-a*K)");
     match other.ask().tolerance(&request(&[("K", "5%")], "1e-3"), &Budget::unlimited()) {
         Err(Error::Refused(list)) => assert_eq!(list.diagnostics()[0].code, Code::DeadTime),
         other => panic!("{other:?}"),

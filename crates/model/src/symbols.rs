@@ -61,6 +61,11 @@ impl Symbol {
             Meaning::Delay(_) | Meaning::Flow { .. } | Meaning::Value(_) => None,
         }
     }
+
+    /// Whether it stands for a dead time.
+    pub fn is_delay(&self) -> bool {
+        matches!(self.meaning, Meaning::Delay(_))
+    }
 }
 
 /// The symbols of an evaluated model. Variables `0, 1, ..` are the kept names, then come the symbols.

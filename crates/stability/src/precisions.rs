@@ -54,6 +54,9 @@ pub const MOTION_OF_ROOTS: Precisions = Precisions::new(64, 512);
 /// A zero that may be at an end of the range.
 pub const ZERO_AT_EDGE: Precisions = Precisions::new(64, 512);
 
+/// Coefficients over constants beside dead time. A root may be on the axis.
+pub const CONSTANTS_BESIDE_DEAD_TIME: Precisions = Precisions::new(256, 1024);
+
 /// The order of two dead times with roots on the axis, which no theorem separates.
 pub const ORDER_OF_DEAD_TIMES: Precisions = Precisions::new(96, 1 << 12);
 

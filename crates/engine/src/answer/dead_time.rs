@@ -60,7 +60,7 @@ fn with_positive_dead_time(parameter: &Free, delayed: &DelayedLoop, budget: &Bud
     if delayed.is_rational() {
         return Ok(crate::stability::stable_set(&delayed.polynomial(), domain, Shape::LeftHalfPlane, budget)?);
     }
-    let from_the_axis = delayed.decay().is_zero();
+    let from_the_axis = delayed.decay().is_zero() && delayed.is_exact();
     match delayed.delay() {
         BaseDelay::Line { slope, offset } if from_the_axis && delayed.degree_in_parameter() == 0 => {
             windows(delayed, domain, slope, offset, budget)

@@ -370,19 +370,24 @@ impl Problem {
                 let plane = self.symbolic_plane(budget)?.expect("one parameter is inside of functions");
                 Ok(family.boxes(&window, goal, &share(), plane.at_lower_end(&window)))
             }
+            CoefficientRing::DeadTimeBesideConstants => self.boxes_of_family(&window?, goal, budget),
             CoefficientRing::DeadTime if self.region().decay().is_some() => {
-                let window = window?;
-                let middle = [&window.x, &window.y].map(|[low, high]| low.midpoint(high));
-                Ok(match self.delayed_family_in_region(&middle, budget)? {
-                    Some((family, constants)) => family.boxes(&window, &constants, goal, &share()),
-                    None => BoxMap::nowhere_stable(&window),
-                })
+                self.boxes_of_family(&window?, goal, budget)
             }
             CoefficientRing::DeadTime | CoefficientRing::DeadTimeBesideFunctions | CoefficientRing::VaryingOrder => {
                 let plane = self.delayed_plane(budget)?.expect("a loop with dead time");
                 Ok(plane.boxes(&window?, goal, &share())?)
             }
         }
+    }
+
+    /// The boxes of a loop with dead time beside constants, or factors of a decay rate, that are known by bounds.
+    fn boxes_of_family(&self, window: &Window, goal: &Rational, budget: &Budget) -> Result<BoxMap, Error> {
+        let middle = [&window.x, &window.y].map(|[low, high]| low.midpoint(high));
+        Ok(match self.delayed_family_in_region(&middle, budget)? {
+            Some((family, bounds)) => family.boxes(window, &bounds, goal, &budget.share(SUBDIVISION.0, SUBDIVISION.1)),
+            None => BoxMap::nowhere_stable(window),
+        })
     }
 }
 

@@ -3,6 +3,7 @@
 use super::Answer;
 use super::rightmost::rightmost;
 use super::roots_of_complex::roots_of_complex;
+use crate::coverage::refusals::BESIDE_DEAD_TIME;
 use crate::error::Error;
 use crate::model::{Time, quotient_at};
 use crate::precisions::ROOTS;
@@ -275,6 +276,9 @@ impl Problem {
         let period = algebra.sample_time().and_then(|t| t.as_constant());
         if !symbols.delays().is_empty() {
             let delayed = self.delayed(budget)?.ok_or_else(undefined)?;
+            if !delayed.is_exact() {
+                return Err(BESIDE_DEAD_TIME.diagnostic(&[]).into());
+            }
             return Ok((with_dead_time(delayed), degree, period));
         }
         if let Some(whole) = algebra.complex() {

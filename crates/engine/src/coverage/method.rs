@@ -49,6 +49,11 @@ pub(super) static ARGUMENT: Method = Method::new(
     "The argument of the characteristic function turns by a quarter for each root left of the axis; the turns are counted between certified frequencies (Mikhailov).",
     "stability::dead_time::count_delayed_roots",
 );
+pub(super) static ENCLOSED_ARGUMENT: Method = Method::new(
+    "argument principle with enclosed constants",
+    "The turns are counted with rational numbers beside the constants. No root is on the axis for any constants within their bounds: so the count is that of the constants themselves.",
+    "stability::dead_time::FamilyLoop::count",
+);
 pub(super) static ZEROS: Method = Method::new(
     "zeros of boundary polynomials",
     "The number of stable roots changes only at real zeros of D(1), D(-1) (or D(0)), of the resultant of the half-size pair, where the degree is lost, and at poles. They are isolated exactly, and one rational number between two neighbours is decided.",
@@ -68,6 +73,11 @@ pub(super) static CROSSINGS: Method = Method::new(
     "crossings of the imaginary axis",
     "Of a free dead time all crossings are algebraic and repeat, so all windows follow by addition (Walton and Marshall). Of another parameter, values with a root on the axis are zeros of one function of the frequency, isolated with proved bounds; a count between two neighbours decides the gap.",
     "stability::dead_time",
+);
+pub(super) static ENCLOSED_CROSSINGS: Method = Method::new(
+    "crossings of the imaginary axis with enclosed constants",
+    "Roots on the axis are zeros of one complex function of the frequency and the parameter. Newton's method isolates them with bounds of the constants, which get narrower as digits are asked for; a count between two neighbours decides the gap.",
+    "stability::dead_time::family_cells",
 );
 pub(super) static SAMPLES: Method = Method::new(
     "one order after another",
@@ -103,6 +113,11 @@ pub(super) static DELAYED_BOXES: Method = Method::new(
     "boxes by argument counts",
     "The characteristic function is walked along the imaginary axis for all points of a box at once: where it cannot vanish, the turns of its argument count the roots of all of them. Other boxes are halved.",
     "stability::dead_time::PlaneLoop::boxes",
+);
+pub(super) static DELAYED_FAMILY_BOXES: Method = Method::new(
+    "boxes by Bernstein tensors with Taylor models of the delays",
+    "A box whose corners have one number of roots right of the axis is cut in frequency and parameters, beside which constants are as wide as their bounds: where no root is on the axis, all points have that number. Other boxes are halved.",
+    "stability::boxes::DelayedFunction::boxes",
 );
 pub(super) static TENSOR: Method = Method::new(
     "Bernstein tensor in frequency and parameters",

@@ -26,7 +26,9 @@ pub enum CoefficientRing {
     Functions,
     /// Dead time in continuous time: powers of `exp(-tau s)`.
     DeadTime,
-    /// Dead time in continuous time, beside other functions or constants that are not rational.
+    /// Dead time in continuous time, beside constants that are not rational.
+    DeadTimeBesideConstants,
+    /// Dead time in continuous time, beside functions of the free names.
     DeadTimeBesideFunctions,
     /// Behind a hold, a dead time of no fixed number of samples: the order of the loop depends on the free names.
     VaryingOrder,
@@ -34,11 +36,12 @@ pub enum CoefficientRing {
 
 impl CoefficientRing {
     /// All of them, in the order of the table's columns.
-    pub const ALL: [CoefficientRing; 6] = [
+    pub const ALL: [CoefficientRing; 7] = [
         CoefficientRing::Rational,
         CoefficientRing::Constants,
         CoefficientRing::Functions,
         CoefficientRing::DeadTime,
+        CoefficientRing::DeadTimeBesideConstants,
         CoefficientRing::DeadTimeBesideFunctions,
         CoefficientRing::VaryingOrder,
     ];
@@ -50,6 +53,7 @@ impl CoefficientRing {
             CoefficientRing::Constants => "constants",
             CoefficientRing::Functions => "functions",
             CoefficientRing::DeadTime => "dead time",
+            CoefficientRing::DeadTimeBesideConstants => "dead time beside constants",
             CoefficientRing::DeadTimeBesideFunctions => "dead time beside functions",
             CoefficientRing::VaryingOrder => "varying order",
         }
@@ -64,9 +68,10 @@ impl CoefficientRing {
             }
             CoefficientRing::Functions => "functions of a free name, such as exp(-T) where the sample time is free",
             CoefficientRing::DeadTime => "powers of exp(-tau s): dead time in continuous time",
-            CoefficientRing::DeadTimeBesideFunctions => {
-                "powers of exp(-tau s), beside functions or constants that are not rational"
+            CoefficientRing::DeadTimeBesideConstants => {
+                "powers of exp(-tau s), beside constants that are not rational, such as pi or sqrt(2)"
             }
+            CoefficientRing::DeadTimeBesideFunctions => "powers of exp(-tau s), beside functions of a free name",
             CoefficientRing::VaryingOrder => {
                 "behind a hold, a dead time of no fixed number of samples: the order depends on the free names"
             }
@@ -80,7 +85,10 @@ impl CoefficientRing {
             (0, _) => CoefficientRing::Rational,
             (_, 0) if symbols.is_moving() => CoefficientRing::Functions,
             (_, 0) => CoefficientRing::Constants,
-            (all, delays) if all > delays => CoefficientRing::DeadTimeBesideFunctions,
+            (all, delays) if all > delays => match symbols.iter().any(|s| s.is_moving && !s.is_delay()) {
+                true => CoefficientRing::DeadTimeBesideFunctions,
+                false => CoefficientRing::DeadTimeBesideConstants,
+            },
             _ => CoefficientRing::DeadTime,
         }
     }

@@ -1,21 +1,24 @@
 //! Loops with dead time: the characteristic function as a polynomial in `s`, `exp(-tau s)` and what is free.
 
+use super::beside_dead_time::{Constants, refused_beside};
 use super::evaluation::Algebra;
 use super::region::Bound;
 use super::resolved::Problem;
-use crate::coverage::refusals::BESIDE_DEAD_TIME;
 use crate::error::{Code, Diagnostic, Error};
 use crate::stability::ParametricPolynomial;
-use crate::stability::dead_time::{FamilyLoop, GainLoop, Line, QuasiPolynomial};
+use crate::stability::dead_time::{ConstantParts, FamilyLoop, GainLoop, Line, QuasiPolynomial};
 use jurist_algebra::limits::Budget;
+use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
 
 /// The characteristic function `sum P_k(s) z^k`, `z = exp(-tau s)`, of a loop with dead times that are multiples of one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DelayedLoop {
-    /// The coefficient of `z^k s^j` as a polynomial in the free parameter, at `[k][j]`.
+    /// The coefficient of `z^k s^j` as a polynomial in the free parameter, at `[k][j]`; none where there are constants that are not rational.
     parts: Vec<Vec<UniPoly>>,
+    /// The same where there are such constants.
+    over_constants: Option<ConstantParts>,
     delay: BaseDelay,
     /// The roots are to lie left of `Re s = -decay`; `s` is counted from there.
     decay: Line,
@@ -47,22 +50,28 @@ impl DelayedLoop {
     pub(super) fn of(problem: &Problem, algebra: &Algebra, budget: &Budget) -> Result<Option<DelayedLoop>, Error> {
         let delays = algebra.symbols().delays();
         let Some(polynomial) = algebra.polynomial().filter(|_| !delays.is_empty()) else { return Ok(None) };
-        if algebra.symbols().iter().count() > delays.len() {
-            return Err(BESIDE_DEAD_TIME.diagnostic(&[]).into());
-        }
         let free = problem.free().len();
         if free > 1 {
             let help = "ask for one parameter, 'intervals --param NAME', or for a map by boxes";
             return Err(refused("this cannot be asked of two parameters in a loop with dead time", help));
         }
-        let (delay, powers) = base_delay(&delays)?;
         // A decay rate that is asked for is one more variable before the symbols.
         let room = usize::from(problem.region().is_free());
+        let constants = Constants::of(algebra.symbols(), room)?;
+        if delays.iter().flat_map(|(_, time)| time.variables()).any(|v| constants.position(v + room).is_some()) {
+            return Err(refused_beside());
+        }
+        let (delay, powers) = base_delay(&delays)?;
         let power_of = |variable: usize| delays.iter().position(|(v, _)| *v + room == variable).map(|i| powers[i]);
         let decay = match problem.region().bound() {
             Bound::Number(decay) => Line::constant(decay.clone()),
             Bound::Free => Line { slope: Rational::ONE, offset: Rational::ZERO },
         };
+        if !constants.is_empty() {
+            let over =
+                budget.enter(|| DelayedLoop::over_constants(polynomial, constants, power_of, (delay, decay)))??;
+            return Ok(Some(over));
+        }
         budget.enter(|| {
             let (scaled, common) = cleared(&polynomial.coefficients, |v| power_of(v).is_some())?;
             let mut parts: Vec<Vec<UniPoly>> = Vec::new();
@@ -91,7 +100,7 @@ impl DelayedLoop {
             let pole = |p: &MultiPoly| p.to_univariate(0).filter(|p| !p.is_constant());
             let mut poles: Vec<UniPoly> = polynomial.poles.iter().filter_map(pole).collect();
             poles.extend(pole(&common));
-            Ok(Some(DelayedLoop { parts, delay, decay, poles }.without_content()))
+            Ok(Some(DelayedLoop { parts, over_constants: None, delay, decay, poles }.without_content()))
         })?
     }
 
@@ -106,7 +115,8 @@ impl DelayedLoop {
         let order = denominator.coeffs().len().max(numerator.coeffs().len());
         let parts = [denominator, numerator].map(|p| (0..order).map(|j| p.coeff(j)).collect()).into();
         let decay = Line::constant(Rational::ZERO);
-        Some(DelayedLoop { parts, delay, decay, poles: vec![undefined.clone()] }.without_content())
+        let poles = vec![undefined.clone()];
+        Some(DelayedLoop { parts, over_constants: None, delay, decay, poles }.without_content())
     }
 
     /// Where a common factor of all coefficients vanishes the function does so identically.
@@ -121,6 +131,57 @@ impl DelayedLoop {
         self
     }
 
+    /// The loop whose polynomial has constants that are not rational; `power_of` is the multiple of the dead time that a variable stands for.
+    fn over_constants(
+        polynomial: &CharacteristicPolynomial,
+        constants: Constants,
+        power_of: impl Fn(usize) -> Option<usize>,
+        (delay, decay): (BaseDelay, Line),
+    ) -> Result<DelayedLoop, Error> {
+        let (scaled, common) = cleared(&polynomial.coefficients, |v| power_of(v).is_some())?;
+        let mut parts: Vec<Vec<MultiPoly>> = Vec::new();
+        for (j, f) in scaled.iter().enumerate() {
+            for (monomial, c) in f.numerator().terms() {
+                let mut own = vec![0u32; 1 + constants.len()];
+                let mut k = 0usize;
+                for (variable, &e) in monomial.exponents().iter().enumerate() {
+                    match (power_of(variable), constants.position(variable)) {
+                        (Some(multiple), _) => k += multiple * e as usize,
+                        (None, Some(constant)) => own[1 + constant] += e,
+                        (None, None) => own[0] += e,
+                    }
+                }
+                if k > MOST_MULTIPLES {
+                    return Err(too_many());
+                }
+                while parts.len() <= k {
+                    parts.push(vec![MultiPoly::zero(); scaled.len()]);
+                }
+                parts[k][j] = parts[k][j].plus(&MultiPoly::from_terms([(own, c.clone())]));
+            }
+        }
+        let content = parts.iter().flatten().fold(MultiPoly::zero(), |g, p| g.gcd(p));
+        if !content.is_constant() {
+            parts.iter_mut().flatten().for_each(|p| *p = p.div_exact(&content).expect("the content divides"));
+        }
+        // Where the dead times cancel, and where a pole depends on constants, nothing is known.
+        if parts.iter().skip(1).flatten().all(MultiPoly::is_zero) {
+            return Err(refused_beside());
+        }
+        let own = |p: &MultiPoly| p.map_variables(|v| constants.position(v).map_or(0, |i| i + 1));
+        let mut poles = Vec::new();
+        for pole in polynomial.poles.iter().chain([&common]).map(own).chain([content]) {
+            poles.extend(pole_beside(&pole, &constants)?);
+        }
+        let over_constants = Some(ConstantParts::new(parts, constants.table));
+        Ok(DelayedLoop { parts: Vec::new(), over_constants, delay, decay, poles })
+    }
+
+    /// Whether all coefficients are rational.
+    pub fn is_exact(&self) -> bool {
+        self.over_constants.is_none()
+    }
+
     /// The dead time of which the others are multiples.
     pub fn delay(&self) -> &BaseDelay {
         &self.delay
@@ -133,7 +194,7 @@ impl DelayedLoop {
 
     /// Whether the dead times cancel.
     pub fn is_rational(&self) -> bool {
-        self.parts.iter().skip(1).flatten().all(UniPoly::is_zero)
+        self.is_exact() && self.parts.iter().skip(1).flatten().all(UniPoly::is_zero)
     }
 
     /// The polynomial in `s` of a loop whose dead times cancel, its coefficients polynomials in the free parameter.
@@ -150,13 +211,16 @@ impl DelayedLoop {
 
     /// The loop with the free parameter wherever it enters; `None` where it vanishes identically.
     pub fn family(&self) -> Option<FamilyLoop> {
-        if self.parts.iter().flatten().all(UniPoly::is_zero) {
-            return None;
-        }
         let tau = match &self.delay {
             BaseDelay::Number(tau) => Line::constant(tau.clone()),
             BaseDelay::Line { slope, offset } => Line { slope: slope.clone(), offset: offset.clone() },
         };
+        if let Some(over) = &self.over_constants {
+            return Some(FamilyLoop::enclosed(over.clone(), tau, self.decay.clone()));
+        }
+        if self.parts.iter().flatten().all(UniPoly::is_zero) {
+            return None;
+        }
         Some(FamilyLoop::new(self.parts.clone(), tau, self.decay.clone()))
     }
 
@@ -193,6 +257,22 @@ impl DelayedLoop {
         Some(GainLoop::new(part(0), part(1), tau.clone()))
     }
 }
+
+/// A polynomial in the parameter (0) and in constants as what must not vanish; `None` where it does not anyway.
+///
+/// # Errors
+/// `E-dead-time` where it depends on both, and where the constants may make it vanish.
+fn pole_beside(pole: &MultiPoly, constants: &Constants) -> Result<Option<UniPoly>, Error> {
+    if pole.variables().iter().all(|v| *v == 0) {
+        return Ok(pole.to_univariate(0).filter(|p| !p.is_constant()));
+    }
+    let is_number = pole.degree_in(0) == 0;
+    let value = || constants.table.enclose(&pole.map_variables(|v| v - 1), BITS_OF_POLE);
+    if is_number && !value().contains_zero() { Ok(None) } else { Err(refused_beside()) }
+}
+
+/// Bits with which a divisor is to be seen different from 0.
+const BITS_OF_POLE: u64 = 256;
 
 /// The coefficients times their common denominator, and that.
 pub(super) fn cleared(

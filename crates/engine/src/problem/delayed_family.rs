@@ -1,6 +1,7 @@
 //! Loops with dead time and any number of parameters.
 
-use super::delayed_terms::DelayedTerms;
+use super::beside_dead_time::refused_beside;
+use super::delayed_terms::{CONSTANT_BITS, DelayedTerms, OverDelays};
 use super::resolved::Problem;
 use crate::coverage::refusals::DECAY;
 use crate::error::Error;
@@ -10,9 +11,6 @@ use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction};
-
-/// Factors `exp(decay tau)` are enclosed with so many bits after the point.
-const FACTOR_BITS: u64 = 160;
 
 /// A family with the bounds of its last parameters, which are constants.
 pub(crate) type BesideConstants = (DelayedFunction, Vec<[Rational; 2]>);
@@ -26,19 +24,15 @@ impl Problem {
     /// # Errors
     /// As [`Problem::algebra_over_symbols`]; `E-dead-time` for what cannot be treated.
     pub(crate) fn delayed_family(&self, usual: &[Rational], budget: &Budget) -> Result<Option<DelayedFunction>, Error> {
-        let Some((polynomial, delays)) = self.over_delays("tolerances", budget)? else { return Ok(None) };
-        let time_of = |variable: usize| delays.iter().find(|(own, _)| *own == variable).map(|(_, time)| time);
-        budget.enter(|| {
-            let found = DelayedTerms::of(polynomial, usual.len(), time_of, add)?;
-            let times = delays.iter().map(|(_, time)| time.clone()).collect();
-            Ok(DelayedFunction::new(found.terms, times, found.poles, usual))
-        })?
+        let Some(over) = self.over_delays("tolerances", budget)? else { return Ok(None) };
+        if !over.constants.is_empty() {
+            return Err(refused_beside());
+        }
+        Ok(self.family_over(&over, usual, budget)?.map(|(family, _)| family))
     }
-}
 
-impl Problem {
-    /// The loop whose roots are to decay as the region says: [`Problem::delayed_family`], where each factor `exp(decay tau)` of a delayed part is one more
-    /// parameter, after the others, between the bounds that are returned.
+    /// The loop whose roots are to decay as the region says, as [`Problem::delayed_family`]. Constants that are not rational are further parameters, after
+    /// the others, between the bounds that are returned; so is each factor `exp(decay tau)` of a delayed part.
     ///
     /// # Errors
     /// As [`Problem::delayed_family`]; `E-dead-time` where a decay rate is asked for and a dead time depends on a parameter.
@@ -47,22 +41,33 @@ impl Problem {
         usual: &[Rational],
         budget: &Budget,
     ) -> Result<Option<BesideConstants>, Error> {
-        let Some(decay) = self.region().decay() else {
-            return Ok(self.delayed_family(usual, budget)?.map(|family| (family, Vec::new())));
-        };
-        let Some((polynomial, delays)) = self.over_delays_in_region(budget)? else { return Ok(None) };
-        if delays.iter().any(|(_, time)| !time.is_constant()) {
+        let Some(over) = self.over_delays_in_region(budget)? else { return Ok(None) };
+        self.family_over(&over, usual, budget)
+    }
+
+    fn family_over(
+        &self,
+        over: &OverDelays<'_>,
+        usual: &[Rational],
+        budget: &Budget,
+    ) -> Result<Option<BesideConstants>, Error> {
+        let OverDelays { polynomial, delays, constants } = over;
+        let decay = self.region().decay();
+        if decay.is_some() && delays.iter().any(|(_, time)| !time.is_constant()) {
             return Err(DECAY.diagnostic(&[("what", "values of a dead time")]).into());
         }
         let time_of = |variable: usize| delays.iter().find(|(own, _)| *own == variable).map(|(_, time)| time);
         budget.enter(|| {
-            let mut found = DelayedTerms::of(polynomial, usual.len(), time_of, add)?;
-            let (mut all, mut bounds) = (usual.to_vec(), Vec::new());
+            let mut bounds = constants.clone();
+            let mut all = usual.to_vec();
+            all.extend(constants.iter().map(|[low, high]| low.midpoint(high)));
+            let mut found = DelayedTerms::of(polynomial, all.len(), time_of, add)?;
             for (time, part) in found.terms.iter_mut().filter(|(time, _)| !time.is_zero()) {
+                let Some(decay) = decay else { break };
                 let factor = MultiPoly::variable(all.len());
                 part.iter_mut().for_each(|c| *c = c.times(&factor));
                 let exponent = decay * &time.as_constant().expect("a number");
-                let value = exp(&Ball::from_rational(&exponent, FACTOR_BITS));
+                let value = exp(&Ball::from_rational(&exponent, CONSTANT_BITS));
                 all.push(value.lower().midpoint(&value.upper()));
                 bounds.push([value.lower(), value.upper()]);
             }

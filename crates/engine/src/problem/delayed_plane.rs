@@ -1,7 +1,8 @@
 //! Loops with dead time and two parameters.
 
+use super::beside_dead_time::refused_beside;
 use super::delayed::refused;
-use super::delayed_terms::DelayedTerms;
+use super::delayed_terms::{DelayedTerms, OverDelays};
 use super::resolved::Problem;
 use crate::error::Error;
 use crate::stability::dead_time::{DeadTime, PlaneLoop};
@@ -23,14 +24,19 @@ impl Problem {
     /// Unless two parameters are free.
     pub fn delayed_plane(&self, budget: &Budget) -> Result<Option<PlaneLoop>, Error> {
         assert_eq!(self.free().len(), 2, "two parameters are free");
-        let Some((polynomial, delays)) = self.over_delays("two parameters", budget)? else { return Ok(None) };
+        let Some(OverDelays { polynomial, delays, constants }) = self.over_delays("two parameters", budget)? else {
+            return Ok(None);
+        };
+        if !constants.is_empty() {
+            return Err(refused_beside());
+        }
         let line = |(variable, delay): &(usize, RationalFunction)| Some((*variable, dead_time(delay)?));
         let Some(times) = delays.iter().map(line).collect::<Option<BTreeMap<usize, DeadTime>>>() else {
             let help = "the parameters may enter a dead time as a*x + b*y + c with numbers a, b, c";
             return Err(refused("the dead time is not linear in the free parameters", help));
         };
         budget.enter(|| {
-            let found = DelayedTerms::of(polynomial, 2, |variable| times.get(&variable), DeadTime::add)?;
+            let found = DelayedTerms::of(&polynomial, 2, |variable| times.get(&variable), DeadTime::add)?;
             Ok(Some(PlaneLoop::new(found.terms.into_iter().collect(), times.into_values().collect(), found.poles)))
         })?
     }

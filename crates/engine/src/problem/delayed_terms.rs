@@ -1,12 +1,15 @@
 //! The characteristic function of a loop with dead time in several parameters, sorted by its dead times.
 
+use super::beside_dead_time::Constants;
 use super::delayed::cleared;
 use super::resolved::Problem;
-use crate::coverage::refusals::{BESIDE_DEAD_TIME, DECAY};
+use crate::coverage::refusals::DECAY;
 use crate::error::Error;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::CharacteristicPolynomial;
+use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
+use std::borrow::Cow;
 
 /// Dead times with the coefficients of the powers of `s`, and what must not vanish.
 pub(super) struct DelayedTerms<T> {
@@ -14,14 +17,24 @@ pub(super) struct DelayedTerms<T> {
     pub poles: Vec<MultiPoly>,
 }
 
-/// A characteristic polynomial over delays, and the dead time that each of these variables stands for.
-pub(super) type OverDelays<'a> = (&'a CharacteristicPolynomial, Vec<(usize, RationalFunction)>);
+/// A characteristic polynomial over delays.
+pub(super) struct OverDelays<'a> {
+    /// In the free names, the constants, and the delays.
+    pub polynomial: Cow<'a, CharacteristicPolynomial>,
+    /// The variables that stand for delays, with the dead times.
+    pub delays: Vec<(usize, RationalFunction)>,
+    /// Bounds of the constants that are not rational.
+    pub constants: Vec<[Rational; 2]>,
+}
+
+/// Constants are enclosed with so many bits after the point.
+pub(super) const CONSTANT_BITS: u64 = 160;
 
 impl Problem {
     /// The characteristic polynomial of a loop with dead time; `None` for any other loop, and where it is undefined for all values.
     ///
     /// # Errors
-    /// As [`Problem::algebra_over_symbols`]; `E-dead-time` for a decay rate, which cannot be asked of `what`, and for other functions
+    /// As [`Problem::algebra_over_symbols`]; `E-dead-time` for a decay rate, which cannot be asked of `what`, and for functions of a free name
     /// beside dead time.
     pub(super) fn over_delays(&self, what: &str, budget: &Budget) -> Result<Option<OverDelays<'_>>, Error> {
         let found = self.over_delays_in_region(budget)?;
@@ -37,12 +50,33 @@ impl Problem {
     /// As [`Problem::over_delays`], but for the decay rate.
     pub(super) fn over_delays_in_region(&self, budget: &Budget) -> Result<Option<OverDelays<'_>>, Error> {
         let algebra = self.algebra_over_symbols(budget)?;
-        let delays = algebra.symbols().delays();
+        let symbols = algebra.symbols();
+        let delays = symbols.delays();
         let Some(polynomial) = algebra.polynomial().filter(|_| !delays.is_empty()) else { return Ok(None) };
-        if algebra.symbols().iter().count() > delays.len() {
-            return Err(BESIDE_DEAD_TIME.diagnostic(&[]).into());
+        let constants = Constants::of(symbols, 0)?;
+        if constants.is_empty() {
+            return Ok(Some(OverDelays { polynomial: Cow::Borrowed(polynomial), delays, constants: Vec::new() }));
         }
-        Ok(Some((polynomial, delays)))
+        budget.enter(|| {
+            // The constants come after the free names, and then the delays.
+            let first = symbols.first();
+            let is_delay = |variable: usize| delays.iter().position(|(own, _)| *own == variable);
+            let place = |variable: usize| match (constants.position(variable), is_delay(variable)) {
+                (Some(constant), _) => first + constant,
+                (None, Some(delay)) => first + constants.len() + delay,
+                (None, None) => variable,
+            };
+            let moved = |f: &RationalFunction| f.map_variables(place).expect("variables stay apart");
+            let polynomial = CharacteristicPolynomial {
+                coefficients: polynomial.coefficients.iter().map(moved).collect(),
+                poles: polynomial.poles.iter().map(|p| p.map_variables(place)).collect(),
+                ..polynomial.clone()
+            };
+            let delays = delays.iter().map(|(variable, time)| (place(*variable), moved(time))).collect();
+            let values = constants.values(CONSTANT_BITS);
+            let constants = values.iter().map(|value| [value.lower(), value.upper()]).collect();
+            Ok(Some(OverDelays { polynomial: Cow::Owned(polynomial), delays, constants }))
+        })?
     }
 }
 

@@ -3,6 +3,7 @@
 //! [`Question`] is what is being asked, built step by step from a model; [`Problem`] is the same question resolved: every
 //! name is known, every value has its place, and the algebra is computed at most once, when it is first needed.
 
+mod beside_dead_time;
 mod block;
 mod by_enclosures;
 mod by_samples;

@@ -8,7 +8,9 @@ use super::text::to_text;
 use super::{dead_time, enclosed, gain, held};
 use super::{no_certificate, refuse_transcendental};
 use crate::answer::{Answer, PointVerdict};
+use crate::coverage::refusals::BESIDE_DEAD_TIME;
 use crate::error::Error;
+use crate::problem::{DelayedLoop, Problem};
 use crate::stability::{ParametricPolynomial, Shape, StableSet};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Integer;
@@ -53,7 +55,7 @@ impl Answer<StableSet> {
             if has_frames(problem) {
                 return Err(no_certificate("no certificate: cosines and sines of a frame are proved by boxes alone"));
             }
-            if let Some(delayed) = problem.delayed(budget)? {
+            if let Some(delayed) = exact_delayed(problem, budget)? {
                 return dead_time::of_set(self, delayed, budget);
             }
             if problem.is_written_complex()
@@ -89,6 +91,14 @@ impl Answer<StableSet> {
     }
 }
 
+/// The characteristic function of a loop with dead time, where its coefficients are rational.
+fn exact_delayed<'p>(problem: &'p Problem, budget: &Budget) -> Result<Option<&'p DelayedLoop>, Error> {
+    match problem.delayed(budget)? {
+        Some(delayed) if !delayed.is_exact() => Err(BESIDE_DEAD_TIME.diagnostic(&[]).into()),
+        delayed => Ok(delayed),
+    }
+}
+
 impl Answer<PointVerdict> {
     /// A certificate of this verdict.
     ///
@@ -105,7 +115,7 @@ impl Answer<PointVerdict> {
             if enclosed::is_enclosed(problem, budget)? {
                 return enclosed::of_verdict(self);
             }
-            if let Some(delayed) = problem.delayed(budget)? {
+            if let Some(delayed) = exact_delayed(problem, budget)? {
                 return gain::of_verdict(self, delayed);
             }
             if held::is_held(problem, budget)? {

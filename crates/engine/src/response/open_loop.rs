@@ -5,7 +5,7 @@ use super::by_gain::{by_gain, only_gain};
 use super::family::nothing_comes_back;
 use super::ground::{Constants, Ground, Integers};
 use super::parts::{Parts, Reduced, integral, with_parts, without_denominators};
-use crate::coverage::refusals::ONE_FACTOR;
+use crate::coverage::refusals::{BESIDE_DEAD_TIME, ONE_FACTOR};
 use crate::error::{Code, Error};
 use crate::model::{ClosedLoop, Cut, Opened};
 use crate::problem::{EnclosedQuotient, Problem, exact_or_enclosed, fixed_symbols};
@@ -367,7 +367,7 @@ impl Over {
             return Ok((Over::Integers(parts), dead_time));
         }
         if !symbols.delays().is_empty() {
-            return Err(no_single_delay());
+            return Err(BESIDE_DEAD_TIME.diagnostic(&[]).into());
         }
         let ground = Constants(Arc::new(fixed_symbols(symbols)?));
         Ok((Over::Constants(Parts::new(ground, denominator, numerator, poles, shape)), None))

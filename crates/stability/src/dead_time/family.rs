@@ -2,7 +2,8 @@
 //! dead time, or as the decay rate that is asked for.
 
 use super::count::{DelayCount, count_from_line};
-use super::family_function::{Function, Line, upper_exponential};
+use super::enclosed::{Enclosed, enclosed_gains};
+use super::family_function::{Line, upper_exponential};
 use super::family_zeros::{Coordinate, CoordinateOf, FamilyZero, zeros};
 use super::gain::{GainCells, NotSolved, cells_between, difference_points};
 use super::gain_points::{Beyond, GainPoint, Happening};
@@ -11,7 +12,7 @@ use super::quasi_polynomial::{QuasiPolynomial, even_odd};
 use super::strip::frequency_bound_over;
 use super::windows::Never;
 use crate::interval_set::zeros_in;
-use crate::precisions::ZERO_AT_EDGE;
+use crate::precisions::{CONSTANTS_BESIDE_DEAD_TIME, ZERO_AT_EDGE};
 use crate::{Range, Shape, count_roots};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Enclosure, Rational, Sign};
@@ -35,11 +36,13 @@ use std::sync::Arc;
 #[derive(Clone, Debug, PartialEq)]
 pub struct FamilyLoop {
     /// The coefficient of `z^k s^j` at `[k][j]`, polynomials in the parameter.
-    parts: Vec<Vec<UniPoly>>,
-    tau: Line,
-    decay: Line,
+    pub(super) parts: Vec<Vec<UniPoly>>,
+    /// Where they are enclosed, how far they may be off.
+    pub(super) enclosed: Option<Enclosed>,
+    pub(super) tau: Line,
+    pub(super) decay: Line,
     /// `s` is in units of the parameter.
-    is_stretched: bool,
+    pub(super) is_stretched: bool,
 }
 
 impl FamilyLoop {
@@ -56,7 +59,7 @@ impl FamilyLoop {
         }
         let first = parts.iter().position(|part| part.iter().any(|c| !c.is_zero())).expect("the function is not zero");
         parts.drain(..first);
-        FamilyLoop { parts, tau, decay, is_stretched: false }
+        FamilyLoop { parts, enclosed: None, tau, decay, is_stretched: false }
     }
 
     /// The quasi-polynomial at one value, from the line; `None` where it vanishes identically.
@@ -88,8 +91,8 @@ impl FamilyLoop {
     }
 
     /// The degree in the parameter.
-    fn degree(&self) -> usize {
-        self.parts.iter().flatten().filter_map(UniPoly::degree).max().unwrap_or(0)
+    pub(super) fn degree(&self) -> usize {
+        self.parts.iter().chain(self.errors()).flatten().filter_map(UniPoly::degree).max().unwrap_or(0)
     }
 
     /// `tau decay` at one value: `z = exp(-tau s) exp(tau decay)`.
@@ -102,7 +105,15 @@ impl FamilyLoop {
     /// # Errors
     /// [`NotCounted`].
     pub fn count(&self, value: &Rational, budget: &Budget) -> Result<Option<DelayCount>, NotCounted> {
-        let Some(p) = self.at(value) else { return Ok(None) };
+        let seen = |bits| {
+            let family = self.with_bits(bits);
+            Ok::<_, NotCounted>(family.keeps_clear_at(value, budget)?.then_some(family))
+        };
+        let p = match self.enclosed {
+            Some(_) => CONSTANTS_BESIDE_DEAD_TIME.decide("roots beside constants", seen)?.at(value),
+            None => self.at(value),
+        };
+        let Some(p) = p else { return Ok(None) };
         count_from_line(&p, &self.tau.at(value), &self.growth(value), budget).map(Some)
     }
 
@@ -116,10 +127,10 @@ impl FamilyLoop {
     }
 
     /// The loop in the reciprocal of the parameter.
-    fn reversed(&self) -> FamilyLoop {
+    pub(super) fn reversed(&self) -> FamilyLoop {
         let degree = self.degree();
-        let parts = self.parts.iter().map(|part| part.iter().map(|c| c.reversed(degree)).collect()).collect();
-        FamilyLoop::new(parts, self.tau.clone(), self.decay.clone())
+        let reversed = move |c: &UniPoly| c.reversed(degree);
+        self.mapped(reversed, self.tau.clone())
     }
 }
 
@@ -141,11 +152,11 @@ pub fn family_cells(
 ) -> Result<Result<GainCells, Never>, NotSolved> {
     budget.step("quasi-polynomial");
     let zero = Rational::ZERO;
-    let moves = !family.tau.slope.is_zero() || !family.decay.slope.is_zero();
     let mut range = range.clone();
     if !family.decay.slope.is_zero() && range.upper.is_none() {
-        // More and more roots are to the right while the line moves left.
-        let mut upper = range.lower.clone().unwrap_or(zero.clone()).max(zero.clone()) + Rational::ONE;
+        // More and more roots are to the right while the line moves left. Roots that are cancelled lie at round numbers.
+        let step = Rational::new(33.into(), 32.into());
+        let mut upper = range.lower.clone().unwrap_or(zero.clone()).max(zero.clone()) + step;
         loop {
             budget.check()?;
             if family.right(&upper, budget)? != Some(0) {
@@ -155,10 +166,29 @@ pub fn family_cells(
         }
         range.upper = Some(upper);
     }
+    if family.enclosed.is_none() {
+        return cells_of(family, &range, budget);
+    }
+    let found = CONSTANTS_BESIDE_DEAD_TIME.find(|bits| match cells_of(&family.with_bits(bits), &range, budget) {
+        Err(NotSolved::Coincidence) => Ok(None),
+        found => found.map(Some),
+    });
+    found?.ok_or(NotSolved::Coincidence)
+}
+
+/// The cells with the coefficients as they are.
+fn cells_of(family: &FamilyLoop, range: &Range, budget: &Budget) -> Result<Result<GainCells, Never>, NotSolved> {
+    let moves = !family.tau.slope.is_zero() || !family.decay.slope.is_zero();
     match (&range.lower, &range.upper) {
-        (Some(_), Some(_)) => piece(family, &range, budget),
+        (Some(_), Some(_)) => piece(family, range, budget),
         _ if moves => Err(NotSolved::Unbounded),
-        _ => unbounded(family, &range, budget),
+        (Some(lower), None) if family.enclosed.is_some() => {
+            match enclosed_gains(family, lower, &|range| piece(family, range, budget), budget) {
+                Err(NotSolved::Unbounded) => unbounded(family, range, budget),
+                found => found,
+            }
+        }
+        _ => unbounded(family, range, budget),
     }
 }
 
@@ -167,6 +197,7 @@ impl FamilyLoop {
     /// The line is the imaginary axis, and the dead time a number.
     fn stretched(&self) -> FamilyLoop {
         assert!(self.decay.is_zero() && self.tau.slope.is_zero(), "another line would not stay");
+        assert!(self.enclosed.is_none(), "the coefficients are exact");
         let parts: Vec<Vec<UniPoly>> =
             self.parts.iter().map(|part| part.iter().enumerate().map(|(j, c)| c.shifted_up(j)).collect()).collect();
         let lowest = |c: &UniPoly| c.coeffs().iter().position(|x| !x.is_zero());
@@ -183,7 +214,7 @@ fn outer(reversed: &FamilyLoop, range: &Range, budget: &Budget) -> Result<Result
     match piece(reversed, range, budget) {
         // Roots may go to s = 0 there, as those of a loop with a time constant that grows.
         Err(reason @ (NotSolved::Coincidence | NotSolved::Unbounded))
-            if range.lower == Some(Rational::ZERO) && reversed.decay.is_zero() =>
+            if range.lower == Some(Rational::ZERO) && reversed.decay.is_zero() && reversed.enclosed.is_none() =>
         {
             match piece(&reversed.stretched(), range, budget) {
                 Err(NotSolved::Coincidence | NotSolved::Unbounded) => Err(reason),
@@ -269,28 +300,26 @@ fn piece(family: &FamilyLoop, range: &Range, budget: &Budget) -> Result<Result<G
     if lower >= upper {
         return Ok(Ok(GainCells { points: Vec::new(), right: vec![None] }));
     }
-    let grows = !family.is_from_axis();
+    // Of the axis roots at s = 0 are algebraic points.
+    let takes_real = !family.is_from_axis() || family.enclosed.is_some();
     let mut points = match algebraic_points(family, range, budget)? {
         Ok(points) => points,
         Err(never) => return Ok(Err(never)),
     };
-    let most = |line: &Line| line.at(lower).abs().max(line.at(upper).abs());
-    let one = match grows {
-        true => budget.enter(|| upper_exponential(&(most(&family.tau) * most(&family.decay))))?,
-        false => Rational::ONE,
+    let weights = budget.enter(|| family.weights([lower, upper]))?;
+    let frequency = match family.enclosed {
+        Some(_) => budget.enter(|| family.frequency_bound(&weights, [lower, upper]))?,
+        None => frequency_bound_over(&family.parts, &weights, range, budget)?,
     };
-    let weights: Vec<Rational> = (0..family.parts.len()).map(|k| one.pow(k as i64).expect("not zero")).collect();
-    let Some(frequency) = frequency_bound_over(&family.parts, &weights, range, budget)? else {
-        return Err(NotSolved::Unbounded);
-    };
-    let function = Arc::new(budget.enter(|| Function::new(&family.parts, &family.tau, &family.decay))?);
+    let Some(frequency) = frequency else { return Err(NotSolved::Unbounded) };
+    let function = Arc::new(budget.enter(|| family.function())?);
     let Some(found) = zeros(&function, &frequency, lower, upper, budget)? else {
         return Err(NotSolved::Coincidence);
     };
     let plain = without_delayed_terms(family, range, budget)?;
     for zero in found {
         let is_real = budget.enter(|| zero.is_real())?;
-        if is_real && !grows {
+        if is_real && !takes_real {
             continue;
         }
         if !is_real && budget.enter(|| zero.enclosures(ZERO_AT_EDGE.last)[0].upper().is_negative())? {
@@ -322,6 +351,18 @@ fn piece(family: &FamilyLoop, range: &Range, budget: &Budget) -> Result<Result<G
     cells_between(range, points, &Beyond::default(), &|value| family.right(value, budget), budget).map(Ok)
 }
 
+impl FamilyLoop {
+    /// Bounds of the moduli of the powers of `z` on the line, for all values of a range.
+    pub(super) fn weights(&self, ends: [&Rational; 2]) -> Vec<Rational> {
+        let most = |line: &Line| line.at(ends[0]).abs().max(line.at(ends[1]).abs());
+        let one = match self.is_from_axis() {
+            true => Rational::ONE,
+            false => upper_exponential(&(most(&self.tau) * most(&self.decay))),
+        };
+        (0..self.parts.len()).map(|k| one.pow(k as i64).expect("not zero")).collect()
+    }
+}
+
 /// The values in a range that are roots of polynomials: with a root at `s = 0`, for the imaginary axis, or a zero of the difference operator
 /// on the unit circle.
 fn algebraic_points(
@@ -330,6 +371,10 @@ fn algebraic_points(
     budget: &Budget,
 ) -> Result<Result<Vec<GainPoint>, Never>, NotSolved> {
     let mut points = Vec::new();
+    if family.enclosed.is_some() {
+        // Where the highest power outweighs all else, which is asked next, nothing else is algebraic.
+        return Ok(Ok(points));
+    }
     if family.is_from_axis() {
         let at_zero = family.parts.iter().fold(UniPoly::zero(), |sum, part| sum.plus(&part[0]));
         if at_zero.is_zero() {
@@ -372,6 +417,12 @@ fn is_fixed_at(family: &FamilyLoop, [omega, p]: [&Enclosure; 2], value: &Rationa
     }
     let Some(at) = family.at(value) else { return false };
     let fixed = if family.tau.at(value).is_zero() { at.without_delay() } else { at.content() };
+    if family.enclosed.is_some() {
+        return omega.contains(&Rational::ZERO)
+            && family.growth(value).is_zero()
+            && family.is_exact_at_zero(value)
+            && at.without_delay().coeff(0).is_zero();
+    }
     // Without a delayed term the line does not matter.
     let is_plain = family.growth(value).is_zero() || at.delays() == 0;
     if omega.contains(&Rational::ZERO) && is_plain && at.without_delay().coeff(0).is_zero() {

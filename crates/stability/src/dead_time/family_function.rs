@@ -5,6 +5,8 @@ use jurist_algebra::ball::{Ball, exp};
 use jurist_algebra::limits::checkpoint;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, UniPoly};
+use std::fmt;
+use std::sync::Arc;
 
 /// A straight line in the parameter.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -72,6 +74,9 @@ struct Terms {
     degrees: (usize, usize),
 }
 
+/// Real and imaginary part of the factor of each exponential, in the frequency (0) and the parameter (1).
+type Factors = Vec<[MultiPoly; 2]>;
+
 impl Terms {
     fn of(p: &MultiPoly) -> Terms {
         let list = p.terms().iter().map(|(m, c)| (m.exponent(0) as usize, m.exponent(1) as usize, c.clone())).collect();
@@ -120,10 +125,26 @@ impl Powers {
 pub(super) struct Function {
     /// `f`, `f_w`, `f_p`, `f_ww`, `f_wp`, `f_pp`: real and imaginary part of the factor of each exponential.
     sets: [Vec<[Terms; 2]>; 6],
+    /// How far these may be off where coefficients are enclosed; empty where they are exact.
+    errors: [Vec<[Terms; 2]>; 6],
     degrees: (usize, usize),
     pub unit: Integer,
     tau: Line,
     decay: Line,
+    source: Option<Source>,
+}
+
+/// Whence a function with enclosed coefficients has them.
+#[derive(Clone)]
+struct Source {
+    bits: u64,
+    at: Arc<dyn Fn(u64) -> Function + Send + Sync>,
+}
+
+impl fmt::Debug for Source {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "coefficients with {} bits", self.bits)
+    }
 }
 
 /// What is known of the function about a point.
@@ -135,9 +156,65 @@ pub(super) struct Local {
     pub second: [Integer; 3],
 }
 
+/// What the factors of the exponentials are multiplied by where a derivative is taken, over a common unit.
+struct Slopes {
+    unit: Integer,
+    /// The dead time.
+    delay: MultiPoly,
+    /// The slope of the growth `tau(p) decay(p)`.
+    growth: MultiPoly,
+    /// The frequency times the slope of the dead time.
+    turning: MultiPoly,
+    /// Of bounds of moduli: no term is subtracted.
+    of_bounds: bool,
+}
+
+impl Slopes {
+    fn minus(&self, a: MultiPoly, b: MultiPoly) -> MultiPoly {
+        if self.of_bounds { &a + &b } else { &a - &b }
+    }
+
+    fn by_omega(&self, set: &[[MultiPoly; 2]]) -> Factors {
+        let one = |(k, [re, im]): (usize, &[MultiPoly; 2])| {
+            let times = self.delay.scaled_by(&Integer::from(k as i64));
+            [
+                &re.derivative(0).scaled_by(&self.unit) + &(&times * im),
+                self.minus(im.derivative(0).scaled_by(&self.unit), &times * re),
+            ]
+        };
+        set.iter().enumerate().map(one).collect()
+    }
+
+    fn by_p(&self, set: &[[MultiPoly; 2]]) -> Factors {
+        let one = |(k, [re, im]): (usize, &[MultiPoly; 2])| {
+            let k = Integer::from(k as i64);
+            let (real, imaginary) = (self.growth.scaled_by(&k), self.turning.scaled_by(&k));
+            [
+                &re.derivative(1).scaled_by(&self.unit) + &(&(&real * re) + &(&imaginary * im)),
+                &im.derivative(1).scaled_by(&self.unit) + &self.minus(&real * im, &imaginary * re),
+            ]
+        };
+        set.iter().enumerate().map(one).collect()
+    }
+
+    fn all(&self, zeroth: Factors) -> [Vec<[Terms; 2]>; 6] {
+        let (w, p) = (self.by_omega(&zeroth), self.by_p(&zeroth));
+        let (ww, wp, pp) = (self.by_omega(&w), self.by_p(&w), self.by_p(&p));
+        let terms = |[re, im]: &[MultiPoly; 2]| [Terms::of(re), Terms::of(im)];
+        [zeroth, w, p, ww, wp, pp].map(|set| set.iter().map(terms).collect())
+    }
+
+    /// Those of bounds.
+    fn in_moduli(&self) -> Slopes {
+        let [delay, growth, turning] = [&self.delay, &self.growth, &self.turning].map(in_moduli);
+        Slopes { unit: self.unit.clone(), delay, growth, turning, of_bounds: true }
+    }
+}
+
 impl Function {
-    /// From the coefficients of `z^k s^j` at `[k][j]`, `s` being counted from the line.
-    pub fn new(parts: &[Vec<UniPoly>], tau: &Line, decay: &Line) -> Function {
+    /// From the coefficients of `z^k s^j` at `[k][j]`, `s` being counted from the line, and bounds of their errors in the same places, none where they are
+    /// exact.
+    pub fn new(parts: &[Vec<UniPoly>], errors: &[Vec<UniPoly>], tau: &Line, decay: &Line) -> Function {
         // tau(p), its slope, and the slope of the growth tau(p) decay(p), over one denominator.
         let growth_slope =
             [&tau.slope * &decay.offset + &tau.offset * &decay.slope, &tau.slope * &decay.slope * Rational::from(2)];
@@ -147,42 +224,30 @@ impl Function {
         let line = |offset: &Rational, slope: &Rational| {
             MultiPoly::from_univariate(&UniPoly::new(vec![whole(offset), whole(slope)]), 1)
         };
-        let delay = line(&tau.offset, &tau.slope);
-        let growth = line(&growth_slope[0], &growth_slope[1]);
-        let turning = MultiPoly::variable(0).scaled_by(&whole(&tau.slope));
-        let zeroth: Vec<[MultiPoly; 2]> = parts.iter().map(|part| on_line(part)).collect();
-        let by_omega = |set: &[[MultiPoly; 2]]| -> Vec<[MultiPoly; 2]> {
-            set.iter()
-                .enumerate()
-                .map(|(k, [re, im])| {
-                    let times = delay.scaled_by(&Integer::from(k as i64));
-                    [
-                        &re.derivative(0).scaled_by(&unit) + &(&times * im),
-                        &im.derivative(0).scaled_by(&unit) - &(&times * re),
-                    ]
-                })
-                .collect()
+        let slopes = Slopes {
+            delay: line(&tau.offset, &tau.slope),
+            growth: line(&growth_slope[0], &growth_slope[1]),
+            turning: MultiPoly::variable(0).scaled_by(&whole(&tau.slope)),
+            unit: unit.clone(),
+            of_bounds: false,
         };
-        let by_p = |set: &[[MultiPoly; 2]]| -> Vec<[MultiPoly; 2]> {
-            set.iter()
-                .enumerate()
-                .map(|(k, [re, im])| {
-                    let k = Integer::from(k as i64);
-                    let (real, imaginary) = (growth.scaled_by(&k), turning.scaled_by(&k));
-                    [
-                        &re.derivative(1).scaled_by(&unit) + &(&(&real * re) + &(&imaginary * im)),
-                        &im.derivative(1).scaled_by(&unit) + &(&(&real * im) - &(&imaginary * re)),
-                    ]
-                })
-                .collect()
-        };
-        let (w, p) = (by_omega(&zeroth), by_p(&zeroth));
-        let (ww, wp, pp) = (by_omega(&w), by_p(&w), by_p(&p));
-        let sets = [zeroth, w, p, ww, wp, pp]
-            .map(|set| set.iter().map(|[re, im]| [Terms::of(re), Terms::of(im)]).collect::<Vec<_>>());
-        let all = || sets.iter().flatten().flatten();
+        let sets = slopes.all(parts.iter().map(|part| on_line(part)).collect());
+        let bounds = |part: &Vec<UniPoly>| on_line(part).map(|p| in_moduli(&p));
+        let errors = slopes.in_moduli().all(errors.iter().map(bounds).collect());
+        let all = || sets.iter().chain(&errors).flatten().flatten();
         let degrees = (all().map(|t| t.degrees.0).max().unwrap_or(0), all().map(|t| t.degrees.1).max().unwrap_or(0));
-        Function { degrees, sets, unit, tau: tau.clone(), decay: decay.clone() }
+        Function { degrees, sets, errors, unit, tau: tau.clone(), decay: decay.clone(), source: None }
+    }
+
+    /// The same with coefficients of so many bits, from which those with more are made.
+    pub fn with_source(self, bits: u64, at: impl Fn(u64) -> Function + Send + Sync + 'static) -> Function {
+        Function { source: Some(Source { bits, at: Arc::new(at) }), ..self }
+    }
+
+    /// The function with coefficients of so many bits; `None` where they are exact, or have as many.
+    pub fn finer(&self, bits: u64) -> Option<Function> {
+        let source = self.source.as_ref().filter(|source| source.bits < bits)?;
+        Some(Function { source: Some(Source { bits, ..source.clone() }), ..(source.at)(bits) })
     }
 
     /// Value and first derivatives at a point, and bounds of the second ones within distances from it, all in units of
@@ -202,12 +267,13 @@ impl Function {
         let powers = Powers::new(at.0, at.1, self.degrees);
         let [value, by_omega, by_p] = [0, 1, 2].map(|i| {
             let zero = Fixed { re: Integer::ZERO, im: Integer::ZERO, error: Integer::ZERO };
-            self.sets[i].iter().zip(&exponentials).fold(zero, |sum, ([re, im], e)| {
-                if re.list.is_empty() && im.list.is_empty() {
+            self.sets[i].iter().zip(&exponentials).enumerate().fold(zero, |sum, (k, ([re, im], e))| {
+                let error = self.error(&powers, [i, k], scale);
+                if re.list.is_empty() && im.list.is_empty() && error.is_zero() {
                     return sum;
                 }
                 let (re, im) = (powers.value(re, false, scale), powers.value(im, false, scale));
-                sum.plus(&Fixed { re, im, error: Integer::ONE }.times(e, guarded))
+                sum.plus(&Fixed { re, im, error: error + Integer::ONE }.times(e, guarded))
             })
         });
         let far = |x: &Rational, within: &Rational| {
@@ -220,14 +286,25 @@ impl Function {
         let second = [3, 4, 5].map(|i| {
             let mut weight = Rational::ONE;
             let mut sum = Integer::ZERO;
-            for [re, im] in &self.sets[i] {
+            for (k, [re, im]) in self.sets[i].iter().enumerate() {
                 let both = outer.value(re, true, scale) + outer.value(im, true, scale) + Integer::from(2);
+                let both = both + (self.error(&outer, [i, k], scale) << 1);
                 sum += (Rational::from(&both) * &weight).ceil();
                 weight = &weight * &largest;
             }
             sum
         });
         Local { value, by_omega, by_p, second }
+    }
+
+    /// A bound of the errors of both parts of a factor that come from its coefficients.
+    fn error(&self, powers: &Powers, [set, k]: [usize; 2], scale: u64) -> Integer {
+        let Some([re, im]) = self.errors[set].get(k) else { return Integer::ZERO };
+        let bound = |terms: &Terms| match terms.list.is_empty() {
+            true => Integer::ZERO,
+            false => powers.value(terms, true, scale) + Integer::ONE,
+        };
+        bound(re) + bound(im)
     }
 
     /// A bound of `exp(tau decay)` within a distance from a value of the parameter.
@@ -253,6 +330,11 @@ impl Grid {
         self.numerator += Integer::ONE;
         self
     }
+}
+
+/// A bound of the modulus at the moduli of both variables.
+fn in_moduli(p: &MultiPoly) -> MultiPoly {
+    MultiPoly::from_terms(p.terms().iter().map(|(m, c)| (m.exponents().to_vec(), c.abs())))
 }
 
 /// `P(i omega)` as real and imaginary part in the frequency (0) and the parameter (1).

@@ -5,7 +5,7 @@ use super::turn::Fixed;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
 use jurist_algebra::real::{Enclosing, Origin};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// A box: centre and half widths `2^radius`.
 #[derive(Clone, Debug)]
@@ -17,7 +17,8 @@ struct Cell {
 /// A zero, alone in a box and regular: the derivatives by the frequency and by the parameter are independent there.
 #[derive(Debug)]
 pub(super) struct FamilyZero {
-    function: Arc<Function>,
+    /// The function, of finer coefficients where these are enclosed and more digits were asked for.
+    function: Mutex<Arc<Function>>,
     /// The zero is the only one in it: lower and upper ends for the frequency and the parameter.
     alone: [(Rational, Rational); 2],
     /// The best enclosure so far.
@@ -264,22 +265,38 @@ fn look(function: &Arc<Function>, cell: &Cell) -> Look {
     let motion = newton.sign.reverse();
     let mut known = cell.clone();
     known.radius = known.radius.map(|r| r + 1);
-    Look::One(Box::new(FamilyZero { function: Arc::clone(function), alone, known: Mutex::new(known), motion }))
+    let function = Mutex::new(Arc::clone(function));
+    Look::One(Box::new(FamilyZero { function, alone, known: Mutex::new(known), motion }))
 }
 
 impl FamilyZero {
     /// Enclosures of the frequency and of the parameter, neither wider than `2^-bits`.
     pub fn enclosures(&self, bits: u64) -> [Enclosure; 2] {
-        let mut known = self.known.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        let goal = -(bits as i64) - 1;
+        self.enclosed(-(bits as i64) - 1, u64::MAX)
+    }
+
+    /// Enclosures of both that are as narrow as this precision, and the coefficients, tell.
+    pub fn enclosed_with(&self, scale: u64) -> [Enclosure; 2] {
+        self.enclosed(i64::MIN, scale)
+    }
+
+    /// Enclosures whose widths are not above `2^(goal + 1)`, or that are found with this precision.
+    fn enclosed(&self, goal: i64, most: u64) -> [Enclosure; 2] {
+        let mut function = self.function.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
         let mut scale = known.scale();
-        while known.radius.iter().any(|&r| r > goal) {
-            match self.closer(&known, scale) {
+        while scale <= most && known.radius.iter().any(|&r| r > goal) {
+            match closer(&function, &known, scale) {
                 Some(next) => {
                     *known = next;
                     scale = scale.max(known.scale());
                 }
-                None => scale *= 2,
+                None => {
+                    scale = scale.saturating_mul(2);
+                    if let Some(finer) = function.finer(scale) {
+                        *function = Arc::new(finer);
+                    }
+                }
             }
         }
         [0, 1].map(|i| {
@@ -288,32 +305,6 @@ impl FamilyZero {
             let lo = lo.max(self.alone[i].0.clone());
             Enclosure::new(lo, hi.min(self.alone[i].1.clone()))
         })
-    }
-
-    /// A box of at most half the widths; `None` where the scale is too small for one.
-    fn closer(&self, known: &Cell, scale: u64) -> Option<Cell> {
-        let local = known.local(&self.function, 1, scale);
-        let scaled = Scaled::new(&local, known.radius, &self.function.unit);
-        let newton = newton(&scaled, 1)?;
-        let denominator = Rational::from(&newton.denominator);
-        let mut next = known.clone();
-        for (i, (x, r)) in newton.places.iter().enumerate() {
-            let radius = power_of_two(known.radius[i]);
-            let relative = Rational::from(r) / &denominator;
-            let mut exponent = known.radius[i] - 1;
-            if &relative + &power_of_two(-3) > power_of_two(-1) {
-                return None;
-            }
-            // The new half width: that of the enclosure and of rounding the centre to a quarter of it.
-            while exponent > known.radius[i] - MOST_AT_ONCE && power_of_two(exponent - known.radius[i] - 2) > relative {
-                exponent -= 1;
-            }
-            let centre = known.centre[i].rational() + Rational::from(x) / &denominator * &radius;
-            let grid = exponent - 2;
-            next.centre[i] = Grid::below(&centre, grid);
-            next.radius[i] = exponent;
-        }
-        Some(next)
     }
 
     /// Whether both are the same zero.
@@ -331,6 +322,32 @@ impl FamilyZero {
         let mirrored = -omega.upper();
         omega.contains(&Rational::ZERO) && mirrored > self.alone[0].0 && *omega.lower() > -&self.alone[0].1
     }
+}
+
+/// A box of at most half the widths; `None` where the scale is too small for one.
+fn closer(function: &Function, known: &Cell, scale: u64) -> Option<Cell> {
+    let local = known.local(function, 1, scale);
+    let scaled = Scaled::new(&local, known.radius, &function.unit);
+    let newton = newton(&scaled, 1)?;
+    let denominator = Rational::from(&newton.denominator);
+    let mut next = known.clone();
+    for (i, (x, r)) in newton.places.iter().enumerate() {
+        let radius = power_of_two(known.radius[i]);
+        let relative = Rational::from(r) / &denominator;
+        let mut exponent = known.radius[i] - 1;
+        if &relative + &power_of_two(-3) > power_of_two(-1) {
+            return None;
+        }
+        // The new half width: that of the enclosure and of rounding the centre to a quarter of it.
+        while exponent > known.radius[i] - MOST_AT_ONCE && power_of_two(exponent - known.radius[i] - 2) > relative {
+            exponent -= 1;
+        }
+        let centre = known.centre[i].rational() + Rational::from(x) / &denominator * &radius;
+        let grid = exponent - 2;
+        next.centre[i] = Grid::below(&centre, grid);
+        next.radius[i] = exponent;
+    }
+    Some(next)
 }
 
 /// Bits to which a box is narrowed at once at most.

@@ -67,19 +67,22 @@ impl GainLoop {
     }
 
     /// A frequency beyond which `Re(ds/d log K)` is positive on the axis, for a parameter in the term `z^turns` only: it has
-    /// the sign of `turns tau + Re(A'/A - N'/N)`.
+    /// the sign of `turns tau + Re(A'/A - N'/N)`. The errors are bounds of those of `A` and of `N`, where there are any.
     ///
     /// Where the highest power `a(z) s^n` of `A` is delayed, too, with all zeros of `a` outside of the closed unit disc,
     /// `Re(z a'(z)/a(z)) <= deg a/2` on the circle.
-    pub(super) fn growing_beyond(&self, turns: usize) -> Option<Rational> {
+    pub(super) fn growing_beyond(&self, turns: usize, errors: Option<&[Vec<UniPoly>; 2]>) -> Option<Rational> {
         let (t, d) = (self.tau.numerator(), self.tau.denominator());
         let n = self.a.iter().filter_map(UniPoly::degree).max()?;
         let m = self.b[turns].degree()?;
+        let error = |i: usize, k: usize| errors.map_or_else(UniPoly::zero, |errors| errors[i][k].clone());
+        let bounds: Vec<UniPoly> = self.a.iter().enumerate().map(|(k, p)| absolute(p).plus(&error(0, k))).collect();
         // A without delay is to outweigh the rest of its highest power; where the loop is neutral in the parameter, A is to
         // be without delay altogether.
-        let highest: Vec<Integer> = self.a.iter().map(|p| p.coeff(n)).collect();
-        let least_top = highest.iter().skip(1).fold(highest[0].abs(), |rest, c| rest - c.abs());
-        let is_delayed = self.a.iter().skip(1).any(|p| !p.is_zero());
+        let highest: Vec<Integer> = bounds.iter().map(|p| p.coeff(n)).collect();
+        let own = self.a[0].coeff(n).abs() - error(0, 0).coeff(n);
+        let least_top = highest.iter().skip(1).fold(own, |rest, c| rest - c);
+        let is_delayed = bounds.iter().skip(1).any(|p| !p.is_zero());
         if !least_top.sign().is_gt() || m > n || (m == n && is_delayed) {
             return None;
         }
@@ -91,23 +94,27 @@ impl GainLoop {
             return None;
         }
         // d A' = s^n (-t sum k a_k z^k) + rest, A = s^n a + lower.
-        let lower = |p: &UniPoly| UniPoly::new(p.coeffs().iter().take(n).map(Integer::abs).collect());
+        let lower = |p: &UniPoly| UniPoly::new(p.coeffs().iter().take(n).cloned().collect());
         let sum = |list: &mut dyn Iterator<Item = UniPoly>| list.fold(UniPoly::zero(), |sum, p| sum.plus(&p));
-        let below = sum(&mut self.a.iter().map(lower));
-        let rest = sum(&mut self
-            .a
+        let below = sum(&mut bounds.iter().map(lower));
+        let rest = sum(&mut bounds
             .iter()
             .enumerate()
-            .map(|(k, p)| absolute(&p.derivative().scaled(&d)).plus(&lower(p).scaled(&times(k)))));
-        let slope = highest.iter().enumerate().fold(Integer::ZERO, |sum, (k, c)| sum + &times(k) * &c.abs());
+            .map(|(k, p)| p.derivative().scaled(&d).plus(&lower(p).scaled(&times(k)))));
+        let slope = highest.iter().enumerate().fold(Integer::ZERO, |sum, (k, c)| sum + &times(k) * c);
         let slope = Rational::new(slope, least_top.clone());
-        let other = absolute(&self.b[turns]);
-        let other_derivative = absolute(&self.b[turns].derivative()).scaled(&d);
+        let other = absolute(&self.b[turns]).plus(&error(1, turns));
+        let other_derivative = other.derivative().scaled(&d);
+        // Twice the highest coefficient of what outweighs the others.
+        let twice = self.b[turns].coeff(m).abs() << 1;
+        let is_of_degree = other.degree() == Some(m) && bounds.iter().all(|p| p.degree().is_none_or(|own| own <= n));
+        if !is_of_degree || twice <= other.coeff(m) {
+            return None;
+        }
         let mut r = Integer::ONE;
         loop {
             let bottom = &least_top * &r.pow(n as u64) - below.eval(&r);
-            let top = other.coeff(m) * r.pow(m as u64);
-            let other_bottom = &top + &top - other.eval(&r);
+            let other_bottom = &twice * &r.pow(m as u64) - other.eval(&r);
             if bottom.sign().is_gt() && other_bottom.sign().is_gt() {
                 let own = Rational::from(&rest.eval(&r)) + Rational::from(&below.eval(&r)) * &slope;
                 let moved = own / Rational::from(&bottom) + Rational::new(other_derivative.eval(&r), other_bottom);

@@ -136,7 +136,7 @@ pub(super) fn crossings_of_gain(
         return walk.all_within(&limit, range, Beyond::default());
     }
     let Some(turns) = gain.single_delay() else { return Err(NotSolved::Unbounded) };
-    let Some(growing) = gain.growing_beyond(turns) else { return Err(NotSolved::Neutral) };
+    let Some(growing) = gain.growing_beyond(turns, None) else { return Err(NotSolved::Neutral) };
     let (from, largest) = match gain.neutral_bound(turns) {
         None => (growing, None),
         Some(Neutral { approached: false, limit, largest }) => {

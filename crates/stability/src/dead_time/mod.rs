@@ -5,7 +5,7 @@
 //! | [`QuasiPolynomial`] | kind, difference operator, common factors |
 //! | `crossing` | where roots can be on the imaginary axis, for any dead time: algebraic numbers |
 //! | [`delay_cells`] | all dead times at which a loop is stable |
-//! | [`family_cells`] | all values of a parameter that enters anywhere, or of the decay rate |
+//! | [`family_cells`] | all values of a parameter that enters anywhere, or of the decay rate, also beside constants that are not rational |
 //! | [`gain_cells`] | all values of a parameter at a fixed dead time |
 //! | [`PlaneLoop::boxes`] | two parameters, by boxes |
 //! | [`count_delayed_roots`] | the roots at one rational dead time, by a certified count of the argument's turns |
@@ -14,6 +14,7 @@
 mod count;
 mod crossing;
 mod dyadic;
+mod enclosed;
 mod family;
 mod family_function;
 mod family_zeros;
@@ -40,6 +41,8 @@ mod tests;
 #[cfg(test)]
 mod tests_cells;
 #[cfg(test)]
+mod tests_enclosed;
+#[cfg(test)]
 mod tests_family;
 #[cfg(test)]
 mod tests_gain;
@@ -55,6 +58,7 @@ mod windows;
 
 pub use count::{DelayCount, count_delayed_roots};
 pub use crossing::Crossing;
+pub use enclosed::ConstantParts;
 pub use family::{FamilyLoop, family_cells};
 pub use family_function::Line;
 pub use gain::{GainCells, GainLoop, NotSolved, gain_cells};

@@ -85,6 +85,18 @@ fn the_largest_decay_rate_is_that_of_the_rightmost_root() {
     assert!(found.right[1..].iter().all(|right| *right != Some(0)));
 }
 
+/// A decay of 1 was the first end that was tried, and a cancelled root lies there.
+#[test]
+fn a_root_at_a_round_number_does_not_hide_the_largest_decay_rate() {
+    // (s + 1)(s + 2 exp(-s/2)) at s - p: (s + 1 - p)(s - p + 2 exp(p/2) exp(-s/2))
+    let parts: &[&[&[i64]]] = &[&[&[0, -1, 1], &[1, -2], &[1]], &[&[2, -2], &[2]]];
+    let cancelled = family(parts, line("0", "1/2"), line("1", "0"));
+    let found = family_cells(&cancelled, &range(Some("0"), None), &Budget::unlimited()).unwrap().unwrap();
+    // The two rightmost roots of s + 2 exp(-s/2) are 2 W(-1): of modulus above 1, so the pair is first.
+    assert_eq!(found.points[0].value.decimal(20), "0.63626301040952827063");
+    assert_eq!((found.right[0], found.right[1]), (Some(0), Some(2)));
+}
+
 #[test]
 fn a_dead_time_is_asked_for_with_a_decay_rate() {
     // s + 1 + 2 exp(-tau s) left of -1/5: 5 s + 4 + 10 exp(tau/5) exp(-tau s)
