@@ -171,8 +171,8 @@ impl CommandLine {
             let diagnostic = Diagnostic::error(Code::Usage, message).help(help).at(line, "");
             return Diagnostics::new(Some(Arc::clone(&self.source)), vec![diagnostic]);
         }
-        if let Some(command) = self.command_meant(error) {
-            help = vec![command];
+        if let Some(written) = self.command_meant(error).or_else(|| self.negative_value(error)) {
+            help = vec![written];
         }
         let mut diagnostic = Diagnostic::error(Code::Usage, message).help(help.join("; "));
         if let Some(span) = self.place_of(error) {
@@ -193,6 +193,21 @@ impl CommandLine {
         };
         let found = self.shown.iter().take_while(|shown| shown.value != "--").find(|shown| is_meant(&shown.value));
         found.filter(|shown| shown.value.contains(['/', '*', '(', '^'])).map(|shown| shown.span)
+    }
+
+    /// How the value of an option is written that was taken for an option, as it is a negative number.
+    fn negative_value(&self, error: &clap::Error) -> Option<String> {
+        let unknown = |(kind, value)| (kind == ContextKind::InvalidArg).then_some(value);
+        let Some(ContextValue::String(taken)) = error.context().find_map(unknown) else { return None };
+        let texts: Vec<_> = self.arguments.iter().map(|argument| argument.to_string_lossy()).collect();
+        let is_meant = |pair: &&[std::borrow::Cow<'_, str>]| {
+            let begins = pair[1]
+                .strip_prefix('-')
+                .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit() || c == '.'));
+            pair[0].starts_with("--") && pair[0].len() > 2 && begins && pair[1].starts_with(taken.as_str())
+        };
+        let pair = texts.windows(2).find(is_meant)?;
+        Some(format!("a value that begins with a minus stands behind '=': '{}={}'", pair[0], pair[1]))
     }
 
     /// Which commands take what was given without one: an option of theirs, or a model file.

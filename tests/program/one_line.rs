@@ -143,6 +143,13 @@ fn a_line_with_a_minus_is_not_taken_for_an_option_in_silence() {
     assert!(!run.stderr.contains("minus"), "{}", run.stderr);
 }
 
+/// The help said to write it behind '--', where it is no value.
+#[test]
+fn a_negative_value_is_written_behind_an_equals_sign() {
+    let run = refused(&["verdict", "1/(s+1)^4", "--gain-margin", "-3"], "E-usage");
+    assert!(run.stderr.contains("'--gain-margin=-3'"), "{}", run.stderr);
+}
+
 #[test]
 fn a_certificate_of_a_line_is_checked_against_the_line() {
     let file = std::env::temp_dir().join(format!("jurist-line-{}.json", std::process::id()));

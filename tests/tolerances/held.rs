@@ -1,11 +1,12 @@
 //! Boxes of a loop whose motor is behind a hold: constants that are exponentials of fixed times.
 
-use crate::helpers::model::example;
+use crate::helpers::model::{example, keeping, read};
 use crate::helpers::number::number;
 use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, ToleranceAnswer, ToleranceRequest, Verdict};
+use jurist_engine::response::{RequiredEnd, Requirement};
 use jurist_engine::stability::boxes::BoxDecision;
 
 fn held(names: &[&str], tolerance: &str) -> Answer<ToleranceAnswer> {
@@ -57,4 +58,36 @@ fn a_box_beyond_the_limit_has_a_witness() {
     let answer = held(&["K_pwm", "k_1"], "500%");
     let BoxDecision::NotStable { witness: Some(witness) } = &answer.value().decision else { panic!("a witness") };
     assert_ne!(verdict_at(&answer, &witness.point), Verdict::Stable);
+}
+
+/// They were undecided, or took half a minute.
+#[test]
+fn one_name_behind_a_hold_has_the_factor_of_its_required_set() {
+    let line = |k: &str, a: &str, b: &str| {
+        read(&format!(
+            "time = 'discrete'\n[parameters]\nK = {{ nominal = '{k}' }}\na = {{ nominal = '{a}', min = '1/10', max = 10 }}\nb = {{ nominal = '{b}' }}\n\
+             [loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\nname = 'plant'\ninput = 'r - y'\noutput = 'y'\n\
+             transfer = 'K*a/((s + a)*(s + b))'\ndiscretize = {{ method = 'zoh', T = '7/20' }}\n"
+        ))
+    };
+    for (model, name, tolerance) in [(line("14/5", "4/5", "3/5"), "a", "10%"), (line("5/2", "3", "19/10"), "K", "10%")]
+    {
+        let requirement = Requirement::modulus_margin(number("1/5")).unwrap();
+        let set = keeping(&model, &[name]).problem().unwrap();
+        let set =
+            set.required_set(std::slice::from_ref(&requirement), None, &Budget::unlimited()).unwrap().into_value();
+        let request = ToleranceRequest::new([(name, "10%".parse().unwrap())]).require([requirement], None);
+        let answer = model.ask().tolerance(&request, &Budget::unlimited()).unwrap();
+        let found = answer.value();
+        assert!(found.decision.is_stable() && found.binding.is_some());
+        let (factor, side) = (found.factor.as_ref().unwrap(), &found.sides[0]);
+        let ends = [&set.intervals[0].lower, &set.intervals[0].upper].into_iter().flatten();
+        let distances = ends.filter(|end| matches!(end, RequiredEnd::Requirement { .. })).map(|end| {
+            let end = end.value().refined_to_digits(12).enclosure().0;
+            ((end - side.nominal()).abs() / &side.widths()[0]).to_f64_approximate()
+        });
+        let nearest = distances.fold(f64::INFINITY, f64::min);
+        let [low, high] = [&factor.lower, factor.upper.as_ref().unwrap()].map(Rational::to_f64_approximate);
+        assert!(low <= nearest + 1e-9 && nearest <= high + 1e-9 && high - low < 1e-3 * high, "{low} {nearest} {high}");
+    }
 }

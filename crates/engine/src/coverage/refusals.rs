@@ -33,7 +33,7 @@ pub(crate) static DEAD_TIME: Refusal =
     Refusal::new(Code::DeadTime, "this cannot be asked of a loop with dead time", KNOWN);
 pub(crate) static BESIDE_DEAD_TIME: Refusal = Refusal::new(
     Code::DeadTime,
-    "beside dead time the loop contains other functions that are not rational",
+    "beside dead time the loop contains functions or constants that are not rational: this cannot be asked of it",
     "write the values of exp, sqrt, sin, cos, tan and pi as numbers",
 );
 pub(crate) static ADVANCED: Refusal = Refusal::new(

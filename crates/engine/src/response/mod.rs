@@ -79,6 +79,7 @@ pub use crossings::{Crossings, Direction, GainCrossing, PhaseCrossing};
 pub use delay::DelayMargin;
 pub(crate) use delay_boxes::{DelayAsked, DelayBoxes, DelayedLoops};
 pub use disk::{DiskMargin, degrees};
+pub(crate) use enclosed::{enclosed, within};
 pub use everywhere::{Everywhere, everywhere};
 pub use extreme::Extreme;
 pub(crate) use family::Family;

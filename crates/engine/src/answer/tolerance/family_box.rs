@@ -107,13 +107,13 @@ struct StableBox<'a, F> {
 }
 
 /// By how much the box can grow, so far.
-struct Growth {
-    decision: BoxDecision,
+pub(super) struct Growth {
+    pub decision: BoxDecision,
     /// `None` where one of the requirements has none.
-    factor: Option<LargestFactor>,
-    required: Vec<RequiredBox>,
+    pub factor: Option<LargestFactor>,
+    pub required: Vec<RequiredBox>,
     /// The requirement that ends the largest box; `None` where stability does.
-    binding: Option<usize>,
+    pub binding: Option<usize>,
 }
 
 impl<F: Family> StableBox<'_, F> {
@@ -178,7 +178,7 @@ impl<F: Family> StableBox<'_, F> {
         let factor = truth.factor(&self.boxes, *p, factor, budget)?;
         let decision = agreed(decision, &factor, None);
         let factor = Some(bounded_by(&decision, factor, self.of.sides));
-        let mut grown = Growth { decision, factor, required: Vec::new(), binding: None };
+        let mut grown = Growth::of(decision, factor);
         let mut earlier = earlier.into_iter();
         for requirement in &request.requirements {
             let found = match earlier.next() {
@@ -233,8 +233,13 @@ impl<F: Family> StableBox<'_, F> {
 }
 
 impl Growth {
+    /// Of stability alone.
+    pub fn of(decision: BoxDecision, factor: Option<LargestFactor>) -> Growth {
+        Growth { decision, factor, required: Vec::new(), binding: None }
+    }
+
     /// With one more requirement, that has to be met as well.
-    fn add(&mut self, found: RequiredBox) {
+    pub fn add(&mut self, found: RequiredBox) {
         self.decision = worse(self.decision.clone(), found.decision.clone());
         self.factor = match (self.factor.take(), found.factor.clone()) {
             (Some(known), Some(own)) => {

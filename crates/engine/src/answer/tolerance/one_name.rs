@@ -1,15 +1,17 @@
-//! The tolerance of one name beside functions and dead time: the stable sets up and down from the nominal value tell it whole.
+//! The tolerance of one name beside functions and dead time: the sets of its values tell it whole.
 
 use super::decide::volume;
-use super::family_box::FamilyBox;
-use super::{ExactFactor, ToleranceAnswer, WorstEnd};
+use super::family_box::{FamilyBox, Growth};
+use super::{ExactFactor, RequiredBox, ToleranceAnswer, WorstEnd};
 use crate::answer::Answer;
 use crate::error::Error;
 use crate::problem::Problem;
+use crate::response::{RequiredEnd, RequiredInterval, Requirement, enclosed, within};
 use crate::stability::boxes::{BoxDecision, BoxProof, Family, LargestFactor, Side, Witness, ray};
-use crate::stability::{AtPoint, End, Range};
+use crate::stability::{AtPoint, Cause, End, Range};
 use jurist_algebra::limits::Budget;
-use jurist_algebra::number::Rational;
+use jurist_algebra::number::{Enclosure, Rational};
+use jurist_algebra::real::Real;
 use std::sync::Arc;
 
 /// The line is asked for up to these factors, one after another, until it ends.
@@ -25,7 +27,9 @@ impl<F: Family> FamilyBox<'_, F> {
     pub(super) fn of_one_name(&self, at: &AtPoint) -> Result<Option<Answer<ToleranceAnswer>>, Error> {
         let request = self.request();
         let [side] = self.sides else { return Ok(None) };
-        if self.p.as_polynomial().is_some() || request.limit.is_some() || !request.requirements.is_empty() {
+        // Requirements over constants have long families.
+        let is_plain = self.truth.is_exact() || request.requirements.is_empty();
+        if self.p.as_polynomial().is_some() && is_plain || request.limit.is_some() || !side.grows() {
             return Ok(None);
         }
         let domain_factor = self.problem.domain_factor(self.sides);
@@ -43,7 +47,113 @@ impl<F: Family> FamilyBox<'_, F> {
             }
             NearestEnd::At(direction, worst) => self.up_to_end(at, direction, *worst)?,
         };
-        Ok(Some(self.answer_of_one(ToleranceAnswer { domain_factor, ..found })))
+        let found = ToleranceAnswer { domain_factor, ..found };
+        Ok(self.with_requirements(side, found)?.map(|found| self.answer_of_one(found)))
+    }
+
+    /// The answer with the requirements, where the set of values that meet each of them is known around the nominal value.
+    fn with_requirements(&self, side: &Side, found: ToleranceAnswer) -> Result<Option<ToleranceAnswer>, Error> {
+        let requirements = &self.request().requirements;
+        if requirements.is_empty() {
+            return Ok(Some(found));
+        }
+        let mut grown = Growth::of(found.decision.clone(), found.factor.clone());
+        for requirement in requirements {
+            let Some(own) = self.required_line(requirement, side, found.domain_factor.as_ref())? else {
+                return Ok(None);
+            };
+            grown.add(own);
+        }
+        let Growth { decision, factor, required, binding } = grown;
+        let is_stability = binding.is_none() && factor.is_some();
+        let (worst, exact) = if is_stability { (found.worst, found.exact) } else { (None, None) };
+        Ok(Some(ToleranceAnswer { decision, factor, required, binding, worst, exact, ..found }))
+    }
+
+    /// How far one requirement is met around the nominal value; `None` where that is not told.
+    fn required_line(
+        &self,
+        requirement: &Requirement,
+        side: &Side,
+        most: Option<&Rational>,
+    ) -> Result<Option<RequiredBox>, Error> {
+        let part = self.budget.share(LINE_SHARE.0, LINE_SHARE.1);
+        let (nominal, mut found) = (side.nominal(), RequiredBox { cells: 1, ..RequiredBox::new(requirement) });
+        if let Some(witness) = self.breaks(requirement, std::slice::from_ref(nominal))? {
+            found.decision = BoxDecision::NotStable { witness: Some(witness) };
+            return Ok(Some(found));
+        }
+        let requirements = std::slice::from_ref(requirement);
+        let set = match self.problem.required_set(requirements, self.request().at.as_deref(), &part) {
+            Ok(set) => set.into_value(),
+            Err(Error::Refused(_)) => return Ok(None),
+            Err(Error::Stopped(_)) if self.budget.check().is_ok() => return Ok(None),
+            Err(error) => return Err(error),
+        };
+        let Some(around) = set.intervals.iter().find(|interval| interval.contains(nominal)) else { return Ok(None) };
+        let farthest = Rational::from(REACHES[REACHES.len() - 1]);
+        let up_to = most.map_or(farthest.clone(), |most| farthest.min(most.clone()));
+        found.decision = stable();
+        match self.nearest_of(around, side)? {
+            Some(RequiredEndAt { factor: end, direction, is_known })
+                if self.budget.enter(|| end.compare_rational(&up_to).is_lt())? =>
+            {
+                if !is_known {
+                    return Ok(None);
+                }
+                let Some(factor) = self.required_up_to(requirement, &end, direction)? else { return Ok(None) };
+                if self.budget.enter(|| end.compare_rational(&Rational::ONE).is_lt())? {
+                    found.decision = BoxDecision::NotStable { witness: factor.witness.clone() };
+                }
+                found.factor = Some(factor);
+            }
+            _ => found.factor = Some(LargestFactor::at_least(up_to, &self.request().gap)),
+        }
+        Ok(Some(found))
+    }
+
+    /// The nearer end of the values around the nominal one that meet a requirement; `None` where they have no end in the domain.
+    fn nearest_of(&self, around: &RequiredInterval, side: &Side) -> Result<Option<RequiredEndAt>, Error> {
+        let mut nearest: Option<RequiredEndAt> = None;
+        for ((end, width), sign) in [&around.lower, &around.upper].into_iter().zip(side.widths()).zip([-1, 1]) {
+            let Some(end) = end.as_ref().filter(|_| !width.is_zero()) else { continue };
+            let is_known = match end {
+                RequiredEnd::Stability(end) if end.causes.contains(Cause::Undecided) => false,
+                RequiredEnd::Stability(end) if !end.causes.is_limit() => continue,
+                _ => true,
+            };
+            let factor = self.budget.enter(|| factor_of(&end.value(), side.nominal(), width, sign))?;
+            let is_nearer = match &nearest {
+                None => true,
+                Some(known) => factor.compare(&known.factor, self.budget)?.is_lt(),
+            };
+            if is_nearer {
+                nearest = Some(RequiredEndAt { factor, direction: Rational::from(sign), is_known });
+            }
+        }
+        Ok(nearest)
+    }
+
+    /// The bracket of a factor at which a requirement ceases to be met; `None` where no point just beyond shows it.
+    fn required_up_to(
+        &self,
+        requirement: &Requirement,
+        end: &Real,
+        direction: Rational,
+    ) -> Result<Option<LargestFactor>, Error> {
+        let gap = &self.request().gap;
+        let (base, step) = ray(self.sides, std::slice::from_ref(&direction));
+        let mut factor = self.budget.enter(|| LargestFactor::before(end, vec![direction], gap))?;
+        let Some(at) = factor.upper.clone() else { return Ok(None) };
+        // At the end itself the requirement may be met.
+        for upper in [at.clone(), &at + &(&at * gap)] {
+            let point: Vec<Rational> = base.iter().zip(&step).map(|(b, s)| b + &(s * &upper)).collect();
+            if let Some(witness) = self.breaks(requirement, &point)? {
+                (factor.upper, factor.witness) = (Some(upper), Some(witness));
+                return Ok(Some(factor));
+            }
+        }
+        Ok(None)
     }
 
     /// Which end of the two lines is the nearer one.
@@ -155,6 +265,14 @@ enum NearestEnd {
     Undecided,
 }
 
+/// Where the values that meet a requirement end.
+struct RequiredEndAt {
+    factor: Real,
+    direction: Rational,
+    /// Whether they end there: else nothing is known of what is beyond.
+    is_known: bool,
+}
+
 /// Where a line from the nominal value ends.
 enum LineEnd {
     /// Not up to the domain's end or the farthest factor that is asked for.
@@ -163,6 +281,20 @@ enum LineEnd {
     Ends(Box<WorstEnd>),
     /// What happens next is not known.
     Undecided,
+}
+
+/// The distance of an end from the nominal value, in widths.
+fn factor_of(end: &Real, nominal: &Rational, width: &Rational, sign: i64) -> Real {
+    let per_width = Rational::from(sign) / width;
+    if let Some(exact) = end.exact() {
+        return ((exact - nominal) * &per_width).into();
+    }
+    let (end, nominal) = (end.clone(), nominal.clone());
+    enclosed("a factor of a tolerance", move |bits| {
+        let at = within(&end, bits);
+        let [a, b] = [at.lower(), at.upper()].map(|x| (x - &nominal) * &per_width);
+        Some(if a < b { Enclosure::new(a, b) } else { Enclosure::new(b, a) })
+    })
 }
 
 fn stable() -> BoxDecision {

@@ -96,7 +96,7 @@ impl<F: Family> FamilyBox<'_, F> {
     }
 
     /// The point as a witness, if a requirement is not met there.
-    fn breaks(&self, requirement: &Requirement, point: &[Rational]) -> Result<Option<Witness>, Error> {
+    pub(super) fn breaks(&self, requirement: &Requirement, point: &[Rational]) -> Result<Option<Witness>, Error> {
         let (problem, budget) = (self.problem, self.budget);
         if problem.positive().iter().any(|p| !p.eval(point).sign().is_gt()) {
             return Ok(Some(Witness::new(point.to_vec(), AtPoint::Undefined)));
@@ -115,7 +115,7 @@ impl<F: Family> FamilyBox<'_, F> {
 }
 
 impl RequiredBox {
-    fn new(requirement: &Requirement) -> RequiredBox {
+    pub(super) fn new(requirement: &Requirement) -> RequiredBox {
         RequiredBox {
             requirement: requirement.clone(),
             decision: BoxDecision::Undecided { why: OpenReason::Untried, cell: Vec::new() },
