@@ -163,8 +163,7 @@ fn boxes_of_requirements_on_roots_agree_with_decisions_at_points() {
     assert!(seen[0] > 5 && seen[1] > 5, "{seen:?}");
     let model = diagram("discrete", ["K", "L"], "K + L*T/(z - 1)", "1/(0.5*s + 1)", true);
     let settling = [Requirement::settling_time(number("0.8"), &number("0.1")).unwrap()];
-    let answer =
-        boxes(&model, ["K", "L"], [["0", "8"], ["0", "20"]], if is_thorough() { "1/10" } else { "1/4" }, &settling);
+    let answer = boxes(&model, ["K", "L"], [["0", "8"], ["0", "20"]], goal, &settling);
     let seen = agrees(&answer, &mut random, 40, |p| decided(&model, ["K", "L"], p, &settling[0]));
     assert!(seen[0] > 5 && seen[1] > 5, "{seen:?}");
 }
