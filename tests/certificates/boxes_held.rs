@@ -113,6 +113,7 @@ fn the_drive_behind_a_hold_is_certified_in_its_controllers() {
 #[test]
 fn a_certificate_is_about_its_own_plant() {
     let cases = [
+        (PLANTS[0], "'1/5'", "'1/5 + 1/1000000000000'"),
         (PLANTS[0], "s/20", "s/21"),
         (PLANTS[0], "0.3*T", "0.4*T"),
         (PLANTS[1], "'foh'", "'zoh'"),
@@ -122,15 +123,11 @@ fn a_certificate_is_about_its_own_plant() {
         (PLANTS[7], "-5", "-6"),
         (PLANTS[8], "prewarp = 2", "prewarp = 3"),
     ];
-    for (plant, from, to) in tried(cases, 3) {
+    for (plant, from, to) in tried(cases, 4) {
         let text = loop_of(plant);
-        let certificate = emitted(&text);
-        let other = loop_of(&plant.replace(from, to));
-        assert!(check(&other, &certificate, &LIMITS).is_err(), "{plant}: {to}");
+        let other = text.replace(from, to);
+        assert!(other != text && check(&other, &emitted(&text), &LIMITS).is_err(), "{plant}: {to}");
     }
-    let text = loop_of(PLANTS[0]);
-    let of_other_time = text.replace("'1/5'", "'1/5 + 1/1000000000000'");
-    assert!(check(&of_other_time, &emitted(&text), &LIMITS).is_err());
 }
 
 /// In another region; and a box of the whole disc is none of a smaller one.

@@ -7,7 +7,7 @@ use crate::helpers::model::{example_text, path};
 use crate::helpers::number::number;
 use crate::helpers::program::jurist;
 use crate::helpers::random::Random;
-use crate::helpers::thorough::{count, tried};
+use crate::helpers::thorough::{count, is_thorough, tried};
 use jurist_check::format::Json;
 use jurist_check::{Limits, Step, check};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -23,9 +23,10 @@ const WINDOW: [Side; 2] = [("a", "-1/2", "4"), ("b", "0", "2")];
 /// monotone limits says at their corners: it is positive where the loop is stable.
 fn follows(characteristic: &str, sides: [Side; 2], least: &str, margin: impl Fn(f64, f64) -> f64) {
     let text = plain("continuous", characteristic);
-    let (certificate, share) = emitted(&text, sides, "0.15");
+    let (undecided, fewer) = if is_thorough() { ("0.15", "0") } else { ("0.3", "0.2") };
+    let (certificate, share) = emitted(&text, sides, undecided);
     accept(&text, &certificate);
-    assert!(share > number(least), "{share}\n{text}");
+    assert!(share > number(least) - number(fewer), "{share}\n{text}");
     let window = sides.map(|(_, low, high)| [number(low), number(high)]);
     let mut seen = [0, 0];
     for (letter, cell) in leaves(&tree_of(&certificate), window).unwrap().into_iter().filter(|(l, _)| *l != '?') {

@@ -38,8 +38,9 @@ fn edited(text: &str, pairs: &[String], name: &str) -> String {
     })
 }
 
-fn tried() -> impl Iterator<Item = Case> {
-    cases().into_iter().enumerate().filter(|(i, _)| is_tried(*i, 3)).map(|(_, case)| case)
+/// By default one of six, from a place on: each of the three readers has others.
+fn tried(first: usize) -> impl Iterator<Item = Case> {
+    cases().into_iter().enumerate().filter(move |(i, _)| is_tried(i + first, 6)).map(|(_, case)| case)
 }
 
 fn cases() -> Vec<Case> {
@@ -81,7 +82,7 @@ fn certificates_of_the_list_are_accepted() {
 #[test]
 fn the_engine_reads_what_the_list_says() {
     let mut wrong = Vec::new();
-    for case in tried() {
+    for case in tried(0) {
         let run = jurist_with_input(&["intervals", "-", "--param", &case.question], case.text.as_bytes());
         let refused = run.status == 2 && run.stderr.contains("error[") && run.stdout.is_empty();
         assert!(refused || (run.status == 0 && !run.stderr.contains("error[")), "{}: {}", case.name, run.stderr);
@@ -96,7 +97,7 @@ fn the_engine_reads_what_the_list_says() {
 fn the_checker_reads_what_the_list_says() {
     let file = std::env::temp_dir().join(format!("jurist-readers-{}.json", std::process::id()));
     let mut wrong = Vec::new();
-    for case in tried() {
+    for case in tried(2) {
         std::fs::write(&file, case.certificate()).expect("a file can be written");
         let path = file.to_str().expect("a path of UTF-8");
         let run = jurist_with_input(&["verify", "-", path, "--timeout", "inf"], case.text.as_bytes());
@@ -114,7 +115,7 @@ fn the_checker_reads_what_the_list_says() {
 #[test]
 fn the_python_checker_reads_what_the_list_says() {
     let mut wrong = Vec::new();
-    for case in cases() {
+    for case in tried(4) {
         let Some(read) = checkers::python(&case.text, &case.certificate()) else { return };
         if read.is_ok() != case.accepted[2] {
             wrong.push(format!("{}: {read:?}", case.name));

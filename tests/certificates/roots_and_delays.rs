@@ -5,6 +5,7 @@ use crate::helpers::certificates::{mutations, with};
 use crate::helpers::model::read;
 use crate::helpers::number::{number, ratio};
 use crate::helpers::random::Random;
+use crate::helpers::thorough::{count, tried};
 use jurist::Ask;
 use jurist::certified::{certify_required_intervals, certify_requirements, certify_tolerance};
 use jurist::{Budget, Rational, Requirement, ToleranceRequest};
@@ -51,7 +52,7 @@ fn points_are_certified_on_both_sides_of_known_numbers() {
     let (integrator, sampled) = (loop_of("continuous", "K/s"), loop_of("discrete", "K/(z*(z - 1))"));
     let settling = |time: &str| Requirement::settling_time(number(time), &number("1/4")).unwrap();
     let complex = loop_of("continuous", "K/(s + j)");
-    for (text, gain, met, not_met) in [
+    let points = [
         // 1/(2 sqrt(25/9)) = 3/10, 1/(2 sqrt(25/36)) = 3/5.
         (second_order(), "25/9", damping("299/1000"), damping("301/1000")),
         (second_order(), "25/36", damping("599/1000"), damping("601/1000")),
@@ -60,7 +61,8 @@ fn points_are_certified_on_both_sides_of_known_numbers() {
         (integrator, "1", delay("1.5707"), delay("1.5709")),
         // The only root is -K - j, and no conjugate stands with it: 3/5 of a root with the modulus 5/4.
         (complex, "3/4", damping("599/1000"), damping("601/1000")),
-    ] {
+    ];
+    for (text, gain, met, not_met) in tried(points, 2) {
         for (requirement, is_met) in [(met, true), (not_met, false)] {
             let certificate = certified(&text, gain, &requirement, is_met).unwrap();
             accept(&text, &certificate);
@@ -80,11 +82,12 @@ fn at_the_edge_there_is_no_certificate() {
 
 #[test]
 fn sets_and_boxes_are_certified() {
-    for (text, requirement, end) in [
+    let sets = [
         (second_order(), damping("1/2"), "1"),
         (loop_of("continuous", "K/s"), delay("1"), "1.5707963"),
         (loop_of("discrete", "K/z^2"), Requirement::settling_time(number("2"), &number("1/4")).unwrap(), "0.36787944"),
-    ] {
+    ];
+    for (text, requirement, end) in tried(sets, 2) {
         let requirements = [requirement];
         let problem = read(&text).ask().free("K").problem().unwrap();
         let answer = problem.required_set(&requirements, None, &budget()).unwrap();
@@ -209,7 +212,7 @@ fn mutations_are_rejected_unless_the_statement_stays_true() {
 fn random_loops_are_certified_as_the_engine_decides() {
     let mut random = Random::new(0x0dab);
     let (mut met, mut not_met) = (0, 0);
-    for round in 0..36 {
+    for round in 0..count(4, 36) {
         let mut any = |least: i64, most: i64| least + random.below((most - least + 1) as usize) as i64;
         let (a, b, c) = (any(1, 9), any(1, 9), any(-2, 9));
         let (time, plant) = match round % 3 {
@@ -232,7 +235,7 @@ fn random_loops_are_certified_as_the_engine_decides() {
         assert!(at(!found).is_err(), "{text} {gain} {}", requirement.text());
         *(if found { &mut met } else { &mut not_met }) += 1;
     }
-    assert!(met > 6 && not_met > 6, "{met} {not_met}");
+    assert!(met > count(0, 6) && not_met > count(0, 6), "{met} {not_met}");
 }
 
 /// A damping and a delay margin of a sampled loop are no stability of a factor that the checkers know.

@@ -244,7 +244,7 @@ fn check_delay(of: &Open, margins: &Margins) -> bool {
 #[test]
 fn margins_of_random_loops_agree_with_a_second_way() {
     let count =
-        std::env::var("JURIST_COMPLEX_LOOPS").ok().and_then(|n| n.parse().ok()).unwrap_or(thorough::count(20, 60));
+        std::env::var("JURIST_COMPLEX_LOOPS").ok().and_then(|n| n.parse().ok()).unwrap_or(thorough::count(12, 60));
     let mut random = Random::new(1932);
     let (mut stable, mut rotations, mut delays, mut below) = (0, 0, 0, 0);
     while stable < count {

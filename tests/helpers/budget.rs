@@ -50,12 +50,12 @@ pub fn cancelled_after(reports: u64) -> Budget {
     cancelled(None, reports)
 }
 
-/// A model whose answers no machine will see: the curve of complex pairs alone is of degree 4500, with
+/// A model whose answers no machine will see: the curve of complex pairs alone is of degree 3000, with
 /// coefficients of thousands of digits, and is still to be isolated. Reading it is little work.
 pub fn endless_model() -> String {
     let mut random = Random::new(7);
     let mut text = String::from("time = 'discrete'\nparameters.K = 1\nloop.characteristic = '0");
-    for i in 0..=150 {
+    for i in 0..=100 {
         for j in 0..=30 {
             let _ = write!(text, " + {}*K^{j}*z^{i}", 1_000_000_000 + random.below(1_000_000_000));
         }

@@ -63,7 +63,7 @@ fn texts_that_are_no_systems() {
 #[test]
 fn sizes_are_limited() {
     let mut bytes = std::fs::read(file("servo.mat")).unwrap()[..128].to_vec();
-    let zeros = packed_zeros(80 << 20);
+    let zeros = packed_zeros(66 << 20);
     bytes.extend(15u32.to_le_bytes());
     bytes.extend((zeros.len() as u32).to_le_bytes());
     bytes.extend(zeros);

@@ -1,5 +1,6 @@
 //! Budgets end kernels from the inside, in work that would take hours: at a count, and cancelled from another thread.
 
+use crate::helpers::thorough::count;
 use jurist_algebra::limits::{Budget, Stop};
 use jurist_fuzzing::endless::JOBS;
 use std::sync::Arc;
@@ -8,7 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 #[test]
 fn counted_work_ends_in_the_middle_of_every_kernel() {
     for (name, work) in JOBS {
-        for units in [1_000, 3_000_000] {
+        for units in [1_000, count(1_000_000, 3_000_000) as u64] {
             let end = Budget::with_work(units).enter(work);
             assert_eq!(end.expect_err(name).stop, Stop::Work(units), "{name}");
         }

@@ -2,6 +2,7 @@
 //! where roots of its boundaries coincide only for what these constants are.
 
 use crate::helpers::model::load;
+use crate::helpers::thorough::count;
 use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_engine::stability::{End, StableSet};
@@ -47,7 +48,7 @@ fn coefficient() -> impl Strategy<Value = Vec<(i64, usize)>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(20))]
+    #![proptest_config(ProptestConfig::with_cases(count(8, 20) as u32))]
 
     #[test]
     fn the_stable_set_is_that_of_the_plain_numbers(

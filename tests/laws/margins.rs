@@ -1,6 +1,7 @@
 //! Laws of margins, on generated loops: each margin against a second way.
 
 use crate::helpers::model::read;
+use crate::helpers::thorough::count;
 use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
@@ -73,7 +74,7 @@ fn stable_loop() -> impl Strategy<Value = (UniPoly, UniPoly, Time)> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(96))]
+    #![proptest_config(ProptestConfig::with_cases(count(40, 96) as u32))]
 
     /// `(1 + j t) (D0 + N) + ...`: rotations both ways at once are `(D0 + N)^2 + t^2 (D0 - N)^2`, decided in `t^2`.
     #[test]

@@ -1,6 +1,7 @@
 //! Laws of real root isolation and of real algebraic numbers, on generated polynomials.
 
 use crate::helpers::budget::spent;
+use crate::helpers::thorough::count;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational, parse_number};
 use jurist_algebra::poly::real_roots::{Bound, budan_fourier_bound, count_roots_sturm};
@@ -25,7 +26,7 @@ fn encloses(root: &RealAlgebraic, chosen: &ChosenRoot) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(ProptestConfig::with_cases(count(80, 200) as u32))]
 
     #[test]
     fn chosen_roots_are_found(known in polynomial_with_known_roots()) {

@@ -1,6 +1,7 @@
 //! Random loops with dead time: the listed roots against Newton's method in floating point, from them and from a grid, and against the count along
 //! the axis.
 
+use crate::helpers::thorough::count;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::UniPoly;
@@ -123,5 +124,5 @@ proptest! {
 
 /// How many loops are tried.
 fn cases() -> u32 {
-    std::env::var("ROOTS_CASES").ok().and_then(|text| text.parse().ok()).unwrap_or(40)
+    std::env::var("ROOTS_CASES").ok().and_then(|text| text.parse().ok()).unwrap_or(count(16, 40) as u32)
 }

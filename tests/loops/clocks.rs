@@ -3,6 +3,7 @@
 use super::pwm::{ends, set};
 use super::rates::position;
 use crate::helpers::program::{jurist, jurist_with_input};
+use crate::helpers::thorough::is_thorough;
 use jurist_algebra::number::Rational;
 
 /// The only interval's upper end, in floating point.
@@ -152,9 +153,11 @@ fn limits_of_the_drive_have_their_frequencies() {
         let ends = document["stable"][0].clone();
         [&ends["lower"], &ends["upper"]].map(|end| (end["frequency_hz"].as_f64(), end["angle"].as_f64()))
     };
-    let drive = crate::helpers::model::example_text("drive-pwm");
-    let [_, (hz, _)] = upper(&["intervals", "-", "--param", "K_pwm", "--json"], &drive);
-    assert!((hz.unwrap() - 1663.56).abs() < 5e-3, "{hz:?}");
+    if is_thorough() {
+        let drive = crate::helpers::model::example_text("drive-pwm");
+        let [_, (hz, _)] = upper(&["intervals", "-", "--param", "K_pwm", "--json"], &drive);
+        assert!((hz.unwrap() - 1663.56).abs() < 5e-3, "{hz:?}");
+    }
     let slow = crate::helpers::model::example_text("drive-two-rates");
     let slow =
         slow.replace("K_pwm = 110 ", "").replace("[parameters]", "[parameters]\nK_pwm = { nominal = 110, min = 0 }");

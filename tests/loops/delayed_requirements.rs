@@ -86,8 +86,6 @@ fn an_end_at_the_frequency_zero_is_exact() {
 /// On both sides of each end, and at chance.
 #[test]
 fn sets_agree_with_decisions_at_points() {
-    /// Each loop and each requirement once; the others take longer.
-    const SHORT: [[usize; 2]; 4] = [[0, 2], [1, 1], [2, 2], [3, 0]];
     let mut random = Random::new(43);
     let loops = [
         ("K*(1 + 1/(8*s))", "2*exp(-3*s)/(10*s + 1)"),
@@ -99,7 +97,8 @@ fn sets_agree_with_decisions_at_points() {
     for (i, (controller, plant)) in loops.into_iter().enumerate() {
         let model = series(controller, plant);
         for (j, requirement) in kinds().into_iter().enumerate() {
-            if !is_thorough() && !SHORT.contains(&[i, j]) {
+            // The others take longer.
+            if !is_thorough() && [i, j] != [3, 0] {
                 continue;
             }
             let asked = std::slice::from_ref(&requirement);
@@ -133,8 +132,8 @@ fn sets_agree_with_decisions_at_points() {
             }
         }
     }
-    let enough = count(1, 11);
-    assert!(ends > enough && points[0] >= enough && points[1] >= enough, "{ends} {points:?}");
+    let [enough, each] = [count(1, 11), count(0, 11)];
+    assert!(ends > enough && points.iter().all(|n| *n >= each), "{ends} {points:?}");
 }
 
 /// Two requirements at once: the one that binds is named.
@@ -146,6 +145,9 @@ fn the_requirement_that_binds_is_named() {
     let upper = found.intervals[0].upper.as_ref().unwrap();
     let RequiredEnd::Requirement { names, closed, .. } = upper else { panic!("stability") };
     assert_eq!((names.as_slice(), *closed), (&["gain_margin"][..], false));
+    if !is_thorough() {
+        return;
+    }
     // Beyond the last value at which one is met neither is.
     let modulus = Requirement::modulus_margin(number("1/2")).unwrap();
     let found = set(&model, &[Requirement::phase_margin(&number("30")).unwrap(), modulus]);

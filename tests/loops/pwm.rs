@@ -4,6 +4,7 @@
 use crate::helpers::model::{example_text, load, read};
 use crate::helpers::number::ratio;
 use crate::helpers::program::{jurist, jurist_with_input};
+use crate::helpers::thorough::is_thorough;
 use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
@@ -39,12 +40,16 @@ fn the_drive_of_the_paper_with_its_own_chopper() {
         ("leading", "551.012244749542107318159083", "0.000498523151319993622412167224"),
         ("double", "551.376682867604529917298902", "0.000498870893862668598728173887"),
     ] {
+        assert_eq!(ends(&set(&drive(edge, "V_0/K_pwm"), "T"), 27)[1], time, "{edge}");
+        // It takes as long as all others.
+        if edge == "trailing" && !is_thorough() {
+            continue;
+        }
         let by_gain = set(&drive(edge, "V_0/K_pwm"), "K_pwm");
         assert_eq!(ends(&by_gain, 27)[1], gain, "{edge}");
         let lower = by_gain.intervals()[0].lower.as_ref().unwrap();
         assert_eq!(lower.value.exact(), Some(ratio(2484, 55)), "{edge}");
         assert_eq!(lower.causes.to_string(), "duty", "{edge}");
-        assert_eq!(ends(&set(&drive(edge, "V_0/K_pwm"), "T"), 27)[1], time, "{edge}");
     }
     for (duty, lower, upper) in [
         ("0.1", "0.0381811769341115881949524982", "551.725542763575021978930842"),

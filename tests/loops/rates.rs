@@ -5,6 +5,7 @@ use crate::helpers::loops::agrees_with_radius;
 use crate::helpers::model::{example_text, read};
 use crate::helpers::program::jurist_with_input;
 use crate::helpers::random::Random;
+use crate::helpers::thorough::{count, tried};
 use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
@@ -128,7 +129,7 @@ fn a_rule_of_a_slow_controller_has_its_own_period() {
 fn margins_are_those_of_signals_that_are_used_once() {
     let budget = Budget::unlimited();
     let model = read(&drive(10, "zoh"));
-    for at in ["i_ref", "speed controller"] {
+    for at in tried(["i_ref", "speed controller"], 2) {
         let margins = model.ask().margins(Some(at), &Rational::ZERO, &budget).unwrap_or_else(|e| panic!("{e}"));
         let upper = margins.value().stable.as_ref().unwrap().gain.upper.clone().unwrap();
         // The factor is one of K_ps and K_is alike.
@@ -255,7 +256,7 @@ impl Cascade {
 /// `RATE_CASES=2000 cargo test --release --test it random_rates -- --nocapture` asks for so many.
 #[test]
 fn random_rates_against_events_stepped_one_by_one() {
-    let cases = std::env::var("RATE_CASES").ok().and_then(|text| text.parse().ok()).unwrap_or(60);
+    let cases = std::env::var("RATE_CASES").ok().and_then(|text| text.parse().ok()).unwrap_or(count(24, 60));
     let (mut random, mut looked_at, mut ends) = (Random::new(8), 0, 0);
     for _ in 0..cases {
         let case = Cascade::random(&mut random);

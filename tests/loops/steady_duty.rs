@@ -3,7 +3,7 @@
 use super::pwm::{ends, set};
 use crate::helpers::model::{example_text, read};
 use crate::helpers::program::jurist_with_input;
-use crate::helpers::thorough::tried;
+use crate::helpers::thorough::{is_thorough, tried};
 use jurist::{Ask, Text};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::parse_number;
@@ -57,7 +57,7 @@ fn leaky(how: &str, pulse: &str) -> String {
 fn orbits_whose_duty_ratio_is_known_by_construction() {
     // From the end of the period: the pulse is on between these times before it.
     let between = |from: &str, to: &str| format!("exp(-3*{from}*T) - exp(-3*{to}*T)");
-    for (edge, delay, pulse) in [
+    let orbits = [
         ("trailing", "0", between("(7/10)", "1")),
         ("leading", "0", between("0", "(3/10)")),
         ("double", "0", between("(7/20)", "(13/20)")),
@@ -67,7 +67,8 @@ fn orbits_whose_duty_ratio_is_known_by_construction() {
         // It goes on in the next period.
         ("trailing", "9*T/10", format!("{} + {}", between("0", "(1/10)"), between("(4/5)", "1"))),
         ("leading", "T/2", between("(1/2)", "(4/5)")),
-    ] {
+    ];
+    for (edge, delay, pulse) in tried(orbits, 3) {
         let how = |duty: &str| format!("edge = '{edge}', duty = '{duty}', delay = '{delay}'");
         let [own, given] = ["steady", "3/10"].map(|duty| ends(&set(&leaky(&how(duty), &pulse), "K"), 40));
         assert_eq!(own, given, "{edge}, {delay}");
@@ -86,7 +87,9 @@ fn the_height_of_the_pulses_and_the_period_are_questions() {
     let gain = within("K_pwm", "1", "1000");
     assert_eq!(ends(&gain, 27), ["45.1636363636363636363636364", "551.741369816005655902495908"]);
     assert!(gain.intervals()[0].lower.as_ref().unwrap().causes.contains(Cause::Duty));
-    assert_eq!(ends(&within("T", "1/10000", "1/1000"), 27)[1], "0.000499220684161587476415875792");
+    if is_thorough() {
+        assert_eq!(ends(&within("T", "1/10000", "1/1000"), 27)[1], "0.000499220684161587476415875792");
+    }
 }
 
 /// With the height of the pulses as a function of `d` for which the orbit has the duty ratio `d`.

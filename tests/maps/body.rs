@@ -3,6 +3,7 @@
 
 use crate::helpers::model::{example, read};
 use crate::helpers::number::number;
+use crate::helpers::thorough::count;
 use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
@@ -51,9 +52,9 @@ fn verdict(k_p: &Rational, k_i: &Rational, k_d: &Rational) -> Verdict {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(20))]
+    #![proptest_config(ProptestConfig::with_cases(count(8, 20) as u32))]
 
-    /// 20 cases of 15 points each.
+    /// 15 points each.
     #[test]
     fn points_of_the_body_have_their_verdict_and_that_of_the_polygon(
         roots in proptest::collection::btree_set(0i64..=14, 2), points in proptest::collection::vec((-60i64..=500, -250i64..=250), 15),

@@ -2,7 +2,7 @@
 
 use crate::helpers::number::number;
 use crate::helpers::plane::{coefficient, map, plane};
-use crate::helpers::thorough::tried;
+use crate::helpers::thorough::{count, is_thorough, tried};
 use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::CharacteristicPolynomial;
@@ -57,7 +57,7 @@ fn outside(model: &Model, point: [(&str, &Rational); 2]) -> usize {
 #[ignore = "long: CI runs it"]
 fn slices_are_the_stable_sets_of_one_parameter() {
     let budget = Budget::unlimited();
-    for plant in tried(PLANTS, 2) {
+    for plant in tried(PLANTS, 3) {
         let model = held(plant);
         let mut seen = 0;
         for (x, y) in [("Kp", "Ki"), ("Ki", "Kp")] {
@@ -96,7 +96,7 @@ fn has_end(set: &jurist_engine::stability::StableSet, value: &Option<String>) ->
 
 #[test]
 fn roots_are_counted_in_every_cell() {
-    for plant in tried(PLANTS, 2) {
+    for plant in tried(PLANTS, 3) {
         let model = held(plant);
         let answer = asked(&model, "Kp", "Ki");
         let found = &answer.value().decomposition;
@@ -128,7 +128,7 @@ fn roots_are_counted_in_every_cell() {
 
 #[test]
 fn either_order_of_the_axes_describes_the_same_regions() {
-    for plant in tried(PLANTS, 2) {
+    for plant in tried(PLANTS, 3) {
         let model = held(plant);
         let (one, other) = (asked(&model, "Kp", "Ki"), asked(&model, "Ki", "Kp"));
         let ends = |answer: &Answer<Map>, turned: bool| -> Vec<[String; 4]> {
@@ -307,7 +307,7 @@ fn singular_maps_are_those_of_the_scaled_loops() {
         &["1/4 + y/3", "x^3 - 3*x - y", "1"],
     ];
     let mut several = 0;
-    for list in tried(loops, 2) {
+    for list in tried(loops, 5) {
         let coefficients = coefficients_of(list);
         let p = PlanePolynomial::new(&characteristic(coefficients.clone()));
         for region in [Shape::UnitDisc, Shape::LeftHalfPlane] {
@@ -316,11 +316,11 @@ fn singular_maps_are_those_of_the_scaled_loops() {
             several += usize::from(regions > 1);
         }
     }
-    assert!(several >= 3, "{several} maps of several regions");
+    assert!(several >= count(0, 3), "{several} maps of several regions");
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(12))]
+    #![proptest_config(ProptestConfig::with_cases(count(4, 12) as u32))]
 
     #[test]
     fn maps_over_symbols_are_those_of_the_scaled_loops(low in vec(coefficient(), 1..=3), is_disc in any::<bool>()) {
@@ -359,7 +359,9 @@ fn constants_that_are_algebraic_are_known_by_their_norms() {
     let pair = |a: &str, b: &str| (a.to_owned(), b.to_owned());
     assert_eq!(ends("z^2 + sqrt(2)*a*z + b"), [pair("-1.41421356", "1.41421356"), pair("-1", "1")]);
     assert_eq!(ends("z^2 + sqrt(2)*a*z + sqrt(2)*b")[1], pair("-0.707106781", "0.707106781"));
-    assert_eq!(ends("z^2 + sqrt(2)*a*z + sqrt(2)*b + a^2/4")[0], ends("z^2 + sqrt(2)*a*z + b + a^2/4")[0]);
+    if is_thorough() {
+        assert_eq!(ends("z^2 + sqrt(2)*a*z + sqrt(2)*b + a^2/4")[0], ends("z^2 + sqrt(2)*a*z + b + a^2/4")[0]);
+    }
 }
 
 #[test]

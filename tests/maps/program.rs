@@ -4,6 +4,7 @@ use crate::helpers::model::{example, keeping};
 use crate::helpers::number::number;
 use crate::helpers::plane::{algebraic, cell_agrees};
 use crate::helpers::program::{command, json, jurist, jurist_with_input, refused};
+use crate::helpers::thorough::{count, is_thorough, is_tried};
 use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
@@ -67,7 +68,7 @@ fn over_decades(from: i64, to: i64) -> impl Strategy<Value = Rational> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(12))]
+    #![proptest_config(ProptestConfig::with_cases(count(4, 12) as u32))]
 
     #[test]
     fn every_point_of_the_drive_has_the_root_count_of_its_cell(
@@ -228,7 +229,9 @@ fn pictures_have_the_same_bytes_every_time() {
     assert!(svg.contains("T = 62.065 ms, 1.15 Hz") && svg.contains("published limits") && !svg.contains("NaN"));
     let one_thread = command(&["map", "-o", "-"]).args(DRIVE).env("RAYON_NUM_THREADS", "1").output().unwrap();
     assert!(one_thread.status.success());
-    assert_eq!(drawn("a.png", &DRIVE)[..8], *b"\x89PNG\r\n\x1a\n");
+    if is_thorough() {
+        assert_eq!(drawn("a.png", &DRIVE)[..8], *b"\x89PNG\r\n\x1a\n");
+    }
 }
 
 #[test]
@@ -305,13 +308,13 @@ fn windows_are_those_asked_for() {
         arguments.extend(more);
         String::from_utf8(drawn("w.svg", &arguments)).unwrap()
     };
-    let linear = svg("T=0..0.07", &[]);
+    // An end at or below zero has no logarithm: the axis stays linear.
+    let linear = svg("T=0..0.07", &["--log-x"]);
+    assert!(!is_thorough() || linear == svg("T=0..0.07", &[]));
     assert!(linear.contains(">70<") && linear.contains(">T (ms)<"));
     assert!(linear.contains("root at z = 1"));
     let logarithmic = svg("T=1e-4..0.1", &["--log-x"]);
     assert!(logarithmic.contains(">100 µs<") && logarithmic.contains(">1 ms<"));
-    // An end at or below zero has no logarithm: the axis stays linear.
-    assert!(svg("T=0..0.07", &["--log-x"]).contains("root at z = 1"));
     assert!(svg("T=..inf", &[]).contains("T ("));
 }
 
@@ -389,8 +392,8 @@ fn maps_of_the_examples_are_cut_by_lines_into_stable_sets() {
     ];
     let budget = Budget::unlimited();
     let mut lines = 0;
-    for (name, a, b) in maps {
-        for [x, y] in [[a, b], [b, a]] {
+    for (number, (name, a, b)) in maps.into_iter().enumerate() {
+        for (_, [x, y]) in [[a, b], [b, a]].into_iter().enumerate().filter(|(k, _)| is_tried(number + k, 3)) {
             let answer = example(name).ask().free(x).free(y).map(6, &budget).unwrap();
             let domain = answer.problem().free()[1].domain.clone();
             for strip in &decided(&answer).strips {
@@ -405,5 +408,5 @@ fn maps_of_the_examples_are_cut_by_lines_into_stable_sets() {
             }
         }
     }
-    assert!(lines > 300, "{lines}");
+    assert!(lines > count(80, 300), "{lines}");
 }

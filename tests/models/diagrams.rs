@@ -3,6 +3,7 @@
 
 use crate::helpers::certificates::checkers::certified_set_of;
 use crate::helpers::model::{continuous, discrete};
+use crate::helpers::thorough::count;
 use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
@@ -138,7 +139,7 @@ fn diagram_text(blocks: &[Kind], wires: &[Vec<i64>]) -> String {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(128))]
+    #![proptest_config(ProptestConfig::with_cases(count(48, 128) as u32))]
 
     /// det(zI - A) of the interconnection, times det(I - D M) and the denominators' leading coefficients, is
     /// det(diag(den) - diag(num) M): every mode counts, cancelled or not, reached or not.

@@ -253,7 +253,7 @@ fn pictures(mut see: impl FnMut(&str, &Model, &str, &DrawnLocus)) {
     names.sort();
     assert!(names.len() > 10);
     let budget = Budget::unlimited();
-    for path in names.into_iter().enumerate().filter(|(i, _)| is_tried(*i, 3)).map(|(_, path)| path) {
+    for path in names.into_iter().enumerate().filter(|(i, _)| is_tried(*i, 6)).map(|(_, path)| path) {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
         let text = std::fs::read_to_string(&path).unwrap();
         let (model, _) = Model::from_toml(&jurist_engine::error::Source::new(name.as_str(), text)).unwrap();
@@ -311,5 +311,5 @@ fn pictures_show_every_certified_crossing_and_contradict_no_certified_answer() {
             assert_eq!(farthest < 0.0, certified, "{name}, {parameter} = {value}: {farthest:e}");
         }
     });
-    assert!(labels >= count(5, 20), "{labels}");
+    assert!(labels >= count(2, 20), "{labels}");
 }

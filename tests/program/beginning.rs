@@ -36,7 +36,7 @@ fn the_commands_that_templates_name_answer() {
         let text = jurist(&["new", &name]).stdout;
         let lines = text.lines().filter_map(|line| line.strip_prefix("# jurist "));
         let lines = lines.filter(|line| !line.starts_with("analyze") && !line.starts_with("report"));
-        for (_, line) in lines.enumerate().filter(|(i, _)| is_tried(i + name.len(), 4)) {
+        for (_, line) in lines.enumerate().filter(|(i, _)| is_tried(i + name.len(), 5)) {
             // What follows two blanks says what the command is for.
             let (words, _) = line.split_once("  ").unwrap_or((line, ""));
             let file = |word: &str| folder.join(word).to_str().unwrap().to_owned();

@@ -2,6 +2,7 @@
 
 use crate::helpers::budget::{cancelled_after, spent};
 use crate::helpers::drive::{E_SW, K_A, L_A, names, sampled_drive, switched_drive};
+use crate::helpers::thorough::is_tried;
 use jurist_draw::simulate::{Excitation, Pulse, Record, Step, SwitchedModel, SwitchedState, eigenvalues, growth_limit};
 use nalgebra::{DMatrix, DVector};
 
@@ -80,11 +81,17 @@ fn limits_of_the_linearised_circuit() {
 fn perturbed_runs_have_their_limit_where_the_eigenvalues_say() {
     let growth =
         |k: f64, t: f64, pulse| switched_drive(k, t, pulse).perturbed_growth(&inputs(), 2_000, 4_000).map(|g| g.factor);
-    for (pulse, k_pwm, f) in [(Pulse::Beginning, 551.741, 2003.12), (Pulse::End, 551.012, 2005.92)] {
-        let k = growth_limit(k_pwm - 0.2, k_pwm + 0.2, 0.02, |k| growth(k, 1e-4, pulse)).unwrap();
-        assert!(four_digits(k, k_pwm), "{pulse:?}: {k}");
-        let found = growth_limit(f + 0.8, f - 0.8, 0.08, |f| growth(110.0, 1.0 / f, pulse)).unwrap();
-        assert!(four_digits(found, f), "{pulse:?}: {found}");
+    let limits = [(Pulse::Beginning, 551.741, 2003.12), (Pulse::End, 551.012, 2005.92)];
+    // By default the amplitude of the one and the frequency of the other.
+    for (number, (pulse, k_pwm, f)) in limits.into_iter().enumerate() {
+        if is_tried(number, 2) {
+            let k = growth_limit(k_pwm - 0.2, k_pwm + 0.2, 0.02, |k| growth(k, 1e-4, pulse)).unwrap();
+            assert!(four_digits(k, k_pwm), "{pulse:?}: {k}");
+        }
+        if is_tried(number + 1, 2) {
+            let found = growth_limit(f + 0.8, f - 0.8, 0.08, |f| growth(110.0, 1.0 / f, pulse)).unwrap();
+            assert!(four_digits(found, f), "{pulse:?}: {found}");
+        }
     }
 }
 

@@ -73,11 +73,13 @@ fn the_bus_has_a_witness_and_status_one() {
 
 #[test]
 fn a_limit_has_both_sides() {
-    let document = document(&["tolerance", "--tol", EIGHT, "--limit", "K_pwm"], 0);
-    let limit = &document["limit"];
-    assert_eq!(limit["parameter"], "K_pwm");
-    for side in ["lower", "upper"] {
-        assert!(limit[side].as_array().unwrap().iter().all(Value::is_string), "{limit}");
+    if is_thorough() {
+        let document = document(&["tolerance", "--tol", EIGHT, "--limit", "K_pwm"], 0);
+        let limit = &document["limit"];
+        assert_eq!(limit["parameter"], "K_pwm");
+        for side in ["lower", "upper"] {
+            assert!(limit[side].as_array().unwrap().iter().all(Value::is_string), "{limit}");
+        }
     }
     let run = jurist(&["tolerance", "--tol", EIGHT, "--limit", "K_pwm"]);
     // What is proved is rounded inwards.

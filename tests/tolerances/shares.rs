@@ -2,6 +2,7 @@
 
 use crate::helpers::model::load;
 use crate::helpers::number::number;
+use crate::helpers::thorough::{count, is_thorough, tried};
 use jurist::Ask;
 use jurist_algebra::limits::{Budget, Stop};
 use jurist_algebra::number::Rational;
@@ -86,8 +87,8 @@ fn three_names_inside_of_functions_have_a_share_as_well() {
 
 #[test]
 fn the_stable_share_of_a_box_with_dead_time_is_that_below_the_hyperbola() {
-    let goal = number("1/20");
-    for (theta, sides) in [("1/2", [0.5, 1.5]), ("2", [-1.0, 3.0])] {
+    let goal = if is_thorough() { number("1/20") } else { number("1/10") };
+    for (theta, sides) in tried([("1/2", [0.5, 1.5]), ("2", [-1.0, 3.0])], 2) {
         let found = asked(&integrator(), &request(&[("K", "2"), ("theta", theta)]).volume(goal.clone()));
         let end = |theta: f64| if theta < 0.0 { [0.0, 0.0] } else { [0.0, FRAC_PI_2 / theta] };
         holds(found.volume.as_ref().unwrap(), share_of(sides, [-1.0, 3.0], end), &goal);
@@ -103,9 +104,10 @@ fn the_stable_share_of_a_box_with_dead_time_is_that_below_the_hyperbola() {
 fn a_budget_that_ends_leaves_the_share_that_was_reached() {
     for (model, list) in [(first_order(), [("a", "0.4"), ("K", "1")]), (integrator(), [("theta", "1/2"), ("K", "2")])] {
         let exact = request(&list).exact().volume(number("1/100000"));
-        let found = model.ask().tolerance(&exact, &Budget::with_work(40_000_000)).unwrap().into_value();
+        let work = count(4_000_000, 40_000_000) as u64;
+        let found = model.ask().tolerance(&exact, &Budget::with_work(work)).unwrap().into_value();
         let volume = found.volume.unwrap();
-        assert_eq!(volume.stopped, Some(Stop::Work(40_000_000)));
+        assert_eq!(volume.stopped, Some(Stop::Work(work)));
         assert!(volume.stable.sign().is_gt() && volume.undecided > number("1/100000"), "{volume:?}");
         assert!(found.factor.unwrap().upper.is_some());
     }

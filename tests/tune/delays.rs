@@ -3,7 +3,7 @@
 use crate::helpers::folder::Folder;
 use crate::helpers::number::{number, ratio};
 use crate::helpers::schema::fits;
-use crate::helpers::thorough::count;
+use crate::helpers::thorough::{count, is_thorough};
 use jurist_algebra::number::Rational;
 use proptest::prelude::*;
 use serde_json::Value;
@@ -56,8 +56,10 @@ fn of_a_lag() {
 #[test]
 fn without_bound() {
     let options = ["K/(s+1)", "--free", "K", "--bound", "K=0.5..10", OBJECTIVE[0], OBJECTIVE[1]];
-    let (status, found) = tune(&options);
-    assert!(status == 0 && found["proved"].is_null(), "{found}");
+    if is_thorough() {
+        let (status, found) = tune(&options);
+        assert!(status == 0 && found["proved"].is_null(), "{found}");
+    }
     let run = Folder::new(&[]).jurist(&[&["tune"], &options[..]].concat());
     assert!(run.stdout.contains("\nlargest delay_margin: none, the loop is stable with any delay\n"), "{}", run.stdout);
 }

@@ -2,6 +2,7 @@
 
 use crate::helpers::model::read;
 use crate::helpers::number::ratio;
+use crate::helpers::thorough::count;
 use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
@@ -104,7 +105,7 @@ fn check_level(model: &Model, level: Level) -> Result<bool, TestCaseError> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(ProptestConfig::with_cases(count(12, 24) as u32))]
 
     #[test]
     fn best_levels_of_continuous_loops(poles in poles(false), zero in proptest::option::of(-9_i64..9), level in 0_usize..7) {

@@ -2,6 +2,7 @@
 
 use crate::helpers::folder::Folder;
 use crate::helpers::program::jurist;
+use crate::helpers::thorough::is_thorough;
 
 /// A PI controller for three equal lags.
 const PI: &str = "examples/pi-sensitivity.toml";
@@ -189,7 +190,8 @@ fn an_error_in_an_objective_underlines_the_word_that_is_wrong() {
 /// The radius 0 of a deadbeat loop stayed a bracket: gains of few digits were never 0.
 #[test]
 fn gains_that_are_nearly_zero_are_tried_as_zero() {
-    let out = told(&["z^3+k*z^2+q", "--free", "k", "--free", "q", "--objective", "min radius"]).1;
+    let polynomial = if is_thorough() { "z^3+k*z^2+q" } else { "z^2+k*z+q" };
+    let out = told(&[polynomial, "--free", "k", "--free", "q", "--objective", "min radius"]).1;
     assert!(out.contains("smallest radius: 0\n    at k = 0, q = 0\n"), "{out}");
     assert!(out.contains("type in k = 0, q = 0: radius 0, no loss\n") && !out.contains("between"), "{out}");
 }

@@ -4,6 +4,8 @@
 mod changes;
 #[path = "for_all/discs.rs"]
 mod discs;
+#[path = "for_all/python.rs"]
+mod python;
 #[path = "for_all/samples.rs"]
 mod samples;
 #[path = "for_all/truth.rs"]

@@ -22,6 +22,7 @@ pub use main_job::{MainJob, main_job, main_job_json, main_job_text, main_job_und
 pub use printed::{EQUATION_23, EQUATION_37, LIST_AFTER_36, Printed};
 pub use published::published_limits;
 pub use report::{NamedFigure, PaperReport, paper_report};
+pub use tables::errata;
 
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::Rational;

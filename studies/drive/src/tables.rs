@@ -34,8 +34,11 @@ fn right(printed: &[Printed], p: &CharacteristicPolynomial) -> usize {
     all.iter().filter(|c| c.outcome == Match::Rounded).count()
 }
 
-/// Everything printed that is not what it should be, found by comparison.
-pub(super) fn errata(model: &Model, budget: &Budget) -> Result<Table, Error> {
+/// Everything printed that is not what it should be, found by comparison: place, printed, exact, what is wrong.
+///
+/// # Errors
+/// [`Error`] when the budget runs out.
+pub fn errata(model: &Model, budget: &Budget) -> Result<Table, Error> {
     let (eq_23, eq_37) = (polynomial(model, "K_pwm", budget)?, polynomial(model, "T", budget)?);
     let mut table =
         Table::new("Errata, found by comparison with the exact values", &["where", "printed", "exact", "what"]);

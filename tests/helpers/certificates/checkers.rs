@@ -73,7 +73,7 @@ pub fn reject_or_find_true(
     assert!(is_true(&original), "{certificate}");
     let (mut rejected, mut accepted) = (0, 0);
     let mutations = mutations(&original);
-    let changes = mutations.one_in(every * count(3, 1)).filter(|changed| changed.get("model") == original.get("model"));
+    let changes = mutations.one_in(every * count(6, 1)).filter(|changed| changed.get("model") == original.get("model"));
     for (k, changed) in changes.enumerate() {
         let certificate = changed.to_text();
         let verdict = check(model, &certificate, &LIMITS);
@@ -90,7 +90,7 @@ pub fn reject_or_find_true(
             }
         }
     }
-    assert!(rejected >= least / count(3, 1) && accepted < rejected / 3, "{rejected} rejected, {accepted} accepted");
+    assert!(rejected >= least / count(6, 1) && accepted < rejected / 3, "{rejected} rejected, {accepted} accepted");
 }
 
 /// The stable set, whose certificate both checkers accept.

@@ -10,6 +10,7 @@ mod lines;
 mod loops;
 
 use crate::helpers::random::Random;
+use crate::helpers::thorough::count;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::error::Error;
@@ -103,14 +104,14 @@ fn reported<T>(case: usize, of: &Loop, check: impl FnOnce() -> Result<T, Error>)
 
 #[test]
 fn maps_over_the_integers() {
-    let seen = exact_maps(12, loops::rational);
-    assert!(seen.regions > 0 && seen.points > 50, "{seen:?}");
+    let seen = exact_maps(count(5, 12), loops::rational);
+    assert!(seen.regions > 0 && seen.points > count(20, 50), "{seen:?}");
 }
 
 #[test]
 fn maps_over_constants() {
-    let seen = exact_maps(8, loops::over_constants);
-    assert!(seen.regions > 0 && seen.points > 50, "{seen:?}");
+    let seen = exact_maps(count(3, 8), loops::over_constants);
+    assert!(seen.regions > 0 && seen.points > count(20, 50), "{seen:?}");
 }
 
 #[test]
