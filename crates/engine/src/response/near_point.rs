@@ -122,3 +122,46 @@ pub(super) fn magnitude(x: &Ball) -> Ball {
     let units = x.magnitude_units();
     Ball::from_units(units.clone(), units, x.bits())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use jurist_algebra::poly::Poly;
+    use proptest::prelude::*;
+
+    const BITS: u64 = 96;
+
+    proptest! {
+        /// A polynomial in a share is where the linear function of `2 t - 1` says.
+        #[test]
+        fn powers_of_a_share_are_near_a_linear_function(terms in prop::collection::vec(-50i64..50, 1..8), share in 0i64..=16) {
+            let numbers: Vec<Rational> = terms.iter().map(|c| Rational::from(*c)).collect();
+            let balls: Vec<Ball> = numbers.iter().map(|c| Ball::from_rational(c, BITS)).collect();
+            let Linear { middle, slopes, rest } = Linear::of_share(&balls);
+            let share = Rational::new(share.into(), 16.into());
+            let aside = &share + &share - Rational::ONE;
+            let line = middle.add(&slopes[0].mul(&Ball::from_rational(&aside, BITS)));
+            let range = line.widened(&rest.magnitude_units());
+            prop_assert!(range.contains(&Poly::new(numbers).eval(&share)));
+        }
+
+        /// The values and the derivatives at points of a disc and a box are in what is said of all of them.
+        #[test]
+        fn values_near_a_point_are_enclosed(
+            middles in prop::collection::vec(-20i64..20, 1..7), slopes in prop::collection::vec(-3i64..3, 7), at in -8i64..8, aside in -4i64..=4, parameter in -4i64..=4
+        ) {
+            let ball = |n: i64| Ball::from_integer(&n.into(), BITS);
+            let list: Vec<Linear> = middles.iter().zip(&slopes)
+                .map(|(c, s)| Linear { middle: ball(*c), slopes: vec![ball(*s)], rest: Ball::zero(BITS) }).collect();
+            let share = |n: i64, of: i64| Rational::new(n.into(), of.into());
+            let to = Complex { re: Ball::from_rational(&share(at, 4), BITS), im: Ball::zero(BITS) };
+            let radius = Ball::from_rational(&share(1, 4), BITS);
+            let [value, slope] = Shifted::new(&list, &to, 1, BITS).within(&radius);
+            let x = share(parameter, 4);
+            let p = Poly::new(middles.iter().zip(&slopes).map(|(c, s)| Rational::from(*c) + Rational::from(*s) * &x).collect());
+            let z = share(at, 4) + share(aside, 16);
+            prop_assert!(value.re.contains(&p.eval(&z)) && value.im.contains_zero());
+            prop_assert!(slope.re.contains(&p.derivative().eval(&z)) && slope.im.contains_zero());
+        }
+    }
+}
