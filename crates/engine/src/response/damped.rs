@@ -305,4 +305,23 @@ mod tests {
         let count = |k: i64| p.count_at(&Rational::new(k.into(), 10.into()), &budget).unwrap();
         assert_eq!([1, 240, 280].map(count), [4, 3, 1]);
     }
+
+    /// `z^2 - b z + b`: below 0 a real root leaves the spiral where the angle is `pi`, at `b = -e^2/(1 + e)` with `e = exp(-c pi)`. Newton's method may
+    /// go beyond, and numbers next to the value are counted.
+    #[test]
+    fn a_root_leaves_the_spiral_at_its_end() {
+        let budget = Budget::unlimited();
+        let polynomial = Poly::new([&[0, 1][..], &[0, -1], &[1]].map(UniPoly::from_i64).to_vec());
+        let p = ParametricPolynomial::from_integral(&polynomial, 2);
+        let set = stable_set(&p, &Range::default(), Shape::UnitDisc, &budget).unwrap();
+        let [interval] = set.intervals() else { panic!("{set:?}") };
+        let coefficients = polynomial.map(|c| MultiPoly::from_univariate(c, 0));
+        let lead = coefficients.coeff(2);
+        let p = SymbolicPolynomial::from_parts(&Symbols::new().into(), coefficients, lead, 2, Vec::new());
+        let p = OnSpiral::of(&p, &Rational::new(3.into(), 10.into())).unwrap();
+        let (found, open) = changes(&p, interval, &budget.within_work(1_000_000_000)).unwrap();
+        assert!(open.is_empty());
+        let decimals: Vec<String> = found.iter().map(|x| x.decimal(12)).collect();
+        assert_eq!(decimals, ["-0.101015879471", "0.463204411814"]);
+    }
 }

@@ -147,6 +147,9 @@ impl Constants {
 /// The edge is cut into `2^FIRST_LEVEL` arcs at first.
 pub(super) const FIRST_LEVEL: u64 = 5;
 
+/// Arcs of a count at a value: a root that is so near to the edge is told with more bits.
+const MOST_ARCS: usize = 1 << 13;
+
 impl OnSpiral {
     /// Of a closed loop in one parameter or none; `None` where a coefficient is not defined beside the parameter.
     pub fn of(p: &SymbolicPolynomial, damping: &Rational) -> Option<OnSpiral> {
@@ -214,7 +217,7 @@ impl OnSpiral {
         ROOTS_IN_SPIRAL.decide("counting roots inside a spiral", |bits| {
             budget.check()?;
             let spiral = self.spiral(bits);
-            budget.enter(|| self.over(&Values::of(value), &spiral)?[0].count_by(usize::MAX))
+            budget.enter(|| self.over(&Values::of(value), &spiral)?[0].count_by(MOST_ARCS))
         })
     }
 

@@ -228,9 +228,11 @@ impl<'s> BoxOnSpiral<'s> {
         let origin = Origin::of(&piece.arc.ends());
         let list = &self.coefficients[origin as usize];
         let near = Shifted::new(list, &origin.to(&piece.middle), self.parameters, bits);
-        // The direction of the value in the middle, in whose half plane all is to be.
-        let units = |x: &Ball| Ball::from_units(x.middle_units(), x.middle_units(), bits);
-        let towards = [units(&near.middles[0].re), units(&near.middles[0].im)];
+        // The direction of the value in the middle, in whose half plane all is to be: of a length about one, since numbers have bits after the point.
+        let middle = [near.middles[0].re.middle_units(), near.middles[0].im.middle_units()];
+        let size = middle.iter().map(Integer::bit_length).max().unwrap_or(0);
+        let longer = bits.saturating_sub(size);
+        let towards = middle.map(|x| x << longer).map(|x| Ball::from_units(x.clone(), x, bits));
         let length = magnitude(&towards[0]).add(&magnitude(&towards[1]));
         let across = near.slopes.iter().map(|slopes| magnitude(&dot(&towards, &slopes[0])));
         let across = across.fold(length.mul(&near.rests[0]), |sum, x| sum.add(&x));
