@@ -156,3 +156,38 @@ fn loops_with_several_modes_behind_a_hold_agree_with_a_grid_of_frequencies() {
     let without = Loop { pole: 9.0, modes: vec![[23.0, 0.15], [40.0, 0.02], [230.0, 0.07]], integrates: false };
     agrees(&without, 0.7);
 }
+
+/// The least damping of a root with a gain.
+fn damping((a, b, c): &(DMatrix<f64>, DVector<f64>, DVector<f64>), gain: f64) -> f64 {
+    let roots = (a - b * c.transpose() * gain).complex_eigenvalues();
+    roots.iter().map(|z| -z.ln().re / z.ln().norm()).fold(f64::INFINITY, f64::min)
+}
+
+/// Work of the answer: more is no answer in a second.
+const WORK: u64 = 2_000_000_000;
+
+/// The coefficients are enclosed in a gain: expanded ones have thousands of terms.
+#[test]
+#[ignore = "long: CI runs it"]
+fn the_gains_with_a_damping_of_loops_of_order_8_are_those_of_the_eigenvalues() {
+    let integrating = Loop { pole: 4.0, modes: vec![[12.0, 0.3], [63.0, 0.1], [170.0, 0.05]], integrates: true };
+    let without = Loop { pole: 9.0, modes: vec![[23.0, 0.15], [40.0, 0.02], [230.0, 0.07]], integrates: false };
+    for (of, least) in [(integrating, "0.04"), (without, "0.01")] {
+        let system = of.open_loop();
+        let limit = limit(&system);
+        let model = load(&of.text(1.0));
+        let required = Requirement::damping(parse_number(least).unwrap()).unwrap();
+        let problem = model.ask().free("K").problem().unwrap();
+        let budget = Budget::unlimited().within_work(WORK);
+        let set = problem.required_set(&[required], None, &budget).unwrap().into_value();
+        assert!(set.undecided.is_empty() && !set.intervals.is_empty(), "{set:?}");
+        let least: f64 = least.parse().unwrap();
+        for k in 1..40 {
+            let gain = limit * f64::from(k) / 40.0;
+            let value = parse_number(&format!("{gain:.12}")).unwrap();
+            let is_in = set.intervals.iter().any(|interval| interval.contains(&value));
+            let found = damping(&system, gain);
+            assert!((found - least).abs() < 1e-6 || is_in == (found > least), "{gain} {found}");
+        }
+    }
+}

@@ -275,7 +275,7 @@ fn required(
 ) -> Result<MapOrBoxes, EngineError> {
     if !asked.list.is_empty() {
         // That is said before the map is made.
-        let ring = problem.coefficient_ring(&context.budget)?;
+        let ring = problem.map_ring(&context.budget)?;
         for requirement in &asked.list {
             let coverage = Asked::Map.with_requirement(requirement, problem.time()).over(ring);
             // What is answered in part is asked.

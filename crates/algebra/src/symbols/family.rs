@@ -114,6 +114,10 @@ impl MatrixFamily {
 
     /// [`MatrixFamily::values`], of Taylor models over a part of a box that was looked at from those over the box.
     pub(super) fn values_near<S: Elementary>(&self, parameters: &[S], like: &S) -> Option<Vec<S>> {
+        if parameters.is_empty() {
+            let numbers = self.tiles.numbers(self, like.bits())?;
+            return Some(numbers.iter().map(|number| like.constant(number)).collect());
+        }
         let found = S::as_models(parameters).and_then(|models| self.tiles.values(self, models));
         found.and_then(S::of_models).or_else(|| self.values(parameters, like))
     }

@@ -3,7 +3,7 @@
 //! Which box of the grid serves for a part depends on the part alone, and not on what was asked before.
 
 use super::family::MatrixFamily;
-use crate::ball::{Ball, MultiTaylorModel};
+use crate::ball::{Ball, MultiTaylorModel, Series};
 use crate::number::{Integer, Rational};
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -45,7 +45,13 @@ type Key = (Vec<Side>, u64);
 
 /// What was found over boxes of the grid; `None` where something may not be defined.
 #[derive(Debug, Default)]
-pub(super) struct Tiles(Mutex<HashMap<Key, Option<Arc<Vec<MultiTaylorModel>>>>>);
+pub(super) struct Tiles {
+    models: Mutex<HashMap<Key, Found<MultiTaylorModel>>>,
+    /// Of a family without parameters, by bits after the point.
+    numbers: Mutex<HashMap<u64, Found<Ball>>>,
+}
+
+type Found<S> = Option<Arc<Vec<S>>>;
 
 impl Clone for Tiles {
     fn clone(&self) -> Self {
@@ -72,8 +78,20 @@ impl Tiles {
         None
     }
 
+    /// All values of a family without parameters.
+    pub fn numbers(&self, family: &MatrixFamily, bits: u64) -> Option<Arc<Vec<Ball>>> {
+        let known = || self.numbers.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(found) = known().get(&bits) {
+            return found.clone();
+        }
+        let values = family.values(&[], &Series::constant(&Ball::zero(bits), 1));
+        let found = values.map(|all| Arc::new(all.iter().map(|value| value.coefficients()[0].clone()).collect()));
+        known().insert(bits, found.clone());
+        found
+    }
+
     fn tile(&self, family: &MatrixFamily, key: Key) -> Option<Arc<Vec<MultiTaylorModel>>> {
-        let known = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = || self.models.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(found) = known().get(&key) {
             return found.clone();
         }

@@ -295,7 +295,7 @@ impl Problem {
         if method != MapMethod::Auto || requirements.is_empty() {
             return by(method, budget);
         }
-        let ring = self.coefficient_ring(budget)?;
+        let ring = self.map_ring(budget)?;
         let is_of_boxes = requirements.iter().any(|one| one.has_no_curve(self.time()));
         let has_exact = Asked::ExactMap.over(ring).is_answered() && !is_of_boxes;
         let has_boxes = self.window_over(ring, request, budget).is_ok();
@@ -314,6 +314,16 @@ impl Problem {
             (_, false) if has_exact => by(MapMethod::Exact, budget),
             (_, false) => by(MapMethod::Boxes, budget),
         }
+    }
+
+    /// What the coefficients are made of that a map is made by: of functions where exact ones would be long, and nothing but values is known.
+    ///
+    /// Cost: that of [`Problem::coefficient_ring`], but of a loop behind holds a second at most.
+    ///
+    /// # Errors
+    /// As [`Problem::coefficient_ring`].
+    pub fn map_ring(self: &Arc<Self>, budget: &Budget) -> Result<CoefficientRing, Error> {
+        self.in_boxes(budget)?.coefficient_ring(budget)
     }
 
     /// What boxes are to cover: of a loop that has an exact map no end is chosen.

@@ -61,17 +61,36 @@ impl Problem {
         Ok(self.enclosed_with_order(budget)?.map(|(parts, _)| parts))
     }
 
-    /// The whole loop with enclosed coefficients, where the parameter acts on all of it; `None` as in [`Problem::enclosed_parts`].
+    /// The whole loop with enclosed coefficients, where the parameter acts on all of it, or none is free; `None` as in [`Problem::enclosed_parts`].
     ///
     /// # Errors
     /// As [`Problem::enclosed_parts`].
     pub(crate) fn enclosed_whole(&self, budget: &Budget) -> Result<Option<SymbolicPolynomial>, Error> {
+        if self.free().is_empty() {
+            return self.enclosed_at_values(budget);
+        }
         let Some((EnclosedParts::Parts(mut parts), order)) = self.enclosed_with_order(budget)? else { return Ok(None) };
         let whole = parts.pop().filter(|p| p.formal_degree() == order);
         Ok(whole.map(|p| match self.parameter().nominal.clone() {
             Some(usual) => p.with_usual_value(usual),
             None => p,
         }))
+    }
+
+    /// The whole loop where all names have values.
+    fn enclosed_at_values(&self, budget: &Budget) -> Result<Option<SymbolicPolynomial>, Error> {
+        let Region::Disc(Bound::Number(radius)) = self.region() else { return Ok(None) };
+        let found = budget.enter(|| self.model().closed_loop_in_numbers(&[], self.set(), budget))??;
+        let is_held = |found: &InNumbers| found.symbols.has_flows() && !found.closed_loop.is_complex;
+        let Some(found) = found.filter(is_held) else { return Ok(None) };
+        budget.step("coefficients by enclosures");
+        Ok(budget.enter(|| {
+            let ClosedLoop { a, poles, .. } = found.closed_loop;
+            let values = found.symbols.enclosed(BITS)?;
+            are_nonzero(poles.iter().chain(a.entries().iter().map(RationalFunction::denominator)), 0, &values)?;
+            let nothing = RationalMatrix::zeros(a.rows(), a.rows());
+            Some(Arc::new(Part::linear(&Arc::new(found.symbols), a, nothing)?).polynomial(radius))
+        })?)
     }
 
     /// The parts, and the order of the loop.

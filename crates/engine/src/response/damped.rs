@@ -1,7 +1,7 @@
 //! The values of a parameter at which a root of a discrete loop enters or leaves the spiral of a damping.
 
 use super::on_roots::Changes;
-use super::spiral::{Arc, OnSpiral, Values, Walk};
+use super::spiral::{Arc, OnSpiral, Values, is_one_to_one};
 use crate::stability::subdivision::{BoxPart, Look, Order, Tally, subdivide};
 use crate::stability::{Bracket, Cause, End, StableInterval};
 use jurist_algebra::ball::Ball;
@@ -144,15 +144,22 @@ impl Search<'_> {
         // In steps: points of the edge are remembered with their bits.
         let more = (halvings * (self.p.degree() as u64 + 2)).next_multiple_of(BITS);
         let (bits, arcs) = (BITS + more, ARCS + halvings);
-        let open = match self.budget.enter(|| self.p.walk(&values, bits, arcs, MOST_OPEN))? {
-            Walk::Count(_) => return Ok(Some(Seen::Decided(None))),
-            Walk::Open(open) => open,
+        let spiral = self.p.spiral(bits);
+        let Some(own) = self.budget.enter(|| self.p.over(&values, &spiral))? else {
+            return Ok((part.halvings[0] < BOXES).then_some(Seen::Cut));
         };
+        if self.budget.enter(|| own[0].count())?.is_some() {
+            return Ok(Some(Seen::Decided(None)));
+        }
+        let open = self.budget.enter(|| own[0].open_arcs(arcs, MOST_OPEN))?;
+        if open.is_empty() {
+            return Ok(Some(Seen::Decided(None)));
+        }
         let angles = hull(&open);
         // An arc at 1 is open where 1 is a root at the end of the interval.
         let at_one = angles[0].is_zero();
         let touches_one = at_one && self.is_known_at_one(from, to);
-        if (!at_one || touches_one) && self.budget.enter(|| self.p.is_one_to_one(&angles, &values, bits))? {
+        if (!at_one || touches_one) && self.budget.enter(|| is_one_to_one(&own, &angles))? {
             // The only zero is the one at 1.
             if touches_one {
                 return Ok(Some(Seen::Decided(None)));
@@ -297,5 +304,24 @@ mod tests {
         assert_eq!(decimals, ["7.286368919065204252291676", "27.57670552299612977034143"]);
         let count = |k: i64| p.count_at(&Rational::new(k.into(), 10.into()), &budget).unwrap();
         assert_eq!([1, 240, 280].map(count), [4, 3, 1]);
+    }
+
+    /// `z^2 - b z + b`: below 0 a real root leaves the spiral where the angle is `pi`, at `b = -e^2/(1 + e)` with `e = exp(-c pi)`. Newton's method may
+    /// go beyond, and numbers next to the value are counted.
+    #[test]
+    fn a_root_leaves_the_spiral_at_its_end() {
+        let budget = Budget::unlimited();
+        let polynomial = Poly::new([&[0, 1][..], &[0, -1], &[1]].map(UniPoly::from_i64).to_vec());
+        let p = ParametricPolynomial::from_integral(&polynomial, 2);
+        let set = stable_set(&p, &Range::default(), Shape::UnitDisc, &budget).unwrap();
+        let [interval] = set.intervals() else { panic!("{set:?}") };
+        let coefficients = polynomial.map(|c| MultiPoly::from_univariate(c, 0));
+        let lead = coefficients.coeff(2);
+        let p = SymbolicPolynomial::from_parts(&Symbols::new().into(), coefficients, lead, 2, Vec::new());
+        let p = OnSpiral::of(&p, &Rational::new(3.into(), 10.into())).unwrap();
+        let (found, open) = changes(&p, interval, &budget.within_work(1_000_000_000)).unwrap();
+        assert!(open.is_empty());
+        let decimals: Vec<String> = found.iter().map(|x| x.decimal(12)).collect();
+        assert_eq!(decimals, ["-0.101015879471", "0.463204411814"]);
     }
 }

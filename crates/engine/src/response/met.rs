@@ -235,7 +235,7 @@ impl Problem {
         budget: &Budget,
     ) -> Result<bool, Error> {
         let is_at_cut = requirement.needs_cut() && requirement.signals().is_none();
-        if !is_at_cut || self.algebra_over_symbols(budget)?.is_complex() {
+        if !is_at_cut || (self.is_written_complex() && self.algebra_over_symbols(budget)?.is_complex()) {
             let met = self.requirements_met(std::slice::from_ref(requirement), at, budget)?;
             return Ok(met.iter().all(|found| found.met));
         }

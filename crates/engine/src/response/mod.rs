@@ -46,6 +46,7 @@ mod loop_functions;
 mod margin_ranges;
 mod margins;
 mod met;
+mod near_point;
 mod norm;
 mod on_axis;
 mod on_circle;

@@ -91,7 +91,8 @@ impl OverBox {
         let (symbols, asks) = match requirement.rule() {
             Rule::DeadTime(_) => return Ok(None),
             Rule::Sector(_) | Rule::Modulus { .. } => {
-                let algebra = whole.algebra_over_symbols(budget)?;
+                let in_boxes = whole.in_boxes(budget)?;
+                let algebra = in_boxes.algebra_over_symbols(budget)?;
                 let Some(d) = algebra.polynomial().filter(|_| algebra.symbols().delays().is_empty()) else {
                     return Ok(None);
                 };
@@ -101,7 +102,7 @@ impl OverBox {
                     Rule::Sector(damping) if shape == Shape::UnitDisc => Asks::Spiral {
                         from_one: budget.enter(|| from_one(&coefficients))?,
                         coefficients,
-                        spiral: Box::new(Spiral::new(damping)),
+                        spiral: Box::new(Spiral::of_boxes(damping)),
                     },
                     Rule::Sector(cosine) => Asks::Sector { coefficients, cosine: cosine.clone() },
                     Rule::Modulus { exponent } => Asks::Disc { coefficients, exponent: exponent.clone() },

@@ -312,7 +312,10 @@ impl Problem {
             return Err(Diagnostic::error(Code::Require, message).into());
         }
         let whole = self.without_region();
-        let closed = if whole.is_long(budget)? {
+        let closed = if whole.free().is_empty() {
+            let enclosed = |budget: &Budget| Ok(whole.enclosed_whole(budget)?.map(Some));
+            whole.exact_or_enclosed(budget, |budget| whole.symbolic(budget), enclosed)?
+        } else if whole.is_long(budget)? {
             match whole.enclosed_whole(budget)? {
                 Some(p) => Some(p),
                 None => whole.in_boxes(budget)?.symbolic(budget)?,

@@ -4,14 +4,14 @@
 //! `P(z0; p) + P'(z0; p) z0 (-c + j) t + ...` with coefficients that are nearly linear in the parameters. It keeps to the half plane about its value
 //! in the middle where nothing of this moves it as far. The turns of these half planes are those of its argument, for all points of the box.
 
-use super::affine::Affine;
-use super::along_circle::NearlyLinear;
+use super::near_point::{Linear, Shifted, magnitude, modulus};
 use super::spiral::{Arc, Complex, Constants, FIRST_LEVEL, Origin, point};
 use crate::stability::subdivision::{Halves, Look, Order, Tally, subdivide};
 use jurist_algebra::ball::{Ball, MultiTaylorModel};
 use jurist_algebra::limits::{Budget, checkpoint};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly};
+use std::sync::OnceLock;
 
 /// So many arcs are looked at.
 const MOST_ARCS: usize = 600;
@@ -22,29 +22,8 @@ const MOST_HALVINGS: u64 = 48;
 /// Bits after the point.
 const BITS: u64 = 256;
 
-/// A coefficient near a linear function of coordinates from -1 to 1.
-struct Linear {
-    middle: Ball,
-    slopes: Vec<Ball>,
-    /// A bound of how far it is off.
-    rest: Ball,
-    /// A bound of its modulus.
-    most: Ball,
-}
-
-impl Linear {
-    fn of(model: &MultiTaylorModel) -> Linear {
-        let Affine { middle, slopes, rest, bits } = model.affine();
-        let ball = |n: &Integer| Ball::from_units(n.clone(), n.clone(), bits).with_bits(BITS);
-        let most = slopes.iter().fold(&middle.abs() + &rest, |sum, slope| sum + slope.abs());
-        Linear {
-            middle: ball(&middle),
-            slopes: slopes.iter().map(ball).collect(),
-            rest: ball(&rest),
-            most: ball(&most),
-        }
-    }
-}
+/// So far all arcs that are open are halved, however many.
+const EVERYWHERE: u64 = 8;
 
 /// The coefficients of the powers of `z - 1`.
 pub(super) fn from_one(coefficients: &[MultiPoly]) -> Vec<MultiPoly> {
@@ -52,41 +31,6 @@ pub(super) fn from_one(coefficients: &[MultiPoly]) -> Vec<MultiPoly> {
     let mut moved = Poly::new(coefficients.to_vec()).compose(&one_more).into_coeffs();
     moved.resize(coefficients.len(), MultiPoly::zero());
     moved
-}
-
-/// A sum of coefficients times complex numbers.
-struct Sum {
-    middle: Complex,
-    slopes: Vec<Complex>,
-    rest: Ball,
-}
-
-impl Sum {
-    fn of<'c>(terms: impl Iterator<Item = (&'c Linear, Complex)>, parameters: usize) -> Sum {
-        let mut sum = Sum {
-            middle: Complex::zero(BITS),
-            slopes: (0..parameters).map(|_| Complex::zero(BITS)).collect(),
-            rest: Ball::zero(BITS),
-        };
-        for (c, z) in terms {
-            sum.middle = sum.middle.plus(&z.scaled(&c.middle));
-            for (slope, own) in sum.slopes.iter_mut().zip(&c.slopes) {
-                *slope = slope.plus(&z.scaled(own));
-            }
-            sum.rest = sum.rest.add(&modulus(&z).mul(&c.rest));
-        }
-        sum
-    }
-}
-
-/// A bound of the modulus: the sum of those of both parts.
-fn modulus(z: &Complex) -> Ball {
-    magnitude(&z.re).add(&magnitude(&z.im))
-}
-
-fn magnitude(x: &Ball) -> Ball {
-    let units = x.magnitude_units();
-    Ball::from_units(units.clone(), units, x.bits())
 }
 
 /// The part along a direction, times its length.
@@ -103,7 +47,7 @@ struct Piece<'s> {
 
 impl Halves for Piece<'_> {
     fn halves(self, _: usize) -> [Self; 2] {
-        let turns = &self.spiral.levels[(self.arc.level - FIRST_LEVEL) as usize].turns;
+        let turns = &self.spiral.level(self.arc.level).turns;
         let mut middles = turns.iter().map(|turn| self.middle.times(turn));
         self.arc.parts().map(|arc| {
             let middle = middles.next().expect("two halves");
@@ -113,6 +57,7 @@ impl Halves for Piece<'_> {
 }
 
 /// What arcs of one length have in common.
+#[derive(Debug)]
 struct Level {
     /// Half of the angle.
     half: Ball,
@@ -123,34 +68,57 @@ struct Level {
 }
 
 /// The edge of a damping.
+#[derive(Debug)]
 pub(super) struct Spiral {
-    constants: Constants,
+    pub constants: Constants,
+    halvings: u64,
     /// The middles of the arcs of the first level.
-    first: Vec<Complex>,
-    levels: Vec<Level>,
+    first: OnceLock<Vec<Complex>>,
+    levels: OnceLock<Vec<Level>>,
 }
 
 impl Spiral {
-    /// Cost: exponentials for each arc of the first level and each level.
-    pub fn new(damping: &Rational) -> Spiral {
-        let constants = Constants::new(damping, BITS);
-        let middle = |k: i64| point(&Rational::dyadic(&Integer::from(2 * k + 1), FIRST_LEVEL + 1), &constants);
-        let first = (0..1i64 << FIRST_LEVEL).map(middle).collect();
-        let one = Ball::from_integer(&Integer::ONE, BITS);
-        let level = |level: u64| {
+    /// For boxes of parameters.
+    pub fn of_boxes(damping: &Rational) -> Spiral {
+        Spiral::new(damping, BITS, MOST_HALVINGS)
+    }
+
+    /// With so many bits, for arcs that are halved so often at most.
+    ///
+    /// Cost: when arcs are first asked for exponentials for each arc of the first level and each level.
+    pub fn new(damping: &Rational, bits: u64, halvings: u64) -> Spiral {
+        let constants = Constants::new(damping, bits);
+        Spiral { constants, halvings, first: OnceLock::new(), levels: OnceLock::new() }
+    }
+
+    fn first(&self) -> &[Complex] {
+        let middle = |k: i64| point(&Rational::dyadic(&Integer::from(2 * k + 1), FIRST_LEVEL + 1), &self.constants);
+        self.first.get_or_init(|| (0..1i64 << FIRST_LEVEL).map(middle).collect())
+    }
+
+    fn level(&self, level: u64) -> &Level {
+        let constants = &self.constants;
+        let one = Ball::from_integer(&Integer::ONE, constants.bits);
+        let of = |level: u64| {
             let half = constants.pi.shifted(-(level as i64) - 1);
             let farthest = half.mul(&constants.decay.add(&one));
             let quarter = Rational::dyadic(&Integer::ONE, level + 2);
-            let turns = [-&quarter, quarter].map(|angle| point(&angle, &constants));
+            let turns = [-&quarter, quarter].map(|angle| point(&angle, constants));
             Level { half, farthest, turns }
         };
-        let levels = (FIRST_LEVEL..=MOST_HALVINGS).map(level).collect();
-        Spiral { constants, first, levels }
+        let all = self.levels.get_or_init(|| (FIRST_LEVEL..=self.halvings).map(of).collect());
+        &all[(level - FIRST_LEVEL) as usize]
+    }
+
+    /// `(-c + j) z`, the derivative by the angle.
+    fn turned(&self, z: &Complex) -> Complex {
+        let one = Ball::from_integer(&Integer::ONE, self.constants.bits);
+        Complex { re: self.constants.decay.neg(), im: one }.times(z)
     }
 
     fn pieces(&self) -> impl Iterator<Item = Piece<'_>> {
         let arc = |at: i64| Arc { at: Integer::from(at), level: FIRST_LEVEL };
-        let middles = self.first.iter().cloned();
+        let middles = self.first().iter().cloned();
         (0..).map(arc).zip(middles).map(|(arc, middle)| Piece { arc, middle, spiral: self })
     }
 }
@@ -174,8 +142,12 @@ enum Seen {
 
 impl<'s> BoxOnSpiral<'s> {
     /// Of the coefficients of the powers of `z` and of `z - 1` in a box.
-    pub fn new([from_zero, from_one]: [&[MultiTaylorModel]; 2], spiral: &'s Spiral) -> BoxOnSpiral<'s> {
-        let coefficients = [from_zero, from_one].map(|list| list.iter().map(Linear::of).collect::<Vec<_>>());
+    pub fn new(both: [&[MultiTaylorModel]; 2], spiral: &'s Spiral) -> BoxOnSpiral<'s> {
+        BoxOnSpiral::of(both.map(|list| list.iter().map(|c| Linear::of(c, BITS)).collect::<Vec<_>>()), spiral)
+    }
+
+    /// The same of coefficients near linear functions.
+    pub fn of(coefficients: [Vec<Linear>; 2], spiral: &'s Spiral) -> BoxOnSpiral<'s> {
         let parameters = coefficients[0].first().map_or(0, |c| c.slopes.len());
         BoxOnSpiral { coefficients, parameters, spiral }
     }
@@ -184,16 +156,20 @@ impl<'s> BoxOnSpiral<'s> {
     ///
     /// Cost: values on some dozen arcs, where the box is small beside the distance of the roots.
     pub fn count(&self) -> Option<usize> {
+        self.count_by(MOST_ARCS)
+    }
+
+    /// The same by so many arcs at most.
+    pub fn count_by(&self, most: usize) -> Option<usize> {
         let mut found: Vec<(Rational, [Integer; 2])> = Vec::new();
         let look = |piece: &mut Piece, tally: Tally| {
-            checkpoint(BITS * self.coefficients[0].len() as u64);
             Ok(match self.seen(piece) {
                 Seen::Clear(towards) => {
                     let [from, _] = piece.arc.ends();
                     found.push((from, towards));
                     Look::Decided(())
                 }
-                Seen::TooLong if tally.looks() < MOST_ARCS && piece.arc.level < MOST_HALVINGS => Look::Cut(0),
+                Seen::TooLong if tally.looks() < most && piece.arc.level < self.spiral.halvings => Look::Cut(0),
                 Seen::TooLong | Seen::Lost => Look::Open(()),
             })
         };
@@ -203,67 +179,88 @@ impl<'s> BoxOnSpiral<'s> {
         half_turns(found.into_iter().map(|(_, towards)| towards))
     }
 
+    /// The arcs, from the first on, on which the polynomial is not told from zero: halved so often at most, and only while no more of them are open.
+    pub fn open_arcs(&self, halvings: u64, most: usize) -> Vec<Arc> {
+        let mut open: Vec<Arc> = Vec::new();
+        // How many arcs of the last level and of this one were halved.
+        let (mut level, mut before, mut here) = (FIRST_LEVEL, 0, 0);
+        let look = |piece: &mut Piece, _: Tally| {
+            if piece.arc.level > level {
+                (level, before, here) = (piece.arc.level, here, 0);
+            }
+            if level > EVERYWHERE && before > most {
+                open.push(piece.arc.clone());
+                return Ok(Look::<(), ()>::Decided(()));
+            }
+            if !matches!(self.seen(piece), Seen::Clear(_)) {
+                if level < halvings.min(self.spiral.halvings) {
+                    here += 1;
+                    return Ok(Look::Cut(0));
+                }
+                open.push(piece.arc.clone());
+            }
+            Ok(Look::Decided(()))
+        };
+        // Nothing of this ends the work but what was entered.
+        subdivide(self.spiral.pieces(), Order::Breadth, &Budget::unlimited(), look).ok();
+        open.sort_by_cached_key(|arc| arc.ends()[0].clone());
+        open
+    }
+
+    /// The value on all of an arc about an angle, and the derivative by the angle there.
+    pub fn on_arc(&self, angles: &[Rational; 2]) -> [Complex; 2] {
+        let with = &self.spiral.constants;
+        let middle = point(&angles[0].midpoint(&angles[1]), with);
+        // |dz/dphi| = |z| |-c + j| <= 1 + c.
+        let half = Ball::from_rational(&(&angles[1] - &angles[0]), with.bits).mul(&with.pi).shifted(-1);
+        let radius = magnitude(&half.mul(&with.decay.add(&Ball::from_integer(&Integer::ONE, with.bits))));
+        let origin = Origin::of(angles);
+        let list = &self.coefficients[origin as usize];
+        let [value, slope] = Shifted::new(list, &origin.to(&middle), self.parameters, with.bits).within(&radius);
+        let units = radius.magnitude_units();
+        let z = Complex { re: middle.re.widened(&units), im: middle.im.widened(&units) };
+        [value, slope.times(&self.spiral.turned(&z))]
+    }
+
     fn seen(&self, piece: &Piece) -> Seen {
+        let bits = self.spiral.constants.bits;
+        checkpoint(bits * self.coefficients[0].len() as u64);
         let origin = Origin::of(&piece.arc.ends());
         let list = &self.coefficients[origin as usize];
-        let w = origin.to(&piece.middle);
-        let mut powers = vec![Complex { re: Ball::from_integer(&Integer::ONE, BITS), im: Ball::zero(BITS) }];
-        for k in 1..list.len() {
-            powers.push(powers[k - 1].times(&w));
-        }
-        let value = Sum::of(list.iter().zip(powers.iter().cloned()), self.parameters);
-        // The direction of the value in the middle, in whose half plane all is to be.
-        let units = |x: &Ball| Ball::from_units(x.middle_units(), x.middle_units(), BITS);
-        let towards = [units(&value.middle.re), units(&value.middle.im)];
+        let near = Shifted::new(list, &origin.to(&piece.middle), self.parameters, bits);
+        // The direction of the value in the middle, in whose half plane all is to be: of a length about one, since numbers have bits after the point.
+        let middle = [near.middles[0].re.middle_units(), near.middles[0].im.middle_units()];
+        let size = middle.iter().map(Integer::bit_length).max().unwrap_or(0);
+        let longer = bits.saturating_sub(size);
+        let towards = middle.map(|x| x << longer).map(|x| Ball::from_units(x.clone(), x, bits));
         let length = magnitude(&towards[0]).add(&magnitude(&towards[1]));
-        let across = value.slopes.iter().map(|slope| magnitude(&dot(&towards, slope)));
-        let across = across.fold(length.mul(&value.rest), |sum, x| sum.add(&x));
-        let left = dot(&towards, &value.middle).sub(&across);
+        let across = near.slopes.iter().map(|slopes| magnitude(&dot(&towards, &slopes[0])));
+        let across = across.fold(length.mul(&near.rests[0]), |sum, x| sum.add(&x));
+        let left = dot(&towards, &near.middles[0]).sub(&across);
         if !is_positive(&left) {
             return Seen::Lost;
         }
-        match self.moved(list, (&powers, &w), piece, (&towards, &length)) {
+        match self.moved(&near, piece, (&towards, &length)) {
             Some(moved) if is_positive(&left.sub(&moved)) => Seen::Clear(towards.each_ref().map(Ball::middle_units)),
             _ => Seen::TooLong,
         }
     }
 
     /// How far in a direction, times its length, the polynomial moves on the arc at most; `None` where the arc is long.
-    fn moved(
-        &self,
-        list: &[Linear],
-        (powers, w): (&[Complex], &Complex),
-        piece: &Piece,
-        (towards, length): (&[Ball; 2], &Ball),
-    ) -> Option<Ball> {
-        let with = &self.spiral.constants;
-        let Level { half, farthest, .. } = &self.spiral.levels[(piece.arc.level - FIRST_LEVEL) as usize];
+    fn moved(&self, near: &Shifted, piece: &Piece, (towards, length): (&[Ball; 2], &Ball)) -> Option<Ball> {
+        let Level { half, farthest, .. } = self.spiral.level(piece.arc.level);
         if farthest.upper() > Rational::dyadic(&Integer::ONE, 1) {
             return None;
         }
-        let times = |k: usize| Integer::from(k as u64);
-        let slope = list.iter().enumerate().skip(1).map(|(k, c)| {
-            let power = &powers[k - 1];
-            (c, Complex { re: power.re.scaled(&times(k)), im: power.im.scaled(&times(k)) })
-        });
-        let Sum { middle, slopes, rest } = Sum::of(slope, self.parameters);
-        let turn = Complex { re: with.decay.neg(), im: Ball::from_integer(&Integer::ONE, BITS) };
-        let along = middle.times(&piece.middle).times(&turn).scaled(half);
-        let size = modulus(&piece.middle);
-        let off = slopes.iter().map(modulus).fold(rest, |sum, slope| sum.add(&slope));
-        // |exp(x) - 1 - x| <= |x|^2 exp(|x|)/2, |exp(x) - 1| <= |x| exp(|x|), and exp(|x|) <= 2.
-        let bend = size.mul(farthest).mul(farthest);
-        let radius = size.mul(farthest).shifted(1);
-        let outermost = modulus(w).add(&radius);
-        let mut power = Ball::from_integer(&Integer::ONE, BITS);
-        let mut second = Ball::zero(BITS);
-        for (k, c) in list.iter().enumerate().skip(2) {
-            second = second.add(&c.most.mul(&power).scaled(&times(k * (k - 1))));
-            power = power.mul(&outermost);
-        }
-        let beside = off.mul(&size).mul(farthest);
-        let bent = modulus(&middle).add(&off).mul(&bend).add(&second.mul(&radius).mul(&radius).shifted(-1));
-        Some(magnitude(&dot(towards, &along)).add(&length.mul(&beside.add(&bent))))
+        let Some(slope) = near.middles.get(1) else { return Some(Ball::zero(half.bits())) };
+        let along = slope.times(&self.spiral.turned(&piece.middle)).scaled(half);
+        // |exp(x) - 1 - x| <= |x|^2 exp(|x|)/2 and exp(|x|) <= 2.
+        let straight = modulus(&piece.middle).mul(farthest);
+        let bend = straight.mul(farthest);
+        let radius = straight.add(&bend);
+        let beside = near.off(1).mul(&radius).add(&modulus(slope).mul(&bend));
+        let others = near.beyond(2, false, &radius);
+        Some(magnitude(&dot(towards, &along)).add(&length.mul(&beside.add(&others))))
     }
 }
 
@@ -318,7 +315,7 @@ mod tests {
             let minus = Integer::from(-1);
             vec![r.mul(&square).scaled(&minus), square.add(&r.mul(&sum)), r.add(&sum).scaled(&minus), one]
         };
-        let spiral = Spiral::new(&q(damping));
+        let spiral = Spiral::of_boxes(&q(damping));
         BoxOnSpiral::new([&own("0"), &own("1")], &spiral).count()
     }
 

@@ -278,7 +278,7 @@ impl Held<'_> {
         Some(Algebra::of_values(polynomial, self.sample_time.cloned(), symbols))
     }
 
-    /// The closed loop is `A + E C`, and its polynomial `D0 + N`: both are linear in the gains where `E C` and what these add have the rank 1 together.
+    /// The closed loop is `A + l E C` with `l = 1`, and its polynomial `D0 + l N`, for `E C` has the rank 1.
     fn opened(&self, names: &OfNames) -> Option<OpenedByValues> {
         let system = self.system;
         let (n, column) = (system.a.rows(), system.inputs.len().max(system.e.columns()).checked_sub(1)?);
@@ -289,27 +289,26 @@ impl Held<'_> {
         }
         let ((constant, of_open), (back, of_back)) = (names.split(&system.a)?, names.split(&returned)?);
         let nothing = RationalMatrix::zeros(n, n);
-        // For each slope: whether it belongs to D0 or to N, and its gain.
+        // For each slope: whether it has the factor l, and its gain.
         let gains = || names.gains.iter().copied().map(Some);
         let parts = gains().zip(of_open).map(|(gain, m)| (false, gain, m));
         let parts = parts.chain([(true, None, back)]).chain(gains().zip(of_back).map(|(gain, m)| (true, gain, m)));
         let parts: Vec<(bool, Option<usize>, RationalMatrix)> = parts.filter(|(_, _, m)| *m != nothing).collect();
         let slopes: Vec<RationalMatrix> = parts.iter().map(|(_, _, m)| m.clone()).collect();
-        if self.degree(names, &slopes) != 1 {
-            return None;
+        let degree = self.degree(names, &slopes);
+        let Values { family, symbols, poles } = self.values(names, constant, slopes, degree)?;
+        let mut both = [(); 2].map(|()| vec![MultiPoly::zero(); n]);
+        for (m, exponents) in family.monomials().iter().enumerate() {
+            let of = || parts.iter().zip(exponents).filter(|(_, e)| **e > 0);
+            let back: u32 = of().filter(|((is_back, ..), _)| *is_back).map(|(_, e)| e).sum();
+            // Higher powers of l have the coefficient 0.
+            let Some(own) = both.get_mut(back as usize) else { continue };
+            let powers = of().flat_map(|((_, gain, _), e)| std::iter::repeat_n(*gain, *e as usize)).flatten();
+            let gains = powers.fold(MultiPoly::one(), |product, i| product.times(&MultiPoly::variable(i)));
+            for (k, c) in own.iter_mut().enumerate() {
+                *c = c.plus(&gains.times(&names.symbol(m * n + k)));
+            }
         }
-        let Values { family, symbols, poles } = self.values(names, constant, slopes, 1)?;
-        let mut both = [false, true].map(|is_back| {
-            let own = |k: usize| {
-                let first = if is_back { MultiPoly::zero() } else { names.symbol(k) };
-                parts.iter().enumerate().filter(|(_, part)| part.0 == is_back).fold(first, |sum, (m, (_, gain, _))| {
-                    let value = names.symbol((m + 1) * n + k);
-                    sum.plus(&gain.map_or_else(|| value.clone(), |i| value.times(&MultiPoly::variable(i))))
-                })
-            };
-            (0..n).map(own).collect::<Vec<MultiPoly>>()
-        });
-        debug_assert_eq!(family.monomials().len(), parts.len() + 1);
         both[0].push(MultiPoly::one());
         let [denominator, numerator] = both.map(in_z);
         let undefined = poles.iter().fold(MultiPoly::one(), |product, pole| product.times(pole));

@@ -246,3 +246,17 @@ fn the_whole_loop_has_enclosed_coefficients_where_the_parameter_acts_on_all_of_i
     }
     assert!(free(&model, &["T"]).enclosed_whole(&budget).unwrap().is_none());
 }
+
+#[test]
+fn a_loop_at_values_has_enclosed_coefficients() {
+    let budget = Budget::unlimited();
+    let model = model(&[("3", "1/5"), ("5", "3/10")], " + ");
+    for k in ["1/5", "40"] {
+        let problem = model.ask().set("K", number(k)).problem().unwrap();
+        let whole = problem.enclosed_whole(&budget).unwrap().expect("it is held");
+        let exact = problem.symbolic(&budget).unwrap().unwrap();
+        assert_eq!(whole.formal_degree(), exact.formal_degree());
+        let [found, expected] = [&whole, &exact].map(|p| p.at(&Rational::ZERO, problem.shape(), &budget).unwrap());
+        assert_eq!(found, expected, "{k}");
+    }
+}
