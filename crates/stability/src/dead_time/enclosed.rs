@@ -2,7 +2,7 @@
 //!
 //! What is proved with the bounds of all coefficients holds for the constants themselves.
 
-use super::family::FamilyLoop;
+use super::family::{FamilyLoop, piece};
 use super::family_function::{Function, Line};
 use super::family_zeros::zeros;
 use super::gain::{GainCells, GainLoop, NotSolved, gain_cells};
@@ -253,7 +253,6 @@ const TRIALS: usize = 6;
 pub(super) fn enclosed_gains(
     family: &FamilyLoop,
     lower: &Rational,
-    piece: &dyn Fn(&Range) -> Result<Result<GainCells, Never>, NotSolved>,
     budget: &Budget,
 ) -> Result<Result<GainCells, Never>, NotSolved> {
     let Some(gain) = family.middle_gain() else { return Err(NotSolved::Unbounded) };
@@ -278,7 +277,7 @@ pub(super) fn enclosed_gains(
         if !zeros(&function, &growing, &Rational::ZERO, &least, budget)?.is_some_and(|found| found.is_empty()) {
             continue;
         }
-        let mut cells = match piece(&Range { lower: Some(lower.clone()), upper: Some(most.clone()) })? {
+        let mut cells = match piece(family, &Range { lower: Some(lower.clone()), upper: Some(most.clone()) }, budget)? {
             Ok(cells) => cells,
             Err(never) => return Ok(Err(never)),
         };

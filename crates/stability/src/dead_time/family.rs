@@ -182,12 +182,10 @@ fn cells_of(family: &FamilyLoop, range: &Range, budget: &Budget) -> Result<Resul
     match (&range.lower, &range.upper) {
         (Some(_), Some(_)) => piece(family, range, budget),
         _ if moves => Err(NotSolved::Unbounded),
-        (Some(lower), None) if family.enclosed.is_some() => {
-            match enclosed_gains(family, lower, &|range| piece(family, range, budget), budget) {
-                Err(NotSolved::Unbounded) => unbounded(family, range, budget),
-                found => found,
-            }
-        }
+        (Some(lower), None) if family.enclosed.is_some() => match enclosed_gains(family, lower, budget) {
+            Err(NotSolved::Unbounded) => unbounded(family, range, budget),
+            found => found,
+        },
         _ => unbounded(family, range, budget),
     }
 }
@@ -295,7 +293,11 @@ fn inverted(mut cells: GainCells) -> Result<GainCells, NotSolved> {
 }
 
 /// A range with both ends.
-fn piece(family: &FamilyLoop, range: &Range, budget: &Budget) -> Result<Result<GainCells, Never>, NotSolved> {
+pub(super) fn piece(
+    family: &FamilyLoop,
+    range: &Range,
+    budget: &Budget,
+) -> Result<Result<GainCells, Never>, NotSolved> {
     let (Some(lower), Some(upper)) = (&range.lower, &range.upper) else { return Err(NotSolved::Unbounded) };
     if lower >= upper {
         return Ok(Ok(GainCells { points: Vec::new(), right: vec![None] }));
