@@ -5,6 +5,7 @@ use crate::helpers::model::{example, load};
 use crate::helpers::number::{number, ratio};
 use crate::helpers::program::jurist;
 use crate::helpers::random::Random;
+use crate::helpers::thorough::count;
 use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
@@ -201,4 +202,28 @@ fn no_part_of_a_set_lies_beyond_the_end_of_stability() {
     );
     let found = required(&model, "T", ["7", "9"], &Requirement::phase_margin(&number("60")).unwrap());
     assert!(found.value().intervals.is_empty(), "{:?}", found.value());
+}
+
+/// Exponentials that stay whole did not tell on which names they depend: the open loop was taken for a multiple of `a`, and "a <= 2.29" was printed where all
+/// values have a modulus margin of 1/2.
+#[test]
+fn a_factor_that_is_inside_of_functions_is_no_gain() {
+    for plant in ["14/5*a/((s + a)*(s + 3/5))", "a/(s*(s + a))", "2*a^2/(s^2 + a*s + a^2)"] {
+        let model = load(&format!(
+            "time = 'discrete'\n[parameters]\na = {{ nominal = 2, min = '1/10', max = 10 }}\n[loop]\ninputs = ['r']\noutputs = ['y']\n\
+             [[block]]\nname = 'plant'\ninput = 'r - y'\noutput = 'y'\ntransfer = '{plant}'\ndiscretize = {{ method = 'zoh', T = '7/20' }}\n"
+        ));
+        let kinds = [Requirement::modulus_margin(number("103/200")), Requirement::phase_margin(&number("40"))];
+        for requirement in kinds.into_iter().take(count(1, 2)) {
+            let requirement = requirement.unwrap();
+            let answer = required(&model, "a", ["1/10", "10"], &requirement);
+            let set = answer.value();
+            assert!(set.undecided.is_empty(), "{plant}: {set:?}");
+            for tenth in [2, 5, 8, 11, 17, 23, 24, 29, 37, 46, 55, 71, 88] {
+                let value = ratio(tenth, 10);
+                let is_in = set.intervals.iter().any(|interval| interval.contains(&value));
+                assert_eq!(is_in, is_met(&model, "a", &value, &requirement), "{plant}, a = {value}: {set:?}");
+            }
+        }
+    }
 }

@@ -70,8 +70,8 @@ fn one_name_behind_a_hold_has_the_factor_of_its_required_set() {
              transfer = 'K*a/((s + a)*(s + b))'\ndiscretize = {{ method = 'zoh', T = '7/20' }}\n"
         ))
     };
-    for (model, name) in [(line("14/5", "2", "3/5"), "a"), (line("5/2", "3", "19/10"), "K")] {
-        let requirement = Requirement::modulus_margin(number("1/5")).unwrap();
+    for (model, name, least) in [(line("14/5", "3", "3/5"), "a", "103/200"), (line("5/2", "3", "19/10"), "K", "1/5")] {
+        let requirement = Requirement::modulus_margin(number(least)).unwrap();
         let set = keeping(&model, &[name]).problem().unwrap();
         let set =
             set.required_set(std::slice::from_ref(&requirement), None, &Budget::unlimited()).unwrap().into_value();
@@ -80,7 +80,8 @@ fn one_name_behind_a_hold_has_the_factor_of_its_required_set() {
         let found = answer.value();
         assert!(found.decision.is_stable() && found.binding.is_some());
         let (factor, side) = (found.factor.as_ref().unwrap(), &found.sides[0]);
-        let ends = [&set.intervals[0].lower, &set.intervals[0].upper].into_iter().flatten();
+        let around = set.intervals.iter().find(|interval| interval.contains(side.nominal())).unwrap();
+        let ends = [&around.lower, &around.upper].into_iter().flatten();
         let distances = ends.filter(|end| matches!(end, RequiredEnd::Requirement { .. })).map(|end| {
             let end = end.value().refined_to_digits(12).enclosure().0;
             ((end - side.nominal()).abs() / &side.widths()[0]).to_f64_approximate()

@@ -46,9 +46,10 @@ impl Symbols {
             self.flows.push(scaled);
             self.flows.len() - 1
         });
+        let is_moving = self.flows[of].entries().iter().any(|f| self.moves(f));
         RationalMatrix::from_fn(n, n, |row, column| {
             if leads[row * n + column] {
-                return self.unnamed(Meaning::Flow { of, row, column }, format!("e{of}_{row}_{column}"));
+                return self.unnamed(Meaning::Flow { of, row, column }, format!("e{of}_{row}_{column}"), is_moving);
             }
             if row == column { RationalFunction::one() } else { RationalFunction::zero() }
         })
@@ -61,7 +62,8 @@ impl Symbols {
         RationalMatrix::from_fn(m.rows(), m.columns(), |i, j| match &m[(i, j)] {
             f if is_long(f) => {
                 let name = format!("v{}", self.table.len());
-                self.unnamed(Meaning::Value(f.clone()), name)
+                let is_moving = self.moves(f);
+                self.unnamed(Meaning::Value(f.clone()), name, is_moving)
             }
             f => f.clone(),
         })
@@ -87,13 +89,13 @@ impl Symbols {
     }
 
     /// A symbol that nobody sees, without a look for one that means the same.
-    fn unnamed(&mut self, meaning: Meaning, name: String) -> RationalFunction {
+    fn unnamed(&mut self, meaning: Meaning, name: String, is_moving: bool) -> RationalFunction {
         if let Meaning::Flow { .. } = meaning
             && let Some(known) = self.table.iter().position(|s| s.name == name && s.meaning == meaning)
         {
             return RationalFunction::variable(self.kept.len() + known);
         }
-        self.table.push(Symbol { name, meaning, is_moving: false });
+        self.table.push(Symbol { name, meaning, is_moving });
         RationalFunction::variable(self.kept.len() + self.table.len() - 1)
     }
 
