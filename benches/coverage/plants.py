@@ -296,6 +296,22 @@ def plant_pole(r):
     return made(r, "pole of the plant", "discrete", blocks, at, (some(r, 1, 4, 2), some(r, 1, 2, 2)), sample_time=T)
 
 
+def plant_pole_and_gain(r):
+    words, poly = factors(r, r.randint(1, 2))
+    T = Fraction(r.randint(1, 8), 20)
+    blocks = [
+        "transfer = 'W*(1 + L/(10*(z - 1)))'",
+        f"transfer = '3*K/((s + K)*{words})'\ndiscretize = {{ method = 'zoh', T = '{T}' }}",
+    ]
+
+    def at(p):
+        num, den = held([3 * p["K"]], np.polymul([1, p["K"]], poly), float(T))
+        pi = p["W"] * np.array([1, p["L"] / 10 - 1])
+        return Numbers(np.polymul(pi, real(num)), np.polymul([1, -1], real(den)), T=float(T))
+
+    return made(r, "pole of the plant that is a factor", "discrete", blocks, at, (some(r, 1, 4, 2), some(r, 1, 2, 2)), sample_time=T)
+
+
 def root_of_name(r):
     words, poly = factors(r, 2)
     k = some(r, 2, 8, 1)
@@ -400,7 +416,7 @@ def varying_order(r):
 GENERATORS = {
     "rational": [continuous, discrete, feedthrough, complex_continuous],
     "constants": [behind_hold, hold_with_delay, square_root, pulses, complex_hold],
-    "functions": [sample_time, sample_time_with_delay, plant_pole, root_of_name],
+    "functions": [sample_time, sample_time_with_delay, plant_pole, plant_pole_and_gain, root_of_name],
     "dead time": [dead_time, free_dead_time, neutral],
     "dead time beside constants": [dead_time_beside, dead_time_beside_pi, free_dead_time_beside],
     "dead time beside functions": [dead_time_beside_function],

@@ -24,14 +24,14 @@ use std::sync::Arc;
 /// use jurist_algebra::symbols::{Definition, Symbols};
 /// use jurist_stability::Range;
 /// use jurist_stability::dead_time::{ConstantParts, FamilyLoop, Line, family_cells};
-/// // s + K exp(-pi s): stable for 0 < K < 1/2
+/// // s + K pi exp(-s): stable for 0 < K < 1/2
 /// let mut symbols = Symbols::new();
 /// let pi = symbols.insert("pi", Definition::Pi);
 /// let (one, gain) = (MultiPoly::one(), MultiPoly::variable(0));
 /// let parts = ConstantParts::new(vec![vec![MultiPoly::zero(), one], vec![gain.times(&MultiPoly::variable(pi + 1))]], symbols);
 /// let family = FamilyLoop::enclosed(parts, Line::constant(1.into()), Line::constant(0.into()));
 /// let cells = family_cells(&family, &Range::between(Some(0.into()), Some(2.into())), &Budget::unlimited()).unwrap().unwrap();
-/// assert_eq!(cells.points[0].value.decimal(10), "0.5");
+/// assert_eq!(cells.points[0].value.decimal(10), "0.5000000000");
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct ConstantParts {
