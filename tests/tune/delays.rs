@@ -144,6 +144,8 @@ proptest! {
     #[test]
     #[ignore = "long: CI runs it"]
     fn as_margins_say(a in 1_i64..6, b in 1_i64..6, k in 1_i64..8) {
+        // Where the limit 2 a^3/(b - 2 a) is the lower bound itself no search tells that no gain is stable.
+        prop_assume!(b <= 2 * a || 2 * a * a * a != k * (b - 2 * a));
         let line = format!("K*(s + {b})/(s*(s + {a})^2)");
         let bounds = format!("K={k}..{}", k + 6);
         let run = Folder::new(&[]).jurist(&["tune", "--json", "--digits", "15", &line, "--free", "K", "--bound", &bounds, "--gap", "2%", OBJECTIVE[0], OBJECTIVE[1]]);
