@@ -280,36 +280,26 @@ def sample_time_with_delay(r):
     return sample_time(r, True)
 
 
-def plant_pole(r):
+def plant_pole(r, is_factor=False):
     words, poly = factors(r, r.randint(1, 2))
     T = Fraction(r.randint(1, 8), 20)
+    gain = "3*K" if is_factor else "3"
     blocks = [
         "transfer = 'W*(1 + L/(10*(z - 1)))'",
-        f"transfer = '3/((s + K)*{words})'\ndiscretize = {{ method = 'zoh', T = '{T}' }}",
+        f"transfer = '{gain}/((s + K)*{words})'\ndiscretize = {{ method = 'zoh', T = '{T}' }}",
     ]
 
     def at(p):
-        num, den = held([3.0], np.polymul([1, p["K"]], poly), float(T))
+        num, den = held([3 * (p["K"] if is_factor else 1.0)], np.polymul([1, p["K"]], poly), float(T))
         pi = p["W"] * np.array([1, p["L"] / 10 - 1])
         return Numbers(np.polymul(pi, real(num)), np.polymul([1, -1], real(den)), T=float(T))
 
-    return made(r, "pole of the plant", "discrete", blocks, at, (some(r, 1, 4, 2), some(r, 1, 2, 2)), sample_time=T)
+    kind = "pole of the plant that is a factor" if is_factor else "pole of the plant"
+    return made(r, kind, "discrete", blocks, at, (some(r, 1, 4, 2), some(r, 1, 2, 2)), sample_time=T)
 
 
 def plant_pole_and_gain(r):
-    words, poly = factors(r, r.randint(1, 2))
-    T = Fraction(r.randint(1, 8), 20)
-    blocks = [
-        "transfer = 'W*(1 + L/(10*(z - 1)))'",
-        f"transfer = '3*K/((s + K)*{words})'\ndiscretize = {{ method = 'zoh', T = '{T}' }}",
-    ]
-
-    def at(p):
-        num, den = held([3 * p["K"]], np.polymul([1, p["K"]], poly), float(T))
-        pi = p["W"] * np.array([1, p["L"] / 10 - 1])
-        return Numbers(np.polymul(pi, real(num)), np.polymul([1, -1], real(den)), T=float(T))
-
-    return made(r, "pole of the plant that is a factor", "discrete", blocks, at, (some(r, 1, 4, 2), some(r, 1, 2, 2)), sample_time=T)
+    return plant_pole(r, is_factor=True)
 
 
 def root_of_name(r):

@@ -91,3 +91,29 @@ fn one_name_behind_a_hold_has_the_factor_of_its_required_set() {
         assert!(low <= nearest + 1e-9 && nearest <= high + 1e-9 && high - low < 1e-3 * high, "{low} {nearest} {high}");
     }
 }
+
+/// A box that ended where the gain margin is just not met was called good.
+#[test]
+fn a_box_that_ends_with_a_requirement_is_good_where_it_is_met_at_its_end() {
+    let lag = |plant: &str, k: &str| {
+        read(&format!(
+            "time = 'discrete'\n[parameters]\nK = {{ nominal = '{k}' }}\n[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\nname = 'plant'\n\
+             input = 'r - y'\noutput = 'y'\ntransfer = '{plant}'\ndiscretize = {{ method = 'zoh', T = '7/20' }}\n"
+        ))
+    };
+    // More than 2 for K > -1/2; at least 1/5 for K >= -1.52.
+    let gain = (lag("K/(s + 1)", "1/2"), Requirement::gain_margin(&number("2")).unwrap(), ["1", "1.01"]);
+    let circle = Requirement::modulus_margin(number("1/5")).unwrap();
+    let circle = (lag("3*K/((s + 3)*(s + 19/10))", "5/2"), circle, ["4.02", "4.03"]);
+    for (is_closed, (model, requirement, [tie, beyond])) in [(false, gain), (true, circle)] {
+        for (width, is_good) in [(tie, is_closed), (beyond, false)] {
+            let request = ToleranceRequest::new([("K", width.parse().unwrap())]);
+            let request = request.require([requirement.clone()], None);
+            let answer = model.ask().tolerance(&request, &Budget::unlimited()).unwrap();
+            let found = answer.value();
+            assert_eq!(found.decision.is_stable(), is_good, "{width}: {found:?}");
+            let factor = found.factor.as_ref().unwrap();
+            assert_eq!(factor.lower >= Rational::ONE, is_good, "{width}: {factor:?}");
+        }
+    }
+}

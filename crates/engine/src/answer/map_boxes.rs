@@ -316,9 +316,9 @@ impl Problem {
         }
     }
 
-    /// What the coefficients are made of that a map is made by: of functions where exact ones would be long, and nothing but values is known.
+    /// The ring of the coefficients that a map is made with: functions, where exact polynomials would be long and coefficients are known by their values.
     ///
-    /// Cost: that of [`Problem::coefficient_ring`], but of a loop behind holds a second at most.
+    /// Cost: that of [`Problem::coefficient_ring`]; of a loop behind holds that of a counted trial of exact polynomials.
     ///
     /// # Errors
     /// As [`Problem::coefficient_ring`].

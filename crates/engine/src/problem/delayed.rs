@@ -11,6 +11,7 @@ use jurist_algebra::limits::Budget;
 use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
+use jurist_algebra::symbols::Symbols;
 
 /// The characteristic function `sum P_k(s) z^k`, `z = exp(-tau s)`, of a loop with dead times that are multiples of one.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,39 +68,18 @@ impl DelayedLoop {
             Bound::Number(decay) => Line::constant(decay.clone()),
             Bound::Free => Line { slope: Rational::ONE, offset: Rational::ZERO },
         };
-        if !constants.is_empty() {
-            let over =
-                budget.enter(|| DelayedLoop::over_constants(polynomial, constants, power_of, (delay, decay)))??;
-            return Ok(Some(over));
-        }
         budget.enter(|| {
-            let (scaled, common) = cleared(&polynomial.coefficients, |v| power_of(v).is_some())?;
-            let mut parts: Vec<Vec<UniPoly>> = Vec::new();
-            let order = scaled.len();
-            for (j, f) in scaled.iter().enumerate() {
-                // Numerator over an integer: numbers are put in only now.
-                let bottom = f.denominator().as_constant().expect("the common denominator is divided out");
-                assert!(bottom.is_one(), "a numerator takes the integers");
-                for (monomial, c) in f.numerator().terms() {
-                    let (mut k, mut exponent) = (0usize, 0usize);
-                    for (variable, &e) in monomial.exponents().iter().enumerate() {
-                        match power_of(variable) {
-                            Some(multiple) => k += multiple * e as usize,
-                            None => exponent += e as usize,
-                        }
-                    }
-                    if k > MOST_MULTIPLES {
-                        return Err(too_many());
-                    }
-                    while parts.len() <= k {
-                        parts.push(vec![UniPoly::zero(); order]);
-                    }
-                    parts[k][j] = parts[k][j].plus(&UniPoly::monomial(c.clone(), exponent));
-                }
+            let (parts, common) = sorted(polynomial, &constants, power_of)?;
+            let divisors = || polynomial.poles.iter().chain([&common]);
+            if !constants.is_empty() {
+                let placed = |p: &MultiPoly| p.map_variables(|v| constants.position(v).map_or(0, |i| i + 1));
+                let divisors = divisors().map(placed).collect();
+                return DelayedLoop::over_constants(parts, divisors, constants.table, (delay, decay)).map(Some);
             }
+            let in_parameter = |c: &MultiPoly| c.to_univariate(0).expect("the parameter alone is left");
+            let parts = parts.iter().map(|part| part.iter().map(in_parameter).collect()).collect();
             let pole = |p: &MultiPoly| p.to_univariate(0).filter(|p| !p.is_constant());
-            let mut poles: Vec<UniPoly> = polynomial.poles.iter().filter_map(pole).collect();
-            poles.extend(pole(&common));
+            let poles = divisors().filter_map(pole).collect();
             Ok(Some(DelayedLoop { parts, over_constants: None, delay, decay, poles }.without_content()))
         })?
     }
@@ -131,35 +111,13 @@ impl DelayedLoop {
         self
     }
 
-    /// The loop whose polynomial has constants that are not rational; `power_of` is the multiple of the dead time that a variable stands for.
+    /// The loop whose coefficients have constants that are not rational behind the parameter, beside what it is divided by.
     fn over_constants(
-        polynomial: &CharacteristicPolynomial,
-        constants: Constants,
-        power_of: impl Fn(usize) -> Option<usize>,
+        mut parts: Vec<Vec<MultiPoly>>,
+        divisors: Vec<MultiPoly>,
+        table: Symbols,
         (delay, decay): (BaseDelay, Line),
     ) -> Result<DelayedLoop, Error> {
-        let (scaled, common) = cleared(&polynomial.coefficients, |v| power_of(v).is_some())?;
-        let mut parts: Vec<Vec<MultiPoly>> = Vec::new();
-        for (j, f) in scaled.iter().enumerate() {
-            for (monomial, c) in f.numerator().terms() {
-                let mut own = vec![0u32; 1 + constants.len()];
-                let mut k = 0usize;
-                for (variable, &e) in monomial.exponents().iter().enumerate() {
-                    match (power_of(variable), constants.position(variable)) {
-                        (Some(multiple), _) => k += multiple * e as usize,
-                        (None, Some(constant)) => own[1 + constant] += e,
-                        (None, None) => own[0] += e,
-                    }
-                }
-                if k > MOST_MULTIPLES {
-                    return Err(too_many());
-                }
-                while parts.len() <= k {
-                    parts.push(vec![MultiPoly::zero(); scaled.len()]);
-                }
-                parts[k][j] = parts[k][j].plus(&MultiPoly::from_terms([(own, c.clone())]));
-            }
-        }
         let content = parts.iter().flatten().fold(MultiPoly::zero(), |g, p| g.gcd(p));
         if !content.is_constant() {
             parts.iter_mut().flatten().for_each(|p| *p = p.div_exact(&content).expect("the content divides"));
@@ -168,12 +126,11 @@ impl DelayedLoop {
         if parts.iter().skip(1).flatten().all(MultiPoly::is_zero) {
             return Err(refused_beside());
         }
-        let own = |p: &MultiPoly| p.map_variables(|v| constants.position(v).map_or(0, |i| i + 1));
         let mut poles = Vec::new();
-        for pole in polynomial.poles.iter().chain([&common]).map(own).chain([content]) {
-            poles.extend(pole_beside(&pole, &constants)?);
+        for divisor in divisors.into_iter().chain([content]) {
+            poles.extend(pole_beside(&divisor, &table)?);
         }
-        let over_constants = Some(ConstantParts::new(parts, constants.table));
+        let over_constants = Some(ConstantParts::new(parts, table));
         Ok(DelayedLoop { parts: Vec::new(), over_constants, delay, decay, poles })
     }
 
@@ -258,16 +215,54 @@ impl DelayedLoop {
     }
 }
 
+/// The coefficients of `z^k s^j` at `[k][j]` times their common denominator, in the parameter (0) and in constants behind it, and that denominator; `power_of` is
+/// the power of `z` that a variable stands for.
+///
+/// # Errors
+/// `E-dead-time` where the loop divides by a delay, and for dead times that are too large multiples of their greatest common divisor.
+fn sorted(
+    polynomial: &CharacteristicPolynomial,
+    constants: &Constants,
+    power_of: impl Fn(usize) -> Option<usize>,
+) -> Result<(Vec<Vec<MultiPoly>>, MultiPoly), Error> {
+    let (scaled, common) = cleared(&polynomial.coefficients, |v| power_of(v).is_some())?;
+    let mut parts: Vec<Vec<MultiPoly>> = Vec::new();
+    for (j, f) in scaled.iter().enumerate() {
+        // Numerator over an integer: numbers are put in only now.
+        let bottom = f.denominator().as_constant().expect("the common denominator is divided out");
+        assert!(bottom.is_one(), "a numerator takes the integers");
+        for (monomial, c) in f.numerator().terms() {
+            let mut own = vec![0u32; 1 + constants.len()];
+            let mut k = 0usize;
+            for (variable, &e) in monomial.exponents().iter().enumerate() {
+                match (power_of(variable), constants.position(variable)) {
+                    (Some(multiple), _) => k += multiple * e as usize,
+                    (None, Some(constant)) => own[1 + constant] += e,
+                    (None, None) => own[0] += e,
+                }
+            }
+            if k > MOST_MULTIPLES {
+                return Err(too_many());
+            }
+            while parts.len() <= k {
+                parts.push(vec![MultiPoly::zero(); scaled.len()]);
+            }
+            parts[k][j] = parts[k][j].plus(&MultiPoly::from_terms([(own, c.clone())]));
+        }
+    }
+    Ok((parts, common))
+}
+
 /// A polynomial in the parameter (0) and in constants as what must not vanish; `None` where it does not anyway.
 ///
 /// # Errors
 /// `E-dead-time` where it depends on both, and where the constants may make it vanish.
-fn pole_beside(pole: &MultiPoly, constants: &Constants) -> Result<Option<UniPoly>, Error> {
+fn pole_beside(pole: &MultiPoly, constants: &Symbols) -> Result<Option<UniPoly>, Error> {
     if pole.variables().iter().all(|v| *v == 0) {
         return Ok(pole.to_univariate(0).filter(|p| !p.is_constant()));
     }
     let is_number = pole.degree_in(0) == 0;
-    let value = || constants.table.enclose(&pole.map_variables(|v| v - 1), BITS_OF_POLE);
+    let value = || constants.enclose(&pole.map_variables(|v| v - 1), BITS_OF_POLE);
     if is_number && !value().contains_zero() { Ok(None) } else { Err(refused_beside()) }
 }
 

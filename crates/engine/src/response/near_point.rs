@@ -22,7 +22,7 @@ impl Linear {
         Linear { middle: ball(&middle), slopes: slopes.iter().map(ball).collect(), rest: ball(&rest) }
     }
 
-    /// A polynomial in the share `t` from 0 to 1 of an interval, the last coefficient of which holds what is left out, as a function of `2 t - 1`.
+    /// A linear function of `2 t - 1`, and how far a polynomial in `t` is from it for `t` from 0 to 1. The error of a Taylor polynomial is in its last coefficient.
     pub fn of_share(terms: &[Ball]) -> Linear {
         let (bits, half) = (terms[0].bits(), |x: &Ball| x.shifted(-1));
         let Linear { mut middle, mut rest, .. } = Linear::anywhere(&terms[0]);

@@ -147,7 +147,7 @@ impl Constants {
 /// The edge is cut into `2^FIRST_LEVEL` arcs at first.
 pub(super) const FIRST_LEVEL: u64 = 5;
 
-/// Arcs of a count at a value: a root that is so near to the edge is told with more bits.
+/// A count at a value cuts the edge into so many arcs at most. Where a root near the edge needs more arcs, the count is tried with more bits.
 const MOST_ARCS: usize = 1 << 13;
 
 impl OnSpiral {

@@ -2,7 +2,7 @@
 //!
 //! What is proved with the bounds of all coefficients holds for the constants themselves.
 
-use super::family::{FamilyLoop, piece};
+use super::family::{FamilyLoop, piece, trimmed};
 use super::family_function::{Function, Line};
 use super::family_zeros::zeros;
 use super::gain::{GainCells, GainLoop, NotSolved, gain_cells};
@@ -92,20 +92,14 @@ impl PartialEq for Enclosed {
 }
 
 impl FamilyLoop {
-    /// The loop of coefficients over constants.
+    /// The loop of coefficients over constants, as [`FamilyLoop::new`] has that of exact ones.
+    ///
+    /// Cost: an enclosure of each coefficient; those with more bits are made when digits are asked for.
     ///
     /// # Panics
     /// When all coefficients are zero.
-    pub fn enclosed(mut parts: ConstantParts, tau: Line, decay: Line) -> FamilyLoop {
-        let all = &mut parts.coefficients;
-        let order = all.iter().filter_map(|part| part.iter().rposition(|c| !c.is_zero())).max();
-        let order = order.expect("the function is not zero");
-        all.iter_mut().for_each(|part| part.resize(order + 1, MultiPoly::zero()));
-        while all.last().is_some_and(|part| part.iter().all(MultiPoly::is_zero)) {
-            all.pop();
-        }
-        let first = all.iter().position(|part| part.iter().any(|c| !c.is_zero())).expect("the function is not zero");
-        all.drain(..first);
+    pub fn enclosed(parts: ConstantParts, tau: Line, decay: Line) -> FamilyLoop {
+        let parts = ConstantParts { coefficients: trimmed(parts.coefficients), ..parts };
         rounded_loop(&Arc::new(parts), &tau, &decay, CONSTANTS_BESIDE_DEAD_TIME.first)
     }
 
@@ -137,14 +131,9 @@ impl FamilyLoop {
         self.enclosed.as_ref().map_or(&[], |enclosed| &enclosed.errors)
     }
 
-    /// Whether a coefficient is exact at a value.
-    fn is_exact_at(&self, [k, j]: [usize; 2], value: &Rational) -> bool {
-        self.errors().get(k).is_none_or(|part| part[j].sign_at(&value.abs()).is_eq())
-    }
-
     /// Whether the coefficients of `s^0` are exact at a value.
     pub(super) fn is_exact_at_zero(&self, value: &Rational) -> bool {
-        (0..self.parts.len()).all(|k| self.is_exact_at([k, 0], value))
+        self.errors().iter().all(|part| part[0].sign_at(&value.abs()).is_eq())
     }
 
     /// The characteristic function along the line.
@@ -200,8 +189,8 @@ impl FamilyLoop {
         Some(r)
     }
 
-    /// A loop without parameter as that at 0 of a loop whose delayed terms are multiplied by `1 + p`. Its zeros are regular, so that one that is near to
-    /// the line is told from one on it.
+    /// The loop with a parameter `p`: all delayed terms are multiplied by `1 + p`. At `p = 0` it is the loop itself. A root that crosses the line has one value
+    /// of `p`, and Newton's method encloses this value; where the enclosure does not contain 0 no root is on the line.
     fn with_a_factor(&self) -> FamilyLoop {
         let doubled = |parts: &[Vec<UniPoly>]| -> Vec<Vec<UniPoly>> {
             let factor = |k: usize, c: &UniPoly| if k == 0 { c.clone() } else { c.plus(&c.shifted_up(1)) };

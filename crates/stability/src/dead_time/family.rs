@@ -50,16 +50,8 @@ impl FamilyLoop {
     ///
     /// # Panics
     /// When all of them are zero.
-    pub fn new(mut parts: Vec<Vec<UniPoly>>, tau: Line, decay: Line) -> FamilyLoop {
-        let order = parts.iter().filter_map(|part| part.iter().rposition(|c| !c.is_zero())).max();
-        let order = order.expect("the function is not zero");
-        parts.iter_mut().for_each(|part| part.resize(order + 1, UniPoly::zero()));
-        while parts.last().is_some_and(|part| part.iter().all(UniPoly::is_zero)) {
-            parts.pop();
-        }
-        let first = parts.iter().position(|part| part.iter().any(|c| !c.is_zero())).expect("the function is not zero");
-        parts.drain(..first);
-        FamilyLoop { parts, enclosed: None, tau, decay, is_stretched: false }
+    pub fn new(parts: Vec<Vec<UniPoly>>, tau: Line, decay: Line) -> FamilyLoop {
+        FamilyLoop { parts: trimmed(parts), enclosed: None, tau, decay, is_stretched: false }
     }
 
     /// The quasi-polynomial at one value, from the line; `None` where it vanishes identically.
@@ -132,6 +124,22 @@ impl FamilyLoop {
         let reversed = move |c: &UniPoly| c.reversed(degree);
         self.mapped(reversed, self.tau.clone())
     }
+}
+
+/// Parts of one length, without powers of `z` before the first part and after the last one.
+///
+/// # Panics
+/// When all coefficients are zero.
+pub(super) fn trimmed<R: Domain>(mut parts: Vec<Vec<R>>) -> Vec<Vec<R>> {
+    let order = parts.iter().filter_map(|part| part.iter().rposition(|c| !c.is_zero())).max();
+    let order = order.expect("the function is not zero");
+    parts.iter_mut().for_each(|part| part.resize(order + 1, R::zero()));
+    while parts.last().is_some_and(|part| part.iter().all(R::is_zero)) {
+        parts.pop();
+    }
+    let first = parts.iter().position(|part| part.iter().any(|c| !c.is_zero())).expect("the function is not zero");
+    parts.drain(..first);
+    parts
 }
 
 /// The cells of a range of the parameter, or why there is none in which the loop is stable.

@@ -229,7 +229,7 @@ fn end_of_domain(family: &FamilyLoop, value: &Rational, budget: &Budget) -> Resu
         return Ok(end);
     }
     note_axis(&mut end, &p.content(), budget)?;
-    if p.without_delay().coeff(0).is_zero() {
+    if p.without_delay().coeff(0).is_zero() && family.is_exact_at_zero(value) {
         end.causes.insert(Cause::RootAtZero);
     }
     if p.order() < family.order() {

@@ -102,7 +102,7 @@ fn limits_over_pi_are_those_in_closed_form() {
     let cells = family_cells(&family, &gains, &budget).unwrap().unwrap();
     assert_eq!(number(&cells.points[0].value.decimal(60)), Rational::ONE);
     assert_eq!((cells.right[0], *cells.right.last().unwrap()), (Some(0), None));
-    // At the limit nothing is told, beside it all is.
+    // At the limit the count stays undecided, and beside it every count is known.
     assert!(matches!(family.count(&1.into(), &budget), Err(NotCounted::Stopped(_))));
     let near = number("1e-60");
     for (value, right) in [(Rational::ONE - &near, 0), (Rational::ONE + &near, 2)] {

@@ -101,9 +101,11 @@ impl<F: Family> FamilyBox<'_, F> {
                 if !is_known {
                     return Ok(None);
                 }
-                let Some(factor) = self.required_up_to(requirement, &end, direction)? else { return Ok(None) };
-                if self.budget.enter(|| end.compare_rational(&Rational::ONE).is_lt())? {
-                    found.decision = BoxDecision::NotStable { witness: factor.witness.clone() };
+                let Some(mut factor) = self.required_up_to(requirement, &end, direction)? else { return Ok(None) };
+                // A requirement that is met at its end is met on the edge of a box that ends there; of another one the witness is on that edge.
+                match factor.upper.as_ref().is_some_and(|upper| *upper <= Rational::ONE) {
+                    true => found.decision = BoxDecision::NotStable { witness: factor.witness.clone() },
+                    false => factor.lower = factor.lower.max(Rational::ONE),
                 }
                 found.factor = Some(factor);
             }
