@@ -6,10 +6,12 @@ use crate::helpers::random::Random;
 use crate::helpers::thorough::count;
 use jurist::Ask;
 use jurist_algebra::limits::{Budget, Stop};
-use jurist_algebra::number::Rational;
+use jurist_algebra::number::{Enclosure, Rational};
+use jurist_algebra::real::Real;
 use jurist_engine::answer::{BoxRequest, MapMethod, MapOrBoxes, Verdict};
 use jurist_engine::error::{Code, Error};
 use jurist_engine::model::Model;
+use jurist_engine::response::{Margins, RequiredInterval, Requirement};
 use jurist_engine::stability::plane::boxes::BoxVerdict;
 use jurist_engine::stability::{Range, StableSet};
 
@@ -112,14 +114,126 @@ fn boxes_and_tolerances_agree_with_decisions_at_points() {
 }
 
 #[test]
-fn functions_of_a_free_name_and_margins_are_refused() {
+fn functions_of_a_free_name_are_refused() {
     let model = feedback("exp(-s/2)/(s + sqrt(L + 1))");
-    let refused = |found: Result<(), Error>| match found {
-        Err(Error::Refused(refused)) => assert_eq!(refused.code(), Code::DeadTime),
-        other => panic!("{other:?}"),
-    };
     let budget = Budget::unlimited();
-    refused(keeping(&model, &["L"]).stable_set(&budget).map(|_| ()));
-    refused(model.ask().margins(None, &Rational::ZERO, &budget).map(|_| ()));
+    match keeping(&model, &["L"]).stable_set(&budget) {
+        Err(Error::Refused(refused)) => assert_eq!(refused.code(), Code::DeadTime),
+        other => panic!("{:?}", other.map(|_| ())),
+    }
     assert!(keeping(&model, &["K"]).stable_set(&budget).is_ok());
+}
+
+/// The margins at a gain.
+fn margins(model: &Model, gain: &str) -> Margins {
+    model.ask().set("K", number(gain)).margins(None, &Rational::ZERO, &Budget::unlimited()).unwrap().into_value()
+}
+
+/// All margins, each within a short interval: factors, phase, delay, and the greatest moduli.
+fn enclosures(margins: &Margins) -> Vec<Option<Enclosure>> {
+    let stable = margins.stable.as_ref().expect("a stable loop");
+    let of = |value: &Real| {
+        let (low, high) = value.refined_to_digits(20).enclosure();
+        Enclosure::new(low, high)
+    };
+    let mut out: Vec<Option<Enclosure>> =
+        [&stable.gain.lower, &stable.gain.upper].map(|end| end.as_ref().map(|end| of(&end.value))).into();
+    out.push(stable.phase.degrees(80));
+    out.push(margins.delay_seconds(80));
+    out.extend(
+        [Some(&stable.modulus), Some(&stable.peak_complementary), stable.disk.alpha.as_ref()].map(|v| v.map(of)),
+    );
+    out
+}
+
+#[test]
+fn margins_of_an_integrator_with_a_gain_of_pi_are_those_in_closed_form() {
+    // Modulus one at pi/2, where the dead time turns by 45 degrees.
+    let found = enclosures(&margins(&feedback("pi*exp(-s/2)/s"), "1/2"));
+    let known = ["2", "45", "1/2"].map(number);
+    for (value, known) in found[1..4].iter().zip(known) {
+        let value = value.as_ref().unwrap();
+        assert!(value.contains(&known) && value.upper() - value.lower() < number("1e-18"), "{known}");
+    }
+}
+
+#[test]
+fn margins_and_peaks_are_those_of_numbers_beside_the_constants() {
+    let mut random = Random::new(20_261_129);
+    let near = number("1e-7");
+    let is_near =
+        |a: &Enclosure, b: &Enclosure| (a.lower() - b.lower()).abs() < &near * &(Rational::ONE + a.lower().abs());
+    let mut seen = 0;
+    for _ in 0..count(8, 80) {
+        let (transfers, _) = random_transfer(&mut random);
+        let models = transfers.each_ref().map(|transfer| feedback(transfer));
+        let gain = ["1/10", "1/3", "1"][random.below(3)];
+        let found = models.each_ref().map(|model| {
+            let question = model.ask().set("K", number(gain));
+            question.margins(None, &Rational::ZERO, &Budget::unlimited()).map(|answer| answer.into_value())
+        });
+        let [Ok(own), Ok(known)] = found else {
+            assert!(found.iter().all(Result::is_err), "{transfers:?}");
+            continue;
+        };
+        let phases = [&own, &known].map(|margins| margins.crossings.phase.len());
+        assert!(phases[0] == phases[1] && own.stable.is_some() == known.stable.is_some(), "{transfers:?}");
+        if own.stable.is_none() {
+            continue;
+        }
+        seen += 1;
+        let peak = |model: &Model| {
+            let answer = model.ask().set("K", number(gain)).norm("r", "y", &Budget::unlimited()).unwrap();
+            let (low, high) = answer.value().peak.as_ref().unwrap().value.refined_to_digits(20).enclosure();
+            Some(Enclosure::new(low, high))
+        };
+        let both = [(&own, &models[0]), (&known, &models[1])].map(|(margins, model)| {
+            let mut all = enclosures(margins);
+            all.push(peak(model));
+            all
+        });
+        for (a, b) in both[0].iter().zip(&both[1]) {
+            match (a, b) {
+                (Some(a), Some(b)) => assert!(is_near(a, b), "{transfers:?} {gain} {a:?} {b:?}"),
+                (None, None) => {}
+                _ => panic!("{transfers:?} {gain}"),
+            }
+        }
+    }
+    assert!(seen > count(8, 80) / 4, "{seen}");
+}
+
+#[test]
+fn sets_with_requirements_are_those_of_numbers_beside_the_constants() {
+    let transfers = ["2*sqrt(3)*exp(-s/5)/(s*(s/sqrt(3) + 1))", "2*1.73205080757*exp(-s/5)/(s*(s/1.73205080757 + 1))"];
+    let models = transfers.map(feedback);
+    let required = [
+        Requirement::modulus_margin(ratio(1, 2)).unwrap(),
+        Requirement::phase_margin(&Rational::from(40)).unwrap(),
+        Requirement::delay_margin(ratio(1, 10)).unwrap(),
+    ];
+    for requirement in &required[..count(1, 3)] {
+        let found = models.each_ref().map(|model| {
+            let problem = keeping(model, &["K"]).problem().unwrap();
+            let set = problem.required_set(std::slice::from_ref(requirement), None, &Budget::unlimited()).unwrap();
+            let ends = |interval: &RequiredInterval| {
+                [&interval.lower, &interval.upper].map(|end| end.as_ref().map(|end| end.value().decimal(7)))
+            };
+            set.value().intervals.iter().map(ends).collect::<Vec<_>>()
+        });
+        assert!(!found[0].is_empty() && found[0] == found[1], "{} {found:?}", requirement.name());
+    }
+}
+
+#[test]
+fn a_delay_margin_of_an_integrator_with_a_gain_of_pi_is_required_up_to_a_rational_gain() {
+    // pi K/s has the delay margin 1/(2 K), with dead time of 1/20 less by it.
+    let least = [Requirement::delay_margin(ratio(1, 4)).unwrap()];
+    for (transfer, end) in [("pi/s", "2.00000000000"), ("pi*exp(-s/20)/s", "1.66666666667")] {
+        let problem = keeping(&feedback(transfer), &["K"]).problem().unwrap();
+        let set = problem.required_set(&least, None, &Budget::unlimited()).unwrap();
+        let [interval] = set.value().intervals.as_slice() else { panic!("{:?}", set.value()) };
+        assert_eq!(interval.upper.as_ref().unwrap().value().decimal(12), end);
+        assert!(interval.upper.as_ref().unwrap().is_closed());
+    }
 }

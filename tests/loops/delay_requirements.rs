@@ -216,7 +216,7 @@ fn what_is_not_known_is_refused() {
     };
     assert!(refused(&series("time = 'discrete'", "1/(z - 1)", ""), "K", "1").contains("needs its sample time"));
     assert!(refused(&series(SAMPLED, "1/(z - 1)", ""), "K", "100").contains("more than 24 samples"));
-    assert!(refused(&continuous("1/(s + sqrt(2))"), "K", "1").contains("decided at points only"));
+    assert!(refused(&continuous("1/(s + sqrt(K + 1))"), "K", "1").contains("decided at points only"));
     let held = read(
         "time = 'discrete'\nsample_time = 'T'\n[parameters]\nT = { nominal = 0.5, min = 0.1, max = 1 }\n[loop]\ninputs = ['r']\noutputs = ['y']\n\
          [[block]]\ninput = 'r - y'\noutput = 'u'\ngain = 1\n\

@@ -124,6 +124,14 @@ impl Real {
         }
     }
 
+    /// The number with the other sign.
+    pub fn negated(&self) -> Real {
+        match self {
+            Real::Algebraic(x) => Real::Algebraic(x.negated()),
+            Real::Transcendental(x) => Real::from(Transcendental::new(transcendental::Negative(x.clone()))),
+        }
+    }
+
     /// The sign.
     pub fn sign(&self) -> Sign {
         self.compare_rational(&Rational::ZERO)
@@ -222,16 +230,33 @@ impl Real {
         }
     }
 
-    /// A rational number below this one: the greatest such integer.
+    /// An integer below this number: the greatest one, unless the number is an integer that is known by enclosures alone.
     pub fn rational_below(&self) -> Rational {
-        let floor = Rational::from(self.floor());
-        if self.compare_rational(&floor).is_eq() { floor - Rational::ONE } else { floor }
+        match self {
+            Real::Algebraic(x) => x.rational_below(),
+            Real::Transcendental(x) => Rational::from(x.refined(&narrow()).enclosure().0.ceil()) - Rational::ONE,
+        }
     }
 
-    /// A rational number above this one: the least such integer.
+    /// An integer above this number: the least one, unless the number is an integer that is known by enclosures alone.
+    ///
+    /// ```
+    /// use jurist_algebra::{number::Rational, real::Real};
+    /// let two = Real::from(Rational::from(2));
+    /// assert_eq!([two.rational_below(), two.rational_above()], [Rational::from(1), Rational::from(3)]);
+    /// assert_eq!(two.recip().rational_above(), Rational::ONE);
+    /// ```
     pub fn rational_above(&self) -> Rational {
-        Rational::from(self.floor()) + Rational::ONE
+        match self {
+            Real::Algebraic(x) => x.rational_above(),
+            Real::Transcendental(x) => Rational::from(x.refined(&narrow()).enclosure().1.floor()) + Rational::ONE,
+        }
     }
+}
+
+/// Numbers that are nearer to an integer are as good as one where an integer beside them is asked for.
+fn narrow() -> Rational {
+    Rational::dyadic(&Integer::ONE, 64)
 }
 
 /// The rational with the smallest denominator strictly between two numbers; `None` when they are equal. Where one of the numbers is rational

@@ -91,6 +91,21 @@ impl Enclosing for Reciprocal {
     }
 }
 
+/// A number with the other sign.
+#[derive(Debug)]
+pub(super) struct Negative(pub Transcendental);
+
+impl Enclosing for Negative {
+    fn enclose(&self, bits: u64, _known: Option<&Enclosure>) -> Enclosure {
+        let (lo, hi) = self.0.refined(&Rational::dyadic(&Integer::ONE, bits)).enclosure();
+        Enclosure::new(-hi, -lo)
+    }
+
+    fn origin(&self) -> Origin {
+        self.0.origin()
+    }
+}
+
 impl Transcendental {
     /// The number that `source` encloses.
     pub fn new(source: impl Enclosing + 'static) -> Self {

@@ -4,7 +4,8 @@ use super::verdict::PointVerdict;
 use crate::error::Error;
 use crate::problem::{BaseDelay, DelayedLoop, Free, Problem, refused};
 use crate::stability::dead_time::{
-    GainCells, GainLoop, Line, NotCounted, NotSolved, count_delayed_roots, delay_cells, family_cells, gain_cells,
+    FamilyLoop, GainCells, GainLoop, Line, Never, NotCounted, NotSolved, count_delayed_roots, delay_cells,
+    family_cells, gain_cells,
 };
 use crate::stability::{Cause, End, Range, Shape, StableSet};
 use jurist_algebra::limits::{Budget, Exhausted};
@@ -193,10 +194,14 @@ fn gains(
     }
 }
 
-/// The stable factors `k` of `D0 + k N exp(-tau s)`.
-pub(crate) fn stable_factors(gain: &GainLoop, budget: &Budget) -> Result<StableSet, Error> {
-    match gain_cells(gain, &Range::all(), budget) {
-        Ok(Ok(cells)) => Ok(cells.stable_set(&gain.family(), &[], &Range::all(), budget)?),
+/// The stable set of a factor of which these cells are known.
+pub(crate) fn stable_factors(
+    cells: Result<Result<GainCells, Never>, NotSolved>,
+    family: &FamilyLoop,
+    budget: &Budget,
+) -> Result<StableSet, Error> {
+    match cells {
+        Ok(Ok(cells)) => Ok(cells.stable_set(family, &[], &Range::all(), budget)?),
         Ok(Err(_)) => Ok(StableSet::from_intervals(Vec::new(), Vec::new())),
         Err(NotSolved::NotCounted(reason)) => Err(not_counted(reason)),
         Err(_) => Err(undecided("the factors of the open loop have no end")),

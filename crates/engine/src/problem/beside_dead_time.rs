@@ -3,9 +3,12 @@
 use crate::coverage::refusals::BESIDE_DEAD_TIME;
 use crate::error::Error;
 use crate::model;
-use jurist_algebra::ball::Ball;
+use jurist_algebra::number::Rational;
 use jurist_algebra::poly::RationalFunction;
 use jurist_algebra::symbols::Symbols;
+
+/// Constants are enclosed with so many bits after the point.
+pub(super) const CONSTANT_BITS: u64 = 160;
 
 /// The symbols of a loop that are no dead times, each with the variable of the polynomial that stands for it.
 pub(super) struct Constants {
@@ -54,8 +57,17 @@ impl Constants {
         self.variables.iter().position(|own| *own == variable)
     }
 
-    /// Enclosures of all of them.
-    pub fn values(&self, bits: u64) -> Vec<Ball> {
-        self.table.values(bits).to_vec()
+    /// Bounds of all of them.
+    pub fn bounds(&self) -> Vec<[Rational; 2]> {
+        self.table.values(CONSTANT_BITS).iter().map(|value| [value.lower(), value.upper()]).collect()
+    }
+
+    /// The variable in the place of one, where constants come after so many names, and then the delays.
+    pub fn place(&self, variable: usize, names: usize, delays: &[(usize, RationalFunction)]) -> usize {
+        match (self.position(variable), delays.iter().position(|(own, _)| *own == variable)) {
+            (Some(constant), _) => names + constant,
+            (None, Some(delay)) => names + self.len() + delay,
+            (None, None) => variable,
+        }
     }
 }

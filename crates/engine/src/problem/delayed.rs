@@ -84,19 +84,35 @@ impl DelayedLoop {
         })?
     }
 
-    /// `D0 + N exp(-tau s)` in one parameter, at a dead time that is not zero, and what must not vanish; `None` where the dead time is no straight line in
-    /// the parameter.
+    /// `D0 + N exp(-tau s)` in one parameter (0) and constants behind it, at a dead time that is not zero, and what must not vanish; `None` where the dead
+    /// time is no straight line in the parameter.
+    ///
+    /// # Errors
+    /// `E-dead-time` where nothing is known of what constants divide by.
     pub(crate) fn of_factor(
-        [denominator, numerator]: [&Poly<UniPoly>; 2],
+        [denominator, numerator]: [&Poly<MultiPoly>; 2],
         tau: &RationalFunction,
-        undefined: &UniPoly,
-    ) -> Option<DelayedLoop> {
-        let (delay, _) = base_delay(&[(0, tau.clone())]).ok()?;
+        undefined: &MultiPoly,
+        constants: &Symbols,
+    ) -> Result<Option<DelayedLoop>, Error> {
+        let is_in_one = tau.variables().iter().all(|variable| *variable == 0);
+        let Some((delay, _)) = base_delay(&[(0, tau.clone())]).ok().filter(|_| is_in_one) else { return Ok(None) };
         let order = denominator.coeffs().len().max(numerator.coeffs().len());
-        let parts = [denominator, numerator].map(|p| (0..order).map(|j| p.coeff(j)).collect()).into();
+        let parts: Vec<Vec<MultiPoly>> =
+            [denominator, numerator].map(|p| (0..order).map(|j| p.coeff(j)).collect()).into();
         let decay = Line::constant(Rational::ZERO);
-        let poles = vec![undefined.clone()];
-        Some(DelayedLoop { parts, over_constants: None, delay, decay, poles }.without_content())
+        let in_one = |p: &MultiPoly| p.to_univariate(0);
+        let exact = parts.iter().map(|part| part.iter().map(in_one).collect()).collect::<Option<Vec<Vec<UniPoly>>>>();
+        match (exact, in_one(undefined)) {
+            (Some(parts), Some(undefined)) => {
+                let poles = vec![undefined];
+                Ok(Some(DelayedLoop { parts, over_constants: None, delay, decay, poles }.without_content()))
+            }
+            _ => {
+                let divisors = vec![undefined.clone()];
+                DelayedLoop::over_constants(parts, divisors, constants.clone(), (delay, decay)).map(Some)
+            }
+        }
     }
 
     /// Where a common factor of all coefficients vanishes the function does so identically.

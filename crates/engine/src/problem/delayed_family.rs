@@ -1,10 +1,11 @@
 //! Loops with dead time and any number of parameters.
 
-use super::beside_dead_time::refused_beside;
-use super::delayed_terms::{CONSTANT_BITS, DelayedTerms, OverDelays};
+use super::beside_dead_time::{CONSTANT_BITS, Constants, refused_beside};
+use super::delayed_terms::{DelayedTerms, OverDelays};
 use super::resolved::Problem;
 use crate::coverage::refusals::DECAY;
 use crate::error::Error;
+use crate::model;
 use crate::stability::boxes::DelayedFunction;
 use jurist_algebra::ball::{Ball, exp};
 use jurist_algebra::limits::Budget;
@@ -85,28 +86,82 @@ fn add(sum: &mut RationalFunction, time: &RationalFunction, times: u32) {
 
 /// An open loop `N/D0` with a dead time where it is cut.
 pub(crate) struct OverDeadTime {
-    pub denominator: Poly<MultiPoly>,
-    pub numerator: Poly<MultiPoly>,
+    /// In the parameters, in constants, and in delays.
+    denominator: Poly<MultiPoly>,
+    numerator: Poly<MultiPoly>,
     /// Where it is undefined.
-    pub undefined: MultiPoly,
-    /// The variables behind those of the parameters, and the dead times that they stand for.
-    pub delays: Vec<(usize, RationalFunction)>,
+    undefined: MultiPoly,
+    /// The variables that stand for delays, and the dead times.
+    delays: Vec<(usize, RationalFunction)>,
     /// So many parameters are in it.
-    pub parameters: usize,
+    parameters: usize,
+    /// Bounds of the constants that are not rational.
+    constants: Vec<[Rational; 2]>,
 }
 
 impl OverDeadTime {
-    /// The closed loop `D0 + N exp(-time s)`; parameters of the time may follow those of the loop. `usual` is a usual point of all. `None` for a loop that
-    /// vanishes identically.
+    /// From the denominator and the numerator in the names that are free and in symbols, and from where it is undefined; `None` beside functions of a
+    /// free name.
+    pub fn new(
+        [denominator, numerator]: [&Poly<MultiPoly>; 2],
+        undefined: &MultiPoly,
+        symbols: &model::Symbols,
+    ) -> Option<OverDeadTime> {
+        let (delays, parameters) = (symbols.delays(), symbols.first());
+        let constants = Constants::of(symbols, 0).ok()?;
+        let place = |variable: usize| constants.place(variable, parameters, &delays);
+        let [denominator, numerator] = [denominator, numerator].map(|p| p.map(|c| c.map_variables(place)));
+        let moved = |(variable, time): &(usize, RationalFunction)| Some((place(*variable), time.map_variables(place)?));
+        Some(OverDeadTime {
+            denominator,
+            numerator,
+            undefined: undefined.map_variables(place),
+            delays: delays.iter().map(moved).collect::<Option<_>>().expect("variables stay apart"),
+            parameters,
+            constants: constants.bounds(),
+        })
+    }
+
+    /// Bounds of the constants that are not rational: parameters of closed loops, after all others.
+    pub fn constants(&self) -> &[[Rational; 2]] {
+        &self.constants
+    }
+
+    /// What is positive where the modulus of the open loop is above one in the limit of high frequencies; `None` where dead times are in that limit.
+    pub fn above_at_highest(&self) -> Option<MultiPoly> {
+        let degree = self.denominator.degree().max(self.numerator.degree())?;
+        let names = self.parameters + self.constants.len();
+        let highest = [&self.numerator, &self.denominator].map(|p| {
+            let p = p.coeff(degree);
+            // One dead time that all terms have turns the loop alone.
+            let delays = |exponents: &[u32]| exponents.iter().skip(names).copied().collect::<Vec<u32>>();
+            let mut all = p.terms().iter().map(|(monomial, _)| delays(monomial.exponents()));
+            let first = all.next();
+            let is_one = all.all(|other| Some(&other) == first.as_ref());
+            let own = p.terms().iter().map(|(monomial, c)| {
+                (monomial.exponents().iter().take(names).copied().collect::<Vec<u32>>(), c.clone())
+            });
+            is_one.then(|| MultiPoly::from_terms(own))
+        });
+        let [Some(above), Some(below)] = highest else { return None };
+        Some(above.times(&above).minus(&below.times(&below)))
+    }
+
+    /// The closed loop `D0 + N exp(-time s)`; parameters of the time may follow those of the loop. `usual` is a usual point of all but the constants.
+    /// `None` for a loop that vanishes identically.
     ///
     /// # Errors
     /// `E-dead-time` where the loop divides by a delay.
     pub fn closed(&self, time: &RationalFunction, usual: &[Rational]) -> Result<Option<DelayedFunction>, Error> {
         let further = usual.len() - self.parameters;
-        let moved = |p: &MultiPoly| p.map_variables(|i| if i < self.parameters { i } else { i + further });
+        let place = |i: usize| if i < self.parameters { i } else { i + further };
+        let moved = |p: &MultiPoly| p.map_variables(place);
+        let time_of = |f: &RationalFunction| f.map_variables(place).expect("variables stay apart");
         let mut times: Vec<(usize, RationalFunction)> =
-            self.delays.iter().map(|(i, time)| (i + further, time.clone())).collect();
-        let own = times.iter().map(|(variable, _)| variable + 1).max().unwrap_or(usual.len());
+            self.delays.iter().map(|(i, time)| (place(*i), time_of(time))).collect();
+        let mut all = usual.to_vec();
+        all.extend(self.constants.iter().map(|[low, high]| low.midpoint(high)));
+        let own = all.len() + times.len();
         times.push((own, time.clone()));
         let delayed = self.numerator.map(moved).scaled(&MultiPoly::variable(own));
         let closed = self.denominator.map(moved).plus(&delayed);
@@ -119,8 +174,8 @@ impl OverDeadTime {
             monic: false,
         };
         let time_of = |variable: usize| times.iter().find(|(own, _)| *own == variable).map(|(_, time)| time);
-        let found = DelayedTerms::of(&polynomial, usual.len(), time_of, add)?;
-        let all = times.iter().map(|(_, time)| time.clone()).collect();
-        Ok(DelayedFunction::new(found.terms, all, found.poles, usual))
+        let found = DelayedTerms::of(&polynomial, all.len(), time_of, add)?;
+        let times = times.iter().map(|(_, time)| time.clone()).collect();
+        Ok(DelayedFunction::new(found.terms, times, found.poles, &all))
     }
 }

@@ -27,9 +27,6 @@ pub(super) struct OverDelays<'a> {
     pub constants: Vec<[Rational; 2]>,
 }
 
-/// Constants are enclosed with so many bits after the point.
-pub(super) const CONSTANT_BITS: u64 = 160;
-
 impl Problem {
     /// The characteristic polynomial of a loop with dead time; `None` for any other loop, and where it is undefined for all values.
     ///
@@ -58,14 +55,7 @@ impl Problem {
             return Ok(Some(OverDelays { polynomial: Cow::Borrowed(polynomial), delays, constants: Vec::new() }));
         }
         budget.enter(|| {
-            // The constants come after the free names, and then the delays.
-            let first = symbols.first();
-            let is_delay = |variable: usize| delays.iter().position(|(own, _)| *own == variable);
-            let place = |variable: usize| match (constants.position(variable), is_delay(variable)) {
-                (Some(constant), _) => first + constant,
-                (None, Some(delay)) => first + constants.len() + delay,
-                (None, None) => variable,
-            };
+            let place = |variable: usize| constants.place(variable, symbols.first(), &delays);
             let moved = |f: &RationalFunction| f.map_variables(place).expect("variables stay apart");
             let polynomial = CharacteristicPolynomial {
                 coefficients: polynomial.coefficients.iter().map(moved).collect(),
@@ -73,9 +63,7 @@ impl Problem {
                 ..polynomial.clone()
             };
             let delays = delays.iter().map(|(variable, time)| (place(*variable), moved(time))).collect();
-            let values = constants.values(CONSTANT_BITS);
-            let constants = values.iter().map(|value| [value.lower(), value.upper()]).collect();
-            Ok(Some(OverDelays { polynomial: Cow::Owned(polynomial), delays, constants }))
+            Ok(Some(OverDelays { polynomial: Cow::Owned(polynomial), delays, constants: constants.bounds() }))
         })?
     }
 }

@@ -34,7 +34,7 @@ pub(crate) use delayed_family::OverDeadTime;
 pub use evaluation::Algebra;
 pub(crate) use in_numbers::FromNumbers;
 pub use in_numbers::RoundedLoop;
-pub(crate) use over_symbols::{definitions_beside, fixed_symbols, moving_symbols, parametric_symbols};
+pub(crate) use over_symbols::{definitions_beside, fixed_symbols, moving_symbols, parametric_symbols, symbols_without};
 pub use plan::Plan;
 pub use question::{Ask, Question};
 pub use range_text::range_text;

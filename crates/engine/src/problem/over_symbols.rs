@@ -182,10 +182,11 @@ pub(crate) fn fixed_symbols(symbols: &model::Symbols) -> Result<Symbols, Error> 
 }
 
 /// The table of symbols that do not depend on a kept name, beside others that are not asked for; `None` where one has no value.
-pub(super) fn symbols_without(symbols: &model::Symbols, moving: &[usize]) -> Option<Symbols> {
+pub(crate) fn symbols_without(symbols: &model::Symbols, moving: &[usize]) -> Option<Symbols> {
     let mut table = Symbols::new();
     for (i, symbol) in (symbols.first()..).zip(symbols.iter()) {
-        let place = |f: &RationalFunction| f.map_variables(|i| i.saturating_sub(symbols.first()));
+        let is_fixed = |f: &&RationalFunction| f.variables().iter().all(|variable| *variable >= symbols.first());
+        let place = |f: &RationalFunction| Some(f).filter(is_fixed)?.map_variables(|i| i - symbols.first());
         // Something has to stand in the place of what is not asked for.
         let own = if moving.contains(&i) { Definition::Pi } else { definition(symbol, place).ok()? };
         table.push(&symbol.name, own);
@@ -199,8 +200,20 @@ pub(crate) fn moving_symbols(symbols: &model::Symbols) -> Result<MovingSymbols, 
 }
 
 /// The table of symbols where several names are kept, on which they may depend.
+///
+/// No function may be in those that stand for dead times.
 pub(crate) fn parametric_symbols(symbols: &model::Symbols) -> Result<ParametricSymbols, Error> {
-    Ok(ParametricSymbols::new(definitions(symbols)?))
+    let delays: Vec<usize> = symbols.delays().into_iter().map(|(variable, _)| variable).collect();
+    let own = |(variable, symbol): (usize, &Symbol)| {
+        // Something has to stand in the place of what is not asked for.
+        let definition = match delays.contains(&variable) {
+            true => Definition::Pi,
+            false => definition(symbol, |f| Some(f.clone()))?,
+        };
+        Ok((symbol.name.clone(), definition))
+    };
+    let table = (symbols.first()..).zip(symbols.iter()).map(own).collect::<Result<_, Error>>()?;
+    Ok(ParametricSymbols::new(table))
 }
 
 fn definitions(symbols: &model::Symbols) -> Result<Vec<(String, Definition)>, Error> {

@@ -5,7 +5,7 @@
 //! the limit of high ones.
 
 use super::RequiredSet;
-use super::cells::{Unmet, inside_of, parts_beside, required_parts};
+use super::cells::{Unmet, beyond, inside_of, parts_beside, required_parts};
 use super::loop_functions::dead_time;
 use super::opened::OpenedLoop;
 use super::place::modulus_squared;
@@ -13,7 +13,7 @@ use super::requirement::{Requirement, Rule};
 use crate::answer::stable_set_with_dead_time;
 use crate::coverage::refusals::DELAY_BESIDE;
 use crate::error::Error;
-use crate::problem::{Ask, DelayedLoop, Free, Problem};
+use crate::problem::{Ask, DelayedLoop, Free, Problem, symbols_without};
 use crate::stability::{Range, Shape, StableInterval, StableSet, UndecidedBracket};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
@@ -21,6 +21,7 @@ use jurist_algebra::poly::{
     Domain, MultiPoly, Poly, RationalFunction, SquareFree, UniPoly, discriminant, isolate_real_roots,
 };
 use jurist_algebra::real::Real;
+use jurist_algebra::symbols::{SymbolicPoly, Symbols};
 use std::cmp::Ordering;
 use std::slice::from_ref;
 use std::sync::Arc;
@@ -39,7 +40,9 @@ struct BorneSet<'a> {
     touches: Vec<Real>,
     /// Of these where the modulus of the open loop is one in the limit of high frequencies, and what is positive where it is more.
     limits: Vec<Real>,
-    above: UniPoly,
+    above: MultiPoly,
+    /// What follows the parameter.
+    constants: Arc<Symbols>,
     /// Where the open loop is undefined.
     undefined: Vec<Real>,
     budget: &'a Budget,
@@ -49,7 +52,7 @@ impl Problem {
     /// The parts of the stable set in which a delay margin is what is required.
     ///
     /// # Errors
-    /// `E-dead-time` where several factors of the open loop have dead time; `E-require` beside constants that are not rational and functions.
+    /// `E-dead-time` where several factors of the open loop have dead time; `E-require` beside functions of the parameter.
     pub(super) fn bearing_set(
         self: &Arc<Self>,
         requirement: &Requirement,
@@ -82,17 +85,21 @@ impl<'a> BorneSet<'a> {
         let opened = OpenedLoop::of(problem, requirement.cut(problem, at)?, budget)?;
         let (mut quotient, undefined) = opened.quotient(MultiPoly::clone, budget)?;
         let own = budget.enter(|| dead_time(&mut quotient, &undefined, &opened.symbols))??;
-        if own.is_none() && !opened.symbols.is_empty() {
-            return Err(DELAY_BESIDE.diagnostic(&[]).into());
-        }
-        let in_one = |p: &MultiPoly| p.to_univariate(0).expect("one parameter is free");
-        let [d, n] = [&quotient.denominator, &quotient.numerator].map(|p| p.map(in_one));
-        let undefined = in_one(&undefined);
+        let delays: Vec<usize> = opened.symbols.delays().iter().map(|(variable, _)| *variable).collect();
+        let constants = symbols_without(&opened.symbols, &delays).ok_or_else(|| DELAY_BESIDE.diagnostic(&[]))?;
+        let constants = Arc::new(constants);
+        let [d, n] = [&quotient.denominator, &quotient.numerator];
         let tau = &own.unwrap_or_else(RationalFunction::zero) + &RationalFunction::from(least.clone());
-        let with_all = budget.enter(|| DelayedLoop::of_factor([&d, &n], &tau, &undefined))?;
-        let Touches { above, limits, elsewhere } = touches([&d, &n], budget)?;
-        let limits = zeros(&limits, budget)?;
-        let touches = limits.iter().cloned().chain(zeros(&elsewhere, budget)?).collect();
+        let with_all = budget.enter(|| DelayedLoop::of_factor([d, n], &tau, &undefined, &constants))??;
+        let in_one = |p: &Poly<MultiPoly>| {
+            p.coeffs().iter().map(|c| c.to_univariate(0)).collect::<Option<Vec<UniPoly>>>().map(Poly::new)
+        };
+        let Touches { above, limits, elsewhere } = match (in_one(d), in_one(n)) {
+            (Some(d), Some(n)) => touches([&d, &n], budget)?.lifted(),
+            _ => touches([d, n], budget)?,
+        };
+        let limits = zeros(&limits, &constants, budget)?;
+        let touches = limits.iter().cloned().chain(zeros(&elsewhere, &constants, budget)?).collect();
         Ok(BorneSet {
             problem,
             requirement,
@@ -104,7 +111,8 @@ impl<'a> BorneSet<'a> {
                 .map(|(value, _)| value)
                 .collect(),
             above,
-            undefined: zeros(from_ref(&undefined), budget)?,
+            undefined: zeros(from_ref(&undefined), &constants, budget)?,
+            constants,
             budget,
         })
     }
@@ -143,7 +151,8 @@ impl<'a> BorneSet<'a> {
         let Some(with_all) = &self.with_all else { return Ok(None) };
         let (mut intervals, mut undecided) = (Vec::new(), Vec::new());
         for part in interval.bare().cut(&inside_of(interval, &self.limits, self.budget)?) {
-            if self.above.sign_at(&part.sample(self.budget)?).is_ge() {
+            let (above, _) = self.above.substitute(0, &part.sample(self.budget)?);
+            if self.constants.sign(&above.map_variables(|i| i.saturating_sub(1)), self.budget)?.is_ge() {
                 continue;
             }
             let end = |value: &Option<Real>, is_lower: bool| {
@@ -151,17 +160,40 @@ impl<'a> BorneSet<'a> {
                 Some(if is_lower { low } else { high })
             };
             let domain = Range::between(end(&part.lower, true), end(&part.upper, false));
-            let parameter = Free { domain, ..self.problem.free()[0].clone() };
-            let set = match stable_set_with_dead_time(&parameter, with_all, self.budget) {
-                Ok(set) => set,
-                Err(Error::Refused(_)) => return Ok(None),
-                Err(Error::Stopped(_)) if self.budget.check().is_ok() => return Ok(None),
-                Err(other) => return Err(other),
-            };
+            let mut set = self.stable_within(with_all, &domain)?;
+            if set.is_none() {
+                // What is beyond a large value stays open.
+                let nominal = self.problem.free()[0].nominal.as_ref();
+                let far = [
+                    beyond(domain.upper.as_ref(), nominal).map(|x| -x).filter(|_| domain.lower.is_none()),
+                    beyond(domain.lower.as_ref(), nominal).filter(|_| domain.upper.is_none()),
+                ];
+                if far.iter().all(Option::is_none) {
+                    return Ok(None);
+                }
+                let why = "the domain has no end";
+                undecided.extend(far[0].clone().map(|x| UndecidedBracket::new(None, Some(x), why)));
+                undecided.extend(far[1].clone().map(|x| UndecidedBracket::new(Some(x), None, why)));
+                let [lower, upper] = far;
+                let near = Range::between(lower.or(domain.lower), upper.or(domain.upper));
+                set = self.stable_within(with_all, &near)?;
+            }
+            let Some(set) = set else { return Ok(None) };
             intervals.extend(set.intervals().iter().cloned());
             undecided.extend(set.undecided().iter().cloned());
         }
         Ok(Some(StableSet::from_intervals(intervals, undecided)))
+    }
+
+    /// The values in a range with which the loop is stable with the whole time; `None` where they are not found.
+    fn stable_within(&self, with_all: &DelayedLoop, domain: &Range) -> Result<Option<StableSet>, Error> {
+        let parameter = Free { domain: domain.clone(), ..self.problem.free()[0].clone() };
+        match stable_set_with_dead_time(&parameter, with_all, self.budget) {
+            Ok(set) => Ok(Some(set)),
+            Err(Error::Refused(_)) => Ok(None),
+            Err(Error::Stopped(_)) if self.budget.check().is_ok() => Ok(None),
+            Err(other) => Err(other),
+        }
     }
 
     /// The name of the requirement, where a stable value does not meet it.
@@ -177,16 +209,27 @@ impl<'a> BorneSet<'a> {
 }
 
 /// Functions of the parameter at whose zeros a crossing of the open loop may appear at once.
-struct Touches {
+struct Touches<R> {
     /// Positive where the modulus is above one in the limit of high frequencies.
-    above: UniPoly,
+    above: R,
     /// The modulus is one in that limit.
-    limits: Vec<UniPoly>,
+    limits: Vec<R>,
     /// It touches one.
-    elsewhere: Vec<UniPoly>,
+    elsewhere: Vec<R>,
 }
 
-fn touches([d, n]: [&Poly<UniPoly>; 2], budget: &Budget) -> Result<Touches, Exhausted> {
+impl Touches<UniPoly> {
+    fn lifted(&self) -> Touches<MultiPoly> {
+        let all = |list: &[UniPoly]| list.iter().map(|p| MultiPoly::from_univariate(p, 0)).collect();
+        Touches {
+            above: MultiPoly::from_univariate(&self.above, 0),
+            limits: all(&self.limits),
+            elsewhere: all(&self.elsewhere),
+        }
+    }
+}
+
+fn touches<R: Domain>([d, n]: [&Poly<R>; 2], budget: &Budget) -> Result<Touches<R>, Exhausted> {
     let (above, excess) = budget.enter(|| {
         let common = d.gcd(n);
         let [d, n] = [d, n].map(|p| p.div_exact(&common).expect("a gcd divides"));
@@ -199,18 +242,23 @@ fn touches([d, n]: [&Poly<UniPoly>; 2], budget: &Budget) -> Result<Touches, Exha
         let excess = if excess.is_zero() { excess } else { excess.square_free_part() };
         (highest, excess)
     })?;
-    let mut elsewhere: Vec<UniPoly> = excess.leading().cloned().into_iter().collect();
+    let mut elsewhere: Vec<R> = excess.leading().cloned().into_iter().collect();
     if excess.degree().is_some_and(|degree| degree > 1) {
         elsewhere.push(discriminant(&excess, budget)?);
     }
     Ok(Touches { limits: vec![above.clone()], above, elsewhere })
 }
 
-fn zeros(list: &[UniPoly], budget: &Budget) -> Result<Vec<Real>, Exhausted> {
+/// The real zeros of polynomials in the parameter (0) and in constants behind it.
+fn zeros(list: &[MultiPoly], constants: &Arc<Symbols>, budget: &Budget) -> Result<Vec<Real>, Exhausted> {
     let mut out = Vec::new();
     for f in list {
-        let Some(f) = budget.enter(|| SquareFree::part_of(f))? else { continue };
-        out.extend(isolate_real_roots(&f, budget)?.into_iter().map(Real::from));
+        if let Some(f) = f.to_univariate(0) {
+            let Some(f) = budget.enter(|| SquareFree::part_of(&f))? else { continue };
+            out.extend(isolate_real_roots(&f, budget)?.into_iter().map(Real::from));
+        } else if let Some(f) = SymbolicPoly::new(f, constants, budget)? {
+            out.extend(f.real_roots_in(None, None, budget)?);
+        }
     }
     Ok(out)
 }

@@ -1,7 +1,6 @@
 //! A dead time at the cut of continuous loops, over boxes.
 
 use super::delay_boxes::{DelayAsked, DelayFamily, DelayedLoops, Delays, shares_of};
-use super::family::Quotient;
 use super::opened::OpenedLoop;
 use super::requirement_boxes::OverPoints;
 use crate::coverage::refusals::DELAY_BESIDE;
@@ -11,7 +10,7 @@ use crate::stability::AtPoint;
 use crate::stability::boxes::{DelayedFunction, Family, corners, same_count};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Rational};
-use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
+use jurist_algebra::poly::{MultiPoly, RationalFunction};
 
 /// So many corners of a box are looked at before a proof is tried.
 const MOST_CORNERS: usize = 8;
@@ -29,6 +28,9 @@ pub(crate) struct ContinuousDelay {
     least: Rational,
 }
 
+/// Cells of frequency and constants at a point.
+const CELLS_AT_POINT: usize = 64;
+
 /// Bits of sums over a box.
 const BITS: u64 = 64;
 
@@ -36,18 +38,15 @@ impl ContinuousDelay {
     /// `None` for a loop that vanishes identically.
     ///
     /// # Errors
-    /// As [`OpenedLoop::of`] and [`OpenedLoop::quotient`]; `E-require` beside functions other than dead times.
+    /// As [`OpenedLoop::of`] and [`OpenedLoop::quotient`]; `E-require` beside functions of a free name.
     pub fn of(asked: DelayAsked<'_>, budget: &Budget) -> Result<Option<ContinuousDelay>, Error> {
         let DelayAsked { problem, least, cut, near } = asked;
         let opened = OpenedLoop::of(problem, cut.clone(), budget)?;
-        let delays = opened.symbols.delays();
-        if opened.symbols.iter().count() > delays.len() {
-            return Err(DELAY_BESIDE.diagnostic(&[]).into());
-        }
         let (quotient, undefined) = opened.quotient(MultiPoly::clone, budget)?;
-        let above = above_at_highest(&quotient, near.len());
-        let (denominator, numerator) = (quotient.denominator, quotient.numerator);
-        let open = OverDeadTime { denominator, numerator, undefined, delays, parameters: near.len() };
+        let parts = [&quotient.denominator, &quotient.numerator];
+        let open = budget.enter(|| OverDeadTime::new(parts, &undefined, &opened.symbols))?;
+        let open = open.ok_or_else(|| DELAY_BESIDE.diagnostic(&[]))?;
+        let above = open.above_at_highest();
         let usual: Vec<Rational> = near.iter().chain([least]).cloned().collect();
         let families = budget.enter(|| -> Result<_, Error> {
             let with_any = open.closed(&RationalFunction::variable(near.len()), &usual)?;
@@ -57,10 +56,15 @@ impl ContinuousDelay {
         Ok(Some(ContinuousDelay { open, near: near.to_vec(), with_any, with_all, above, least: least.clone() }))
     }
 
+    /// A box of the parameters with that of the dead time, if it is one of them, and with those of the constants.
+    fn beside(&self, sides: &[[Rational; 2]], delay: Option<[Rational; 2]>) -> Vec<[Rational; 2]> {
+        sides.iter().cloned().chain(delay).chain(self.open.constants().iter().cloned()).collect()
+    }
+
     /// The loop in its parameters and the dead time.
     pub fn family(&self) -> DelayFamily<'_> {
         let delays = Some([Rational::ZERO, self.least.clone()]);
-        DelayFamily { loops: DelayedLoops::Delayed(&self.with_any), delays }
+        DelayFamily { loops: DelayedLoops::Delayed(&self.with_any), delays, constants: self.open.constants() }
     }
 }
 
@@ -78,12 +82,21 @@ impl Delays for ContinuousDelay {
     }
 
     fn bears_none(&self, sides: &[[Rational; 2]]) -> bool {
-        self.above.as_ref().is_some_and(|above| over_box(above, sides).lower().sign().is_gt())
+        self.above.as_ref().is_some_and(|above| over_box(above, &self.beside(sides, None)).lower().sign().is_gt())
     }
 
     fn at(&self, point: &[Rational], delay: &Rational, budget: &Budget) -> Result<Option<bool>, Exhausted> {
-        let point: Vec<Rational> = point.iter().chain([delay]).cloned().collect();
-        budget.enter(|| told(&self.with_any, &point))
+        if self.open.constants().is_empty() {
+            let point: Vec<Rational> = point.iter().chain([delay]).cloned().collect();
+            return budget.enter(|| told(&self.with_any, &point));
+        }
+        let sides: Vec<[Rational; 2]> = point.iter().map(|x| [x.clone(), x.clone()]).collect();
+        let all = self.beside(&sides, Some([delay.clone(), delay.clone()]));
+        Ok(match with(&self.with_any, &all, CELLS_AT_POINT, budget)? {
+            OverPoints::All => Some(true),
+            OverPoints::None => Some(false),
+            OverPoints::Open { .. } => None,
+        })
     }
 
     fn over(
@@ -95,36 +108,17 @@ impl Delays for ContinuousDelay {
     ) -> Result<OverPoints, Exhausted> {
         let [low, high] = delays;
         if low < high {
-            let all: Vec<[Rational; 2]> = sides.iter().cloned().chain([delays.clone()]).collect();
-            return with(&self.with_any, &all, cells, budget);
+            return with(&self.with_any, &self.beside(sides, Some(delays.clone())), cells, budget);
         }
+        let sides = self.beside(sides, None);
         if *low == self.least {
-            return with(&self.with_all, sides, cells, budget);
+            return with(&self.with_all, &sides, cells, budget);
         }
         match budget.enter(|| self.open.closed(&low.clone().into(), &self.near))? {
-            Ok(Some(family)) => with(&family, sides, cells, budget),
+            Ok(Some(family)) => with(&family, &sides, cells, budget),
             _ => Ok(OverPoints::Open { middle: None }),
         }
     }
-}
-
-/// What is positive where the modulus of the open loop is above one in the limit of high frequencies.
-fn above_at_highest(quotient: &Quotient<MultiPoly>, parameters: usize) -> Option<MultiPoly> {
-    let degree = quotient.denominator.degree().max(quotient.numerator.degree())?;
-    let highest = [&quotient.numerator, &quotient.denominator].map(|p| {
-        let p = p.coeff(degree);
-        // One dead time that all terms have turns the loop alone.
-        let delays = |exponents: &[u32]| exponents.iter().skip(parameters).copied().collect::<Vec<u32>>();
-        let mut all = p.terms().iter().map(|(monomial, _)| delays(monomial.exponents()));
-        let first = all.next();
-        let is_one = all.all(|other| Some(&other) == first.as_ref());
-        let own = p.terms().iter().map(|(monomial, c)| {
-            (monomial.exponents().iter().take(parameters).copied().collect::<Vec<u32>>(), c.clone())
-        });
-        is_one.then(|| MultiPoly::from_terms(own))
-    });
-    let [Some(above), Some(below)] = highest else { return None };
-    Some(above.times(&above).minus(&below.times(&below)))
 }
 
 /// A range of the values of a polynomial over a box.

@@ -6,10 +6,10 @@
 //! which the modulus of the open loop tells that there is nothing to find.
 
 use super::crossings::{Crossings, PhaseCrossing};
-use super::delayed_axis::DelayedAxis;
+use super::delayed_axis::{DelayedAxis, place_of};
 use super::delayed_peak::DelayedQuotient;
 use super::enclosed::enclosed;
-use super::ground::Integers;
+use super::ground::Ground;
 use super::margins::{GainMargin, PhaseMargin, StableMargins};
 use super::met::{has_gain_margin, has_phase_margin};
 use super::open_loop::OpenLoop;
@@ -17,44 +17,42 @@ use super::parts::Parts;
 use super::requirement::{Requirement, Rule};
 use super::value::reciprocal;
 use super::{DelayMargin, DiskMargin, Extreme, Place, Value};
-use crate::answer::stable_factors;
 use crate::error::Error;
 use crate::problem::refused;
-use crate::stability::dead_time::GainLoop;
-use crate::stability::{Range, zeros_in};
+use crate::stability::Range;
 use jurist_algebra::ball::{Ball, tan};
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, try_until_shown};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
-use jurist_algebra::poly::{Domain, MultiPoly, UniPoly};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly};
 use std::cmp::Ordering;
 
 /// The rational factor of the open loop and its dead time.
-pub(super) struct DeadTime<'a> {
-    parts: &'a Parts<Integers>,
+pub(super) struct DeadTime<'a, G: Ground> {
+    parts: &'a Parts<G>,
     tau: &'a Rational,
-    axis: DelayedAxis,
+    axis: DelayedAxis<G>,
 }
 
 /// Phase crossings are listed where the open loop's modulus is above one over this.
 const LISTED: i64 = 100;
 
-impl<'a> DeadTime<'a> {
-    pub fn new(parts: &'a Parts<Integers>, tau: &'a Rational) -> DeadTime<'a> {
-        DeadTime { parts, tau, axis: DelayedAxis::new(tau.clone()) }
+impl<'a, G: Ground> DeadTime<'a, G> {
+    pub fn new(parts: &'a Parts<G>, tau: &'a Rational) -> DeadTime<'a, G> {
+        DeadTime { parts, tau, axis: DelayedAxis::new(&parts.ground, tau.clone()) }
     }
 
     /// Twice the real part of `N conj(D0) exp(-j omega tau)`.
     fn twice_real(&self) -> MultiPoly {
         let r = &self.parts.reduced;
-        let turned = DelayedAxis::of_square(&r.imaginary).times(&MultiPoly::variable(0)).scaled_by(&Integer::from(2));
-        let along = DelayedAxis::of_square(&r.twice_real).times(&MultiPoly::variable(1));
+        let turned = self.axis.of_square(&r.imaginary).times(&MultiPoly::variable(0)).scaled_by(&Integer::from(2));
+        let along = self.axis.of_square(&r.twice_real).times(&MultiPoly::variable(1));
         along.plus(&turned.times(&MultiPoly::variable(2)))
     }
 
     /// Twice its imaginary part, from twice the real part of `N conj(D0)` and from the imaginary part over `omega`.
-    fn twice_imaginary(along: &UniPoly, across: &UniPoly) -> MultiPoly {
-        let turned = DelayedAxis::of_square(across).times(&MultiPoly::variable(0)).scaled_by(&Integer::from(2));
-        turned.times(&MultiPoly::variable(1)).minus(&DelayedAxis::of_square(along).times(&MultiPoly::variable(2)))
+    fn twice_imaginary(&self, along: &Poly<G::Number>, across: &Poly<G::Number>) -> MultiPoly {
+        let turned = self.axis.of_square(across).times(&MultiPoly::variable(0)).scaled_by(&Integer::from(2));
+        turned.times(&MultiPoly::variable(1)).minus(&self.axis.of_square(along).times(&MultiPoly::variable(2)))
     }
 
     /// An angular frequency beyond which the modulus of the open loop is below a hundredth, or where it does not fall as far, below a number between its limit
@@ -62,23 +60,27 @@ impl<'a> DeadTime<'a> {
     fn beyond(&self, budget: &Budget) -> Result<Rational, Error> {
         let r = &self.parts.reduced;
         let (above, below) = (&r.numerator_squared, &r.denominator_squared);
-        let limit = match above.degree().cmp(&below.degree()) {
-            Ordering::Less => Rational::ZERO,
-            Ordering::Equal => quotient_of_leading(above, below),
-            Ordering::Greater => Rational::ONE,
+        let ground = &self.parts.ground;
+        let is_below_one = match above.degree().cmp(&below.degree()) {
+            Ordering::Less => true,
+            // Leading coefficients of polynomials in s^2 < 0 have either sign.
+            Ordering::Equal => {
+                let [above, below] = [above, below].map(|p| p.leading().cloned().expect("not zero"));
+                ground.sign(&above.minus(&below).times(&below), budget)?.is_lt()
+            }
+            Ordering::Greater => false,
         };
-        if limit >= Rational::ONE {
+        if !is_below_one {
             let help = "such a loop bears no delay, and its gain margin is a limit of 'intervals'";
             return Err(refused(
                 "the modulus of the open loop with dead time is one or more at high frequencies",
                 help,
             ));
         }
-        // Toward a limit that is not 0 crossings go on without end.
-        let part = if limit.is_zero() { LISTED * LISTED } else { LISTED };
-        let level = &limit + &(&(Rational::ONE - &limit) * &Rational::new(1.into(), part.into()));
-        let excess = above.scaled(&level.denominator()).minus(&below.scaled(&level.numerator()));
-        let zeros = zeros_in(&excess, &Range::between(None, Some(Rational::ZERO)), budget)?;
+        let level = self.level(budget)?;
+        let [up, down] = [level.numerator(), level.denominator()].map(|c| G::Number::from_integer(&c));
+        let excess = above.scaled(&down).minus(&below.scaled(&up));
+        let zeros = ground.zeros(&excess, &Range::between(None, Some(Rational::ZERO)), budget)?;
         Ok(match zeros.first() {
             // x = -omega^2 of the highest frequency.
             Some(x) => {
@@ -87,6 +89,26 @@ impl<'a> DeadTime<'a> {
             }
             None => Rational::ONE,
         })
+    }
+
+    /// A number above the square of the modulus that is reached at high frequencies, and below one.
+    fn level(&self, budget: &Budget) -> Result<Rational, Error> {
+        let r = &self.parts.reduced;
+        let (above, below) = (&r.numerator_squared, &r.denominator_squared);
+        let above_limit =
+            |limit: &Rational, part: i64| limit + &(&(Rational::ONE - limit) * &Rational::new(1.into(), part.into()));
+        if above.degree() < below.degree() {
+            return Ok(above_limit(&Rational::ZERO, LISTED * LISTED));
+        }
+        // Toward a limit that is not 0 crossings go on without end.
+        let [above, below] = [above, below].map(|p| p.leading().cloned().expect("not zero"));
+        let limit = self.parts.ground.quotient(&above, &below, budget)?;
+        let level = try_until_shown(64, |bits| -> Result<Option<Rational>, Exhausted> {
+            budget.check()?;
+            let limit = budget.enter(|| limit.enclosure(bits))?;
+            Ok(Some(above_limit(limit.upper(), LISTED)).filter(|_| *limit.upper() < Rational::ONE))
+        })?;
+        Ok(level)
     }
 
     /// All crossings of modulus one, and those of the negative real axis down to a hundredth.
@@ -100,13 +122,13 @@ impl<'a> DeadTime<'a> {
         let common = budget.enter(|| r.twice_real.gcd(&r.imaginary))?;
         let [along, across] =
             [&r.twice_real, &r.imaginary].map(|p| p.div_exact(&common).expect("a gcd divides both parts"));
-        let imaginary = DeadTime::twice_imaginary(&along, &across);
+        let imaginary = self.twice_imaginary(&along, &across);
         let real = self.twice_real();
-        let below = DelayedAxis::of_square(&self.parts.reduced.denominator_squared).scaled_by(&Integer::from(-2));
+        let below = self.axis.of_square(&self.parts.reduced.denominator_squared).scaled_by(&Integer::from(-2));
         for omega in self.axis.zeros(&imaginary, &end, budget)? {
             let factor = self.axis.quotient(&below, &real, &omega);
             if budget.enter(|| factor.sign())?.is_gt() {
-                rational.phase.push(PhaseCrossing { place: DelayedAxis::place(&omega), factor: Value::Number(factor) });
+                rational.phase.push(PhaseCrossing { place: place_of(&omega), factor: Value::Number(factor) });
             }
         }
         Ok(rational)
@@ -127,7 +149,7 @@ impl<'a> DeadTime<'a> {
         let modulus = reciprocal(&peak_sensitivity, budget)?;
         let modulus_at = inverse(sensitivity, &Rational::ONE, budget)?;
         budget.step("peak of the complementary sensitivity");
-        let complementary_at = self.peak(vec![UniPoly::zero(), n.clone()], budget)?;
+        let complementary_at = self.peak(vec![Poly::zero(), n.clone()], budget)?;
         let peak_complementary = complementary_at.root(budget)?;
         budget.step("disk margin");
         let disk = self.disk(skew, budget)?;
@@ -154,7 +176,7 @@ impl<'a> DeadTime<'a> {
                 has_phase_margin(&self.phase(&crossings, budget)?, twice_cosine, budget)?
             }
             Rule::Circle(circle) => {
-                let [u, v] = circle.combined().map(Integer::from);
+                let [u, v] = circle.combined().map(|c| G::Number::from_integer(&c.into()));
                 let [d, n] = [&self.parts.denominator.re, &self.parts.numerator.re];
                 let peak = self.peak(vec![d.scaled(&u), n.scaled(&v)], budget)?;
                 match ((circle.least() * circle.least()).recip(), peak.value()) {
@@ -176,10 +198,8 @@ impl<'a> DeadTime<'a> {
 
     /// The stable factors.
     fn gain(&self, budget: &Budget) -> Result<GainMargin, Error> {
-        let zero = UniPoly::zero();
-        let (d, n) = (self.parts.denominator.re.clone(), self.parts.numerator.re.clone());
-        let gain = GainLoop::new(vec![d, zero.clone()], vec![zero, n], self.tau.clone());
-        Ok(GainMargin::of_set(stable_factors(&gain, budget)?))
+        let parts = [&self.parts.denominator.re, &self.parts.numerator.re];
+        Ok(GainMargin::of_set(self.parts.ground.stable_factors_with_delay(parts, self.tau, budget)?))
     }
 
     /// The least angle of all crossings.
@@ -209,25 +229,21 @@ impl<'a> DeadTime<'a> {
     }
 
     /// The greatest modulus of a quotient whose denominator is that of the closed loop.
-    fn peak(&self, above: Vec<UniPoly>, budget: &Budget) -> Result<Extreme, Exhausted> {
+    fn peak(&self, above: Vec<Poly<G::Number>>, budget: &Budget) -> Result<Extreme, Exhausted> {
         let below = vec![self.parts.denominator.re.clone(), self.parts.numerator.re.clone()];
-        DelayedQuotient::new(self.tau.clone(), above, below).peak(budget)
+        DelayedQuotient::new(&self.parts.ground, self.tau.clone(), above, below).peak(budget)
     }
 
     /// The least `2 |1 + L|/|(1 + skew) - (1 - skew) L|`.
     fn disk(&self, skew: &Rational, budget: &Budget) -> Result<DiskMargin, Exhausted> {
         let (p, q) = (skew.numerator(), skew.denominator());
         let [d, n] = [&self.parts.denominator.re, &self.parts.numerator.re];
-        let peak = self.peak(vec![d.scaled(&(&q + &p)), n.scaled(&(&p - &q))], budget)?;
+        let [sum, difference] = [&q + &p, &p - &q].map(|c| G::Number::from_integer(&c));
+        let peak = self.peak(vec![d.scaled(&sum), n.scaled(&difference)], budget)?;
         let extreme = inverse(peak, &Rational::from(Integer::from(4) * &(&q * &q)), budget)?;
         let alpha = Some(extreme.root(budget)?);
         Ok(DiskMargin { skew: skew.clone(), alpha, extreme: Some(extreme) })
     }
-}
-
-fn quotient_of_leading(above: &UniPoly, below: &UniPoly) -> Rational {
-    let leading = |p: &UniPoly| p.leading().cloned().expect("not zero");
-    Rational::new(leading(above), leading(below)).abs()
 }
 
 /// A number over an extreme value that is not zero, as an extreme.

@@ -80,16 +80,17 @@ pub(crate) enum DelayBoxes {
     Never,
 }
 
-/// A family whose stability is asked, in the parameters and, where a range is given, the delay.
+/// A family whose stability is asked, in the parameters, where a range is given in the delay, and in constants.
 pub(crate) struct DelayFamily<'a> {
     pub loops: DelayedLoops<'a>,
     pub delays: Option<[Rational; 2]>,
+    /// Each constant is a parameter more in this range.
+    pub constants: &'a [[Rational; 2]],
 }
 
 pub(crate) enum DelayedLoops<'a> {
     Delayed(&'a DelayedFunction),
-    /// With constants, each of which is a parameter more in this range.
-    Polynomial(&'a BoxPolynomial, &'a [[Rational; 2]]),
+    Polynomial(&'a BoxPolynomial),
     Moving(&'a MovingPolynomial),
 }
 

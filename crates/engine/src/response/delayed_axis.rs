@@ -1,29 +1,41 @@
-//! Functions of the angular frequency with `cos(tau omega)` and `sin(tau omega)` in them: variables 0, 1 and 2 of polynomials.
+//! Functions of the angular frequency with `cos(tau omega)` and `sin(tau omega)` in them: variables 0, 1 and 2 of polynomials. Symbols of the coefficients
+//! follow.
 
 use super::Place;
 use super::enclosed::enclosed;
+use super::ground::Ground;
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, Exhausted, Stop};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
-use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction, UniPoly};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction};
 use jurist_algebra::real::Real;
 use jurist_algebra::symbols::{Definition, MovingSymbols};
 use std::sync::Arc;
 
 /// The cosine and the sine of `tau omega`.
-pub(super) struct DelayedAxis {
+pub(super) struct DelayedAxis<G> {
+    ground: G,
     tau: Rational,
     turning: Arc<MovingSymbols>,
 }
 
-impl DelayedAxis {
-    pub fn new(tau: Rational) -> DelayedAxis {
+/// So many variables are before the symbols of the coefficients.
+const BEFORE: usize = 3;
+
+impl<G: Ground> DelayedAxis<G> {
+    pub fn new(ground: &G, tau: Rational) -> DelayedAxis<G> {
         let time = &RationalFunction::variable(0) * &RationalFunction::from(tau.clone());
         let polynomial = vec![RationalFunction::one(), RationalFunction::zero(), RationalFunction::one()];
         let part = |name: &str, index| {
             (name.to_owned(), Definition::Fundamental { polynomial: polynomial.clone(), index, time: time.clone() })
         };
-        DelayedAxis { tau, turning: Arc::new(MovingSymbols::new(vec![part("cos", 0), part("sin", 1)])) }
+        let mut table = vec![part("cos", 0), part("sin", 1)];
+        table.extend(ground.symbols_after(BEFORE));
+        DelayedAxis { ground: ground.clone(), tau, turning: Arc::new(MovingSymbols::new(table)) }
+    }
+
+    pub fn ground(&self) -> &G {
+        &self.ground
     }
 
     pub fn tau(&self) -> &Rational {
@@ -31,15 +43,18 @@ impl DelayedAxis {
     }
 
     /// A polynomial in `omega`.
-    pub fn of_omega(p: &UniPoly) -> MultiPoly {
-        MultiPoly::from_terms(p.coeffs().iter().enumerate().map(|(i, c)| (vec![i as u32], c.clone())))
+    pub fn of_omega(&self, p: &Poly<G::Number>) -> MultiPoly {
+        self.ground.in_variable(p, BEFORE)
     }
 
     /// A polynomial in `x = -omega^2` as one in `omega`.
-    pub fn of_square(p: &UniPoly) -> MultiPoly {
-        let sign = |i: usize| if i.is_multiple_of(2) { Integer::ONE } else { -Integer::ONE };
-        let terms = p.coeffs().iter().enumerate().map(|(i, c)| (vec![2 * i as u32], c * &sign(i)));
-        MultiPoly::from_terms(terms)
+    pub fn of_square(&self, p: &Poly<G::Number>) -> MultiPoly {
+        let mut spread = Vec::new();
+        for (i, c) in p.coeffs().iter().enumerate() {
+            let sign = if i.is_multiple_of(2) { Integer::ONE } else { -Integer::ONE };
+            spread.extend([c.times(&G::Number::from_integer(&sign)), G::Number::zero()]);
+        }
+        self.of_omega(&Poly::new(spread))
     }
 
     /// The derivative by `omega`, times the denominator of the dead time.
@@ -72,15 +87,15 @@ impl DelayedAxis {
     pub fn quotient_at(&self, parts: [&MultiPoly; 2], omega: &Rational, bits: u64) -> Option<Enclosure> {
         quotient(&self.turning, parts, &Ball::between(omega, omega, bits))
     }
+}
 
-    /// The frequency as a place.
-    pub fn place(omega: &Real) -> Place {
-        let omega = omega.clone();
-        Place::Inside(enclosed("minus the square of a frequency", move |bits| {
-            let omega = super::enclosed::within(&omega, bits);
-            Some(omega.mul(&omega, bits).neg())
-        }))
-    }
+/// An angular frequency as a place.
+pub(super) fn place_of(omega: &Real) -> Place {
+    let omega = omega.clone();
+    Place::Inside(enclosed("minus the square of a frequency", move |bits| {
+        let omega = super::enclosed::within(&omega, bits);
+        Some(omega.mul(&omega, bits).neg())
+    }))
 }
 
 fn quotient(turning: &MovingSymbols, [above, below]: [&MultiPoly; 2], omega: &Ball) -> Option<Enclosure> {

@@ -3,7 +3,13 @@
 use super::combined::{Combination, Combined};
 use super::enclosed::enclosed;
 use super::{Frequencies, Place, Value};
+use crate::answer::stable_factors;
+use crate::coverage::refusals::BESIDE_DEAD_TIME;
+use crate::error::Error;
+use crate::model;
 use crate::precisions::SIGN_AT_NUMBER;
+use crate::problem::symbols_without;
+use crate::stability::dead_time::{ConstantParts, FamilyLoop, GainLoop, Line, family_cells, gain_cells};
 use crate::stability::{
     AtPoint, ParametricPolynomial, Range, Shape, StableSet, SymbolicPolynomial, is_stable, stable_set,
     symbolic_stable_set, zeros_in,
@@ -14,7 +20,7 @@ use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
 use jurist_algebra::real::Real;
-use jurist_algebra::symbols::{MovingSymbols, SymbolicPoly, Symbols};
+use jurist_algebra::symbols::{Definition, MovingSymbols, SymbolicPoly, Symbols};
 use std::fmt;
 use std::sync::Arc;
 
@@ -64,11 +70,35 @@ pub(crate) trait Ground: Clone + fmt::Debug + Send + Sync {
         budget: &Budget,
     ) -> Result<StableSet, Exhausted>;
 
+    /// The factors `k` for which `D0 + k N exp(-tau s)` is stable.
+    fn stable_factors_with_delay(
+        &self,
+        parts: [&Poly<Self::Number>; 2],
+        tau: &Rational,
+        budget: &Budget,
+    ) -> Result<StableSet, Error>;
+
+    /// A number as a polynomial in symbols, whose variables come after so many others.
+    fn in_symbols(&self, c: &Self::Number, before: usize) -> MultiPoly;
+
+    /// The symbols, whose variables come after so many others.
+    fn symbols_after(&self, before: usize) -> Vec<(String, Definition)>;
+
+    /// A polynomial as one in variable 0 and the symbols, whose variables come after so many.
+    fn in_variable(&self, p: &Poly<Self::Number>, before: usize) -> MultiPoly {
+        let coefficients = p.coeffs().iter().map(|c| self.in_symbols(c, before)).collect();
+        MultiPoly::from_poly_in(&Poly::new(coefficients), 0)
+    }
+
     /// A polynomial in the factor, which is variable 0; variables of symbols follow.
-    fn in_factor(&self, p: &Poly<Self::Number>) -> RationalFunction;
+    fn in_factor(&self, p: &Poly<Self::Number>) -> RationalFunction {
+        self.in_variable(p, 1).into()
+    }
 
     /// The symbols beside the factor.
-    fn beside_factor(&self) -> MovingSymbols;
+    fn beside_factor(&self) -> MovingSymbols {
+        MovingSymbols::new(self.symbols_after(1))
+    }
 
     /// The value of a quotient of polynomials without a common factor at a frequency; `None` where it is infinite.
     fn value(
@@ -189,12 +219,23 @@ impl Ground for Integers {
         stable_set(&p, &Range::all(), shape, budget)
     }
 
-    fn in_factor(&self, p: &UniPoly) -> RationalFunction {
-        MultiPoly::from_terms(p.coeffs().iter().enumerate().map(|(k, c)| (vec![k as u32], c.clone()))).into()
+    fn stable_factors_with_delay(
+        &self,
+        [d, n]: [&UniPoly; 2],
+        tau: &Rational,
+        budget: &Budget,
+    ) -> Result<StableSet, Error> {
+        let zero = UniPoly::zero();
+        let gain = GainLoop::new(vec![d.clone(), zero.clone()], vec![zero, n.clone()], tau.clone());
+        stable_factors(gain_cells(&gain, &Range::all(), budget), &gain.family(), budget)
     }
 
-    fn beside_factor(&self) -> MovingSymbols {
-        MovingSymbols::new(Vec::new())
+    fn in_symbols(&self, c: &Integer, _: usize) -> MultiPoly {
+        MultiPoly::constant(c.clone())
+    }
+
+    fn symbols_after(&self, _: usize) -> Vec<(String, Definition)> {
+        Vec::new()
     }
 }
 
@@ -203,6 +244,16 @@ impl Ground for Integers {
 pub(crate) struct Constants(pub Arc<Symbols>);
 
 impl Constants {
+    /// The symbols of a loop without a free name; no polynomial is in those that stand for dead times.
+    ///
+    /// # Errors
+    /// `E-dead-time` where another one is not a constant.
+    pub fn beside_delays(symbols: &model::Symbols) -> Result<Constants, Error> {
+        let delays: Vec<usize> = symbols.delays().iter().map(|(variable, _)| *variable).collect();
+        let table = symbols_without(symbols, &delays).ok_or_else(|| BESIDE_DEAD_TIME.diagnostic(&[]))?;
+        Ok(Constants(Arc::new(table)))
+    }
+
     /// The value at a ball.
     fn at_ball(&self, p: &Poly<MultiPoly>, x: &Ball) -> Ball {
         let coefficients: Vec<Ball> = p.coeffs().iter().map(|c| self.0.enclose(c, x.bits())).collect();
@@ -325,13 +376,28 @@ impl Ground for Constants {
         symbolic_stable_set(&p, &Range::all(), shape, budget)
     }
 
-    fn in_factor(&self, p: &Poly<MultiPoly>) -> RationalFunction {
-        Constants::over_unknown(p).into()
+    fn stable_factors_with_delay(
+        &self,
+        [d, n]: [&Poly<MultiPoly>; 2],
+        tau: &Rational,
+        budget: &Budget,
+    ) -> Result<StableSet, Error> {
+        let part = |p: &Poly<MultiPoly>, power: u64| -> Vec<MultiPoly> {
+            let factor = MultiPoly::variable(0).power(power);
+            p.coeffs().iter().map(|c| self.in_symbols(c, 1).times(&factor)).collect()
+        };
+        let parts = ConstantParts::new(vec![part(d, 0), part(n, 1)], Symbols::clone(&self.0));
+        let family = FamilyLoop::enclosed(parts, Line::constant(tau.clone()), Line::constant(Rational::ZERO));
+        stable_factors(family_cells(&family, &Range::all(), budget), &family, budget)
     }
 
-    fn beside_factor(&self) -> MovingSymbols {
-        let place = |f: &RationalFunction| f.map_variables(|i| i + 1);
+    fn in_symbols(&self, c: &MultiPoly, before: usize) -> MultiPoly {
+        c.map_variables(|i| i + before)
+    }
+
+    fn symbols_after(&self, before: usize) -> Vec<(String, Definition)> {
+        let place = |f: &RationalFunction| f.map_variables(|i| i + before);
         let definition = |i: usize| self.0.definition(i).try_map(place).expect("variables are only renamed");
-        MovingSymbols::new(self.0.names().into_iter().zip((0..self.0.len()).map(definition)).collect())
+        self.0.names().into_iter().zip((0..self.0.len()).map(definition)).collect()
     }
 }

@@ -9,7 +9,7 @@ use super::on_axis::OnAxis;
 use super::on_circle::OnCircle;
 use super::requirement::Rule;
 use super::taylor_along::of_octave;
-use crate::coverage::refusals::{BESIDE_DEAD_TIME, ONE_FACTOR};
+use crate::coverage::refusals::ONE_FACTOR;
 use crate::error::Error;
 use crate::model::Symbols;
 use crate::stability::Shape;
@@ -156,7 +156,7 @@ pub(super) fn number_asked(rule: &Rule) -> RealAlgebraic {
 /// The dead time of the one factor of an open loop that has it, which is divided away; `None` of a loop without.
 ///
 /// # Errors
-/// Refused where the dead time is elsewhere, or beside other functions.
+/// Refused where the dead time is elsewhere.
 pub(super) fn dead_time(
     quotient: &mut Quotient<MultiPoly>,
     undefined: &MultiPoly,
@@ -165,9 +165,6 @@ pub(super) fn dead_time(
     let delays = symbols.delays();
     if delays.is_empty() {
         return Ok(None);
-    }
-    if symbols.iter().count() > delays.len() {
-        return Err(BESIDE_DEAD_TIME.diagnostic(&[]).into());
     }
     let mut total = RationalFunction::zero();
     let mut factor = MultiPoly::one();

@@ -4,7 +4,7 @@ use super::crossings::Crossings;
 use super::dead_time::DeadTime;
 use super::extreme::{complementary_extreme, extreme_over, modulus_extreme};
 use super::ground::Ground;
-use super::open_loop::{OpenLoop, Over};
+use super::open_loop::OpenLoop;
 use super::parts::{Parts, with_parts};
 use super::value::{reciprocal, square_root};
 use super::{DelayMargin, DiskMargin, Extreme, HeldDelay, OneSided, Place, Value};
@@ -218,14 +218,14 @@ impl Problem {
             budget.step("crossings");
             let crossings = Crossings::of(&open_loop, budget)?;
             let is_stable = verdict.verdict == Verdict::Stable;
-            let (crossings, stable) = match (open_loop.over(), open_loop.dead_time()) {
-                (Over::Integers(parts), Some(tau)) => {
+            let (crossings, stable) = match open_loop.dead_time() {
+                Some(tau) => with_parts!(open_loop, parts => {
                     let dead_time = DeadTime::new(parts, tau);
                     let crossings = dead_time.crossings(crossings, budget)?;
                     let stable = is_stable.then(|| dead_time.margins(&crossings, skew, budget)).transpose()?;
                     (crossings, stable)
-                }
-                _ => {
+                }),
+                None => {
                     let stable = is_stable.then(|| StableMargins::of(&open_loop, &crossings, skew, budget));
                     let stable = stable.transpose()?;
                     (crossings, stable)

@@ -4,7 +4,7 @@ use super::crossings::Crossings;
 use super::dead_time::DeadTime;
 use super::extreme::{Extreme, extreme_over};
 use super::margins::{GainMargin, Margins, PhaseMargin, StableMargins};
-use super::open_loop::{OpenLoop, Over};
+use super::open_loop::OpenLoop;
 use super::parts::with_parts;
 use super::requirement::{Circle, Found, Requirement, Rule};
 use super::value::{Value, square_root};
@@ -255,10 +255,12 @@ impl Problem {
 
     /// Whether a stable loop has a margin at its cut.
     fn has_margin(&self, open_loop: &OpenLoop, requirement: &Requirement, budget: &Budget) -> Result<bool, Error> {
-        match (requirement.rule(), open_loop.over(), open_loop.dead_time()) {
+        match (requirement.rule(), open_loop.dead_time()) {
             _ if open_loop.is_zero() => Ok(true),
-            (Rule::DeadTime(least), ..) => self.bears_dead_time(open_loop, least, budget),
-            (_, Over::Integers(parts), Some(tau)) => DeadTime::new(parts, tau).meets(requirement, open_loop, budget),
+            (Rule::DeadTime(least), _) => self.bears_dead_time(open_loop, least, budget),
+            (_, Some(tau)) => {
+                with_parts!(open_loop, parts => DeadTime::new(parts, tau).meets(requirement, open_loop, budget))
+            }
             _ => Ok(AtPoint::new(open_loop).meets(requirement, budget)?),
         }
     }

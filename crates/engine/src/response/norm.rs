@@ -1,6 +1,6 @@
 //! The peak gain of a closed-loop transfer function.
 
-use super::delayed_peak::DelayedQuotient;
+use super::delayed_peak::DelayedTransfer;
 use super::extreme::extreme_over;
 use super::ground::Ground;
 use super::met::AtPoint;
@@ -84,7 +84,7 @@ impl PeakGain {
 /// A transfer function, without or with dead time in more than a factor of the numerator.
 enum Transfer {
     Of(Over),
-    Delayed(DelayedQuotient),
+    Delayed(DelayedTransfer),
 }
 
 impl Transfer {
@@ -99,7 +99,7 @@ impl Transfer {
             true => Ok(Transfer::Of(Over::new(below, above, Vec::new(), symbols, shape)?.0)),
             false => match Over::new(below.clone(), above.clone(), Vec::new(), symbols, shape) {
                 Ok((over, _)) => Ok(Transfer::Of(over)),
-                Err(_) => Ok(Transfer::Delayed(DelayedQuotient::of(below, above, symbols)?)),
+                Err(_) => Ok(Transfer::Delayed(DelayedTransfer::new([below, above], symbols)?)),
             },
         }
     }
@@ -108,8 +108,8 @@ impl Transfer {
         match self {
             Transfer::Of(Over::Integers(parts)) => PeakGain::over(parts, budget),
             Transfer::Of(Over::Constants(parts)) => PeakGain::over(parts, budget),
-            Transfer::Delayed(quotient) => {
-                let extreme = quotient.peak(budget)?;
+            Transfer::Delayed(transfer) => {
+                let extreme = transfer.peak(budget)?;
                 Ok(PeakGain { value: extreme.root(budget)?, extreme })
             }
         }

@@ -8,7 +8,7 @@ use super::parts::{Parts, Reduced, integral, with_parts, without_denominators};
 use crate::coverage::refusals::{BESIDE_DEAD_TIME, ONE_FACTOR};
 use crate::error::{Code, Error};
 use crate::model::{ClosedLoop, Cut, Opened};
-use crate::problem::{EnclosedQuotient, Problem, exact_or_enclosed, fixed_symbols};
+use crate::problem::{EnclosedQuotient, Problem, exact_or_enclosed};
 use crate::stability::Shape;
 use jurist_algebra::ball::{Ball, cos_sin};
 use jurist_algebra::limits::Budget;
@@ -366,11 +366,12 @@ impl Over {
             let parts = Parts::new(Integers, plain(&denominator), plain(&numerator), poles, shape);
             return Ok((Over::Integers(parts), dead_time));
         }
-        if !symbols.delays().is_empty() {
+        let is_delay = |variable: &usize| symbols.delays().iter().any(|(own, _)| *own - symbols.first() == *variable);
+        if poles.iter().flat_map(|p| p.coeffs()).any(|c| c.variables().iter().any(is_delay)) {
             return Err(BESIDE_DEAD_TIME.diagnostic(&[]).into());
         }
-        let ground = Constants(Arc::new(fixed_symbols(symbols)?));
-        Ok((Over::Constants(Parts::new(ground, denominator, numerator, poles, shape)), None))
+        let ground = Constants::beside_delays(symbols)?;
+        Ok((Over::Constants(Parts::new(ground, denominator, numerator, poles, shape)), dead_time))
     }
 }
 

@@ -385,11 +385,7 @@ fn asked_of(
 ) -> Result<(ParametricSymbols, Asks), Error> {
     let (mut quotient, undefined) = opened.quotient(MultiPoly::clone, budget)?;
     let dead_time = dead_time(&mut quotient, &undefined, &opened.symbols)?;
-    let table = match &dead_time {
-        // The functions of the frequency have the dead time in its place.
-        Some(_) => ParametricSymbols::new(Vec::new()),
-        None => parametric_symbols(&opened.symbols)?,
-    };
+    let table = parametric_symbols(&opened.symbols)?;
     let alpha = MultiPoly::variable(problem.free().len() + table.len());
     let parts = (&quotient, dead_time.as_ref());
     let functions = budget.enter(|| LoopFunctions::new(parts, &undefined, rule, alpha))?;

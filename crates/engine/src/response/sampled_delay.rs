@@ -200,11 +200,11 @@ impl SampledDelay {
         let mut out = Vec::with_capacity(self.families.len());
         for (family, delays) in &self.families {
             let delays = self.is_held.then(|| delays.clone());
-            let loops = match family {
-                SampledFamily::Moving(p) => DelayedLoops::Moving(p),
-                SampledFamily::Polynomial(p, constants) => DelayedLoops::Polynomial(p, constants),
+            let (loops, constants): (_, &[[Rational; 2]]) = match family {
+                SampledFamily::Moving(p) => (DelayedLoops::Moving(p), &[]),
+                SampledFamily::Polynomial(p, constants) => (DelayedLoops::Polynomial(p), constants),
             };
-            out.push(DelayFamily { loops, delays });
+            out.push(DelayFamily { loops, delays, constants });
         }
         out
     }

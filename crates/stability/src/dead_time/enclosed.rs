@@ -111,16 +111,18 @@ impl FamilyLoop {
         }
     }
 
-    /// The loop of other coefficients, each made of one, beside another dead time.
+    /// The loop of other coefficients, each made of that of a power of `s`, beside another dead time.
     pub(super) fn mapped(
         &self,
-        change: impl Fn(&UniPoly) -> UniPoly + Clone + Send + Sync + 'static,
+        change: impl Fn(usize, &UniPoly) -> UniPoly + Clone + Send + Sync + 'static,
         tau: Line,
     ) -> FamilyLoop {
-        let all = |parts: &[Vec<UniPoly>]| parts.iter().map(|part| part.iter().map(&change).collect()).collect();
+        let one = |part: &Vec<UniPoly>| part.iter().enumerate().map(|(j, c)| change(j, c)).collect();
+        let all = |parts: &[Vec<UniPoly>]| parts.iter().map(one).collect();
         let parts = all(&self.parts);
         let Some(enclosed) = &self.enclosed else { return FamilyLoop::new(parts, tau, self.decay.clone()) };
-        let errors = all(&enclosed.errors);
+        let mut errors: Vec<Vec<UniPoly>> = all(&enclosed.errors);
+        errors.iter_mut().flatten().for_each(|p| *p = with_sizes(p));
         let (at, own, time) = (Arc::clone(&enclosed.at), change.clone(), tau.clone());
         let at = Arc::new(move |bits| at(bits).mapped(own.clone(), time.clone()));
         FamilyLoop { parts, enclosed: Some(Enclosed { errors, bits: enclosed.bits, at }), tau, ..self.clone() }
@@ -166,7 +168,7 @@ impl FamilyLoop {
 
     /// A bound of the modulus of a coefficient for all values up to a modulus.
     fn modulus(&self, [k, j]: [usize; 2], most: &Rational) -> Rational {
-        let own = UniPoly::new(self.parts[k][j].coeffs().iter().map(Integer::abs).collect()).eval_rational(most);
+        let own = with_sizes(&self.parts[k][j]).eval_rational(most);
         self.errors().get(k).map_or(own.clone(), |part| own + part[j].eval_rational(most))
     }
 
@@ -232,6 +234,60 @@ fn rounded_loop(parts: &Arc<ConstantParts>, tau: &Line, decay: &Line, bits: u64)
 /// A value beyond which nothing happens is looked for so many times, each twice as large.
 const TRIALS: usize = 6;
 
+/// A place between negative gains and others; nothing is likely to happen there.
+const BETWEEN: [i64; 2] = [-37, 1009];
+
+/// The cells of a gain in a range that lacks an end.
+///
+/// # Errors
+/// [`NotSolved::Unbounded`] where nothing is known of large gains.
+pub(super) fn enclosed_gains(
+    family: &FamilyLoop,
+    range: &Range,
+    budget: &Budget,
+) -> Result<Result<GainCells, Never>, NotSolved> {
+    let between = Rational::new(BETWEEN[0].into(), BETWEEN[1].into());
+    let negative = |upper: &Rational| -> Result<Result<GainCells, Never>, NotSolved> {
+        let reflected = family.mapped(|_, c| c.negated_argument(), family.tau.clone());
+        let mut found = gains_from(&reflected, &-upper, budget)?;
+        if let Ok(cells) = &mut found {
+            cells.negate();
+        }
+        Ok(found)
+    };
+    match (&range.lower, &range.upper) {
+        (Some(lower), _) => gains_from(family, lower, budget),
+        (None, Some(upper)) => negative(upper),
+        (None, None) => Ok(match (negative(&between)?, gains_from(family, &between, budget)?) {
+            (Ok(mut below), Ok(above)) => {
+                below.points.extend(above.points);
+                // The cell about the joint is one.
+                below.right.extend(above.right.into_iter().skip(1));
+                Ok(below)
+            }
+            (Err(never), _) | (_, Err(never)) => Err(never),
+        }),
+    }
+}
+
+impl GainCells {
+    /// The same in the parameter with the other sign.
+    fn negate(&mut self) {
+        self.points.reverse();
+        self.right.reverse();
+        for point in &mut self.points {
+            point.value = point.value.negated();
+            point.inverse = point.inverse.take().map(|inverse| inverse.negated());
+            point.change = point.change.map(|change| -change);
+        }
+    }
+}
+
+/// The polynomial with the absolute values of the coefficients.
+fn with_sizes(p: &UniPoly) -> UniPoly {
+    UniPoly::new(p.coeffs().iter().map(Integer::abs).collect())
+}
+
 /// The cells of a gain in a range that has a lower end only.
 ///
 /// Beyond some frequency all roots that cross the axis go to the right as the gain grows. Where no root crosses below that frequency beyond some gain, and a root
@@ -239,11 +295,7 @@ const TRIALS: usize = 6;
 ///
 /// # Errors
 /// [`NotSolved::Unbounded`] where this is not seen.
-pub(super) fn enclosed_gains(
-    family: &FamilyLoop,
-    lower: &Rational,
-    budget: &Budget,
-) -> Result<Result<GainCells, Never>, NotSolved> {
+fn gains_from(family: &FamilyLoop, lower: &Rational, budget: &Budget) -> Result<Result<GainCells, Never>, NotSolved> {
     let Some(gain) = family.middle_gain() else { return Err(NotSolved::Unbounded) };
     let Some(turns) = gain.single_delay() else { return Err(NotSolved::Unbounded) };
     let errors = [0, 1].map(|i| {
@@ -252,9 +304,10 @@ pub(super) fn enclosed_gains(
     });
     let Some(growing) = gain.growing_beyond(turns, Some(&errors)) else { return Err(NotSolved::Unbounded) };
     let domain = Range { lower: Some(lower.clone()), upper: None };
-    let at_middle = match gain_cells(&gain, &domain, budget)? {
-        Ok(cells) => cells,
-        Err(_) => return Err(NotSolved::Unbounded),
+    let at_middle = match gain_cells(&gain, &domain, budget) {
+        Ok(Ok(cells)) => cells,
+        Err(NotSolved::NotCounted(reason)) => return Err(NotSolved::NotCounted(reason)),
+        _ => return Err(NotSolved::Unbounded),
     };
     let last = at_middle.points.last().map(|point| point.value.rational_above());
     let mut most = last.unwrap_or(Rational::ONE).max(lower.abs()) + Rational::ONE;

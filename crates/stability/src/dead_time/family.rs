@@ -121,7 +121,7 @@ impl FamilyLoop {
     /// The loop in the reciprocal of the parameter.
     pub(super) fn reversed(&self) -> FamilyLoop {
         let degree = self.degree();
-        let reversed = move |c: &UniPoly| c.reversed(degree);
+        let reversed = move |_: usize, c: &UniPoly| c.reversed(degree);
         self.mapped(reversed, self.tau.clone())
     }
 }
@@ -190,7 +190,7 @@ fn cells_of(family: &FamilyLoop, range: &Range, budget: &Budget) -> Result<Resul
     match (&range.lower, &range.upper) {
         (Some(_), Some(_)) => piece(family, range, budget),
         _ if moves => Err(NotSolved::Unbounded),
-        (Some(lower), None) if family.enclosed.is_some() => match enclosed_gains(family, lower, budget) {
+        _ if family.enclosed.is_some() => match enclosed_gains(family, range, budget) {
             Err(NotSolved::Unbounded) => unbounded(family, range, budget),
             found => found,
         },
@@ -203,15 +203,13 @@ impl FamilyLoop {
     /// The line is the imaginary axis, and the dead time a number.
     fn stretched(&self) -> FamilyLoop {
         assert!(self.decay.is_zero() && self.tau.slope.is_zero(), "another line would not stay");
-        assert!(self.enclosed.is_none(), "the coefficients are exact");
-        let parts: Vec<Vec<UniPoly>> =
-            self.parts.iter().map(|part| part.iter().enumerate().map(|(j, c)| c.shifted_up(j)).collect()).collect();
-        let lowest = |c: &UniPoly| c.coeffs().iter().position(|x| !x.is_zero());
-        let common = parts.iter().flatten().filter_map(lowest).min().unwrap_or(0);
-        let divided = |c: &UniPoly| UniPoly::new(c.coeffs().iter().skip(common).cloned().collect());
-        let parts = parts.iter().map(|part| part.iter().map(divided).collect()).collect();
+        let lowest = |(j, c): (usize, &UniPoly)| Some(j + c.coeffs().iter().position(|x| !x.is_zero())?);
+        let all = self.parts.iter().chain(self.errors());
+        let common = all.flat_map(|part| part.iter().enumerate().filter_map(lowest)).min().unwrap_or(0);
+        let stretched =
+            move |j: usize, c: &UniPoly| UniPoly::new(c.shifted_up(j).coeffs().iter().skip(common).cloned().collect());
         let tau = Line { slope: self.tau.offset.clone(), offset: Rational::ZERO };
-        FamilyLoop { is_stretched: true, ..FamilyLoop::new(parts, tau, self.decay.clone()) }
+        FamilyLoop { is_stretched: true, ..self.mapped(stretched, tau) }
     }
 }
 
@@ -220,10 +218,14 @@ fn outer(reversed: &FamilyLoop, range: &Range, budget: &Budget) -> Result<Result
     match piece(reversed, range, budget) {
         // Roots may go to s = 0 there, as those of a loop with a time constant that grows.
         Err(reason @ (NotSolved::Coincidence | NotSolved::Unbounded))
-            if range.lower == Some(Rational::ZERO) && reversed.decay.is_zero() && reversed.enclosed.is_none() =>
+            if range.lower == Some(Rational::ZERO) && reversed.decay.is_zero() =>
         {
             match piece(&reversed.stretched(), range, budget) {
-                Err(NotSolved::Coincidence | NotSolved::Unbounded) => Err(reason),
+                Err(NotSolved::Coincidence | NotSolved::Unbounded) => Err(match reversed.enclosed {
+                    // More bits of the coefficients tell no more at its end.
+                    Some(_) => NotSolved::Unbounded,
+                    None => reason,
+                }),
                 other => other,
             }
         }
@@ -317,9 +319,13 @@ pub(super) fn piece(
         Err(never) => return Ok(Err(never)),
     };
     let weights = budget.enter(|| family.weights([lower, upper]))?;
-    let frequency = match family.enclosed {
+    let quick = match family.enclosed {
         Some(_) => budget.enter(|| family.frequency_bound(&weights, [lower, upper]))?,
-        None => frequency_bound_over(&family.parts, &weights, range, budget)?,
+        None => None,
+    };
+    let frequency = match quick {
+        None => frequency_bound_over(&family.parts, family.errors(), &weights, range, budget)?,
+        known => known,
     };
     let Some(frequency) = frequency else { return Err(NotSolved::Unbounded) };
     let function = Arc::new(budget.enter(|| family.function())?);

@@ -132,7 +132,7 @@ pub(super) fn crossings_of_gain(
         return walk.all_within(&limit, range, Beyond::default());
     }
     let weights = vec![Rational::ONE; gain.a.len()];
-    if let Some(limit) = frequency_bound_over(&gain.coefficients(), &weights, range, budget)? {
+    if let Some(limit) = frequency_bound_over(&gain.coefficients(), &[], &weights, range, budget)? {
         return walk.all_within(&limit, range, Beyond::default());
     }
     let Some(turns) = gain.single_delay() else { return Err(NotSolved::Unbounded) };

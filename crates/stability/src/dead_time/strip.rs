@@ -5,6 +5,7 @@ use crate::interval_set::zeros_in;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, SquareFree, UniPoly, isolate_real_roots_in, resultant_formal};
+use std::cmp::Ordering;
 
 /// A frequency beyond which no root lies on the axis for any value of the parameter in a closed range, however wide; `None`
 /// where none is known.
@@ -15,9 +16,13 @@ use jurist_algebra::poly::{Domain, MultiPoly, Poly, SquareFree, UniPoly, isolate
 /// are any. For one delayed part that is the very condition `|P_0| = |P_1|`, for more it is sufficient
 /// (Cauchy-Schwarz).
 ///
+/// Where coefficients are off by `errors` at most, for the modulus of the parameter, `|P_0| > A + e` with their sum `e` follows from
+/// `|P_0|^2 > (1 + d) A^2 + (1 + 1/d) e^2` for any `d`.
+///
 /// Cost: a discriminant in two variables and the isolation of its roots.
 pub(super) fn frequency_bound_over(
     parts: &[Vec<UniPoly>],
+    errors: &[Vec<UniPoly>],
     weights: &[Rational],
     range: &Range,
     budget: &Budget,
@@ -26,13 +31,21 @@ pub(super) fn frequency_bound_over(
     let common = weights.iter().fold(Integer::ONE, |l, w| l.lcm(&w.denominator()));
     let scaled = |w: &Rational| (w * &Rational::from(&common)).numerator();
     let difference = budget.enter(|| {
-        let mut sum = modulus_squared(&parts[0]).scaled_by(&(&common * &common));
+        let mut own = modulus_squared(&parts[0]).scaled_by(&(&common * &common));
+        let mut others = MultiPoly::zero();
         for &k in &delayed {
             let w = scaled(&weights[k]);
             let factor = &(&w * &w) * &Integer::from(delayed.len() as i64);
-            sum = &sum - &modulus_squared(&parts[k]).scaled_by(&factor);
+            others = &others + &modulus_squared(&parts[k]).scaled_by(&factor);
         }
-        sum
+        if !errors.is_empty() {
+            let one_more = (Integer::ONE << BITS_FOR_ERRORS) + Integer::ONE;
+            own = own.scaled_by(&(Integer::ONE << BITS_FOR_ERRORS));
+            let greatest = weights.iter().map(scaled).max().unwrap_or(Integer::ZERO).max(common.clone());
+            let off = squares_of_errors(errors, range).scaled_by(&(&(&greatest * &greatest) << BITS_FOR_ERRORS));
+            others = (&others + &off).scaled_by(&one_more);
+        }
+        &own - &others
     })?;
     if difference.is_zero() {
         return Ok(None);
@@ -75,6 +88,40 @@ pub(super) fn frequency_bound_over(
     };
     let positive = at.sign_at(&inside).is_gt();
     Ok(positive.then(|| Enclosure::from_rational(beyond).sqrt(16).upper().ceil()).map(|w| Rational::from(&w)))
+}
+
+/// The number `d` beside errors is one over two to this.
+const BITS_FOR_ERRORS: u64 = 20;
+
+/// In `omega^2` (0) and the parameter (1) at least the square of the sum of all errors, where the parameter is in the range.
+fn squares_of_errors(errors: &[Vec<UniPoly>], range: &Range) -> MultiPoly {
+    let all = || errors.iter().flat_map(|part| part.iter().enumerate()).filter(|(_, e)| !e.is_zero());
+    let is_from = |end: &Option<Rational>, sign: Ordering| end.as_ref().is_some_and(|end| end.sign() != sign);
+    let at_modulus =
+        |e: &UniPoly| match (is_from(&range.lower, Ordering::Less), is_from(&range.upper, Ordering::Greater)) {
+            (true, _) => e.clone(),
+            (_, true) => e.negated_argument(),
+            // Even powers of the parameter, which outweigh the odd ones.
+            _ => UniPoly::new(with_even_powers(e)),
+        };
+    let count = Integer::from(all().count() as i64);
+    all().fold(MultiPoly::zero(), |sum, (j, e)| {
+        let e = MultiPoly::from_univariate(&at_modulus(e), 1);
+        let frequency = MultiPoly::variable(0).power(j as u64);
+        &sum + &(&(&e * &e) * &frequency).scaled_by(&count)
+    })
+}
+
+/// Coefficients of a polynomial in even powers that is at least the one at the modulus: `2 |p|^k <= |p|^(k - 1) + |p|^(k + 1)`.
+fn with_even_powers(e: &UniPoly) -> Vec<Integer> {
+    let mut out = vec![Integer::ZERO; e.coeffs().len() + 1];
+    for (k, c) in e.coeffs().iter().enumerate() {
+        match k % 2 {
+            0 => out[k] += c,
+            _ => [k - 1, k + 1].into_iter().for_each(|k| out[k] += c),
+        }
+    }
+    out
 }
 
 /// `|P(i omega)|^2` in `omega^2` (0) and the parameter (1), of the coefficients of the powers of `s`.

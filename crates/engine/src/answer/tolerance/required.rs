@@ -213,15 +213,15 @@ impl BoxAsked<'_> {
         for family in delay.families().unwrap_or_default() {
             let own = family.delays.map(|[low, high]| Side::fixed(high.clone(), [&high - &low, Rational::ZERO]));
             let mut all: Vec<Side> = self.sides.iter().cloned().chain(own).collect();
+            all.extend(family.constants.iter().map(|[low, high]| {
+                let middle = low.midpoint(high);
+                let widths = [&middle - low, high - &middle];
+                Side::fixed(middle, widths)
+            }));
             let is_stable = match family.loops {
                 DelayedLoops::Delayed(p) => self.add(p, all)?,
                 DelayedLoops::Moving(p) => self.add(p, all)?,
-                DelayedLoops::Polynomial(p, constants) => {
-                    all.extend(constants.iter().map(|[low, high]| {
-                        let middle = low.midpoint(high);
-                        let widths = [&middle - low, high - &middle];
-                        Side::fixed(middle, widths)
-                    }));
+                DelayedLoops::Polynomial(p) => {
                     let boxes = ToleranceProblem::new(p, all.clone());
                     if let Some(boxes) = boxes.filter(|boxes| boxes.coefficients().is_none()) {
                         return Err(too_many(&boxes));
