@@ -237,3 +237,30 @@ fn a_delay_margin_of_an_integrator_with_a_gain_of_pi_is_required_up_to_a_rationa
         assert!(interval.upper.as_ref().unwrap().is_closed());
     }
 }
+
+#[test]
+fn roots_are_those_of_numbers_beside_the_constants() {
+    let mut random = Random::new(20_261_130);
+    let budget = Budget::unlimited();
+    for _ in 0..count(6, 60) {
+        let (transfers, _) = random_transfer(&mut random);
+        let found = transfers.each_ref().map(|transfer| {
+            let answer = feedback(transfer).ask().problem().unwrap().rightmost_roots(5, 12, &budget);
+            answer.unwrap_or_else(|why| panic!("{transfer} {why}")).into_value().list
+        });
+        let near = number("1e-7");
+        for (a, b) in found[0].iter().zip(&found[1]).take(5) {
+            let size = Rational::ONE + a.disc.re.abs() + &a.disc.im;
+            let apart = (&a.disc.re - &b.disc.re).abs() + (&a.disc.im - &b.disc.im).abs();
+            assert!(apart < &size * &near && a.disc.is_pair == b.disc.is_pair, "{transfers:?}");
+        }
+    }
+}
+
+#[test]
+fn a_root_at_zero_beside_constants_is_told_exactly() {
+    let model = feedback("pi*s*exp(-s/5)/(s*(s + sqrt(2)))");
+    let roots = model.ask().problem().unwrap().rightmost_roots(3, 12, &Budget::unlimited()).unwrap().into_value().list;
+    assert!(roots[0].disc.re.is_zero() && roots[0].disc.im.is_zero() && roots[0].disc.radius.is_zero());
+    assert!(roots.len() > 2 && roots[1].disc.re.is_negative());
+}

@@ -1,14 +1,12 @@
 //! Where the roots of a closed loop are, each in a small disc.
 
 use super::Answer;
-use super::rightmost::rightmost;
+use super::rightmost::{WithDelay, rightmost};
 use super::roots_of_complex::roots_of_complex;
-use crate::coverage::refusals::BESIDE_DEAD_TIME;
 use crate::error::Error;
 use crate::model::{Time, quotient_at};
 use crate::precisions::ROOTS;
 use crate::problem::{BaseDelay, DelayedLoop, Problem, exact_or_enclosed};
-use crate::stability::dead_time::QuasiPolynomial;
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, checkpoint};
 use jurist_algebra::number::{Enclosure, Rational};
@@ -173,7 +171,7 @@ enum Polynomial {
     /// Enclosed, with so many bits.
     Enclosed(Vec<RootDisc>),
     /// With a dead time.
-    Delayed(QuasiPolynomial, Rational),
+    Delayed(WithDelay, Rational),
 }
 
 impl Problem {
@@ -276,9 +274,6 @@ impl Problem {
         let period = algebra.sample_time().and_then(|t| t.as_constant());
         if !symbols.delays().is_empty() {
             let delayed = self.delayed(budget)?.ok_or_else(undefined)?;
-            if !delayed.is_exact() {
-                return Err(BESIDE_DEAD_TIME.diagnostic(&[]).into());
-            }
             return Ok((with_dead_time(delayed), degree, period));
         }
         if let Some(whole) = algebra.complex() {
@@ -316,9 +311,12 @@ impl Problem {
 
 /// The characteristic function of a loop with dead time, where that is no factor that can be left out.
 fn with_dead_time(delayed: &DelayedLoop) -> Polynomial {
+    if let (Some(constants), BaseDelay::Number(tau)) = (delayed.over_constants(), delayed.delay()) {
+        return Polynomial::Delayed(WithDelay::Over(constants.clone()), tau.clone());
+    }
     let Some(p) = delayed.quasi_polynomial() else { return Polynomial::Exact(UniPoly::zero()) };
     match delayed.delay() {
-        BaseDelay::Number(tau) if p.delays() > 0 => Polynomial::Delayed(p, tau.clone()),
+        BaseDelay::Number(tau) if p.delays() > 0 => Polynomial::Delayed(WithDelay::Exact(p), tau.clone()),
         _ => Polynomial::Exact(p.without_delay()),
     }
 }

@@ -69,7 +69,7 @@ static ROWS: &[Row] = &[
     at_a_point(Asked::Verdict, "verdict", [A(&COUNT), A(&ENCLOSED_COUNT), A(&ARGUMENT), A(&ENCLOSED_ARGUMENT)]).called("verdict"),
     Row::new(Asked::Intervals, "intervals --param NAME", [A(&ZEROS), A(&ENCLOSED_ZEROS), A(&FUNCTION_ZEROS), A(&CROSSINGS), A(&ENCLOSED_CROSSINGS), BESIDE, A(&SAMPLES)])
         .called("intervals of one parameter"),
-    Row::new(Asked::Analyze, "analyze", [A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), P(&SEVERAL, &BESIDE_DEAD_TIME), BESIDE, A(&SEVERAL)]).called("analyze"),
+    Row::new(Asked::Analyze, "analyze", [A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), BESIDE, A(&SEVERAL)]).called("analyze"),
     Row::new(Asked::Charpoly, "charpoly", [A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), NO_ORDER]).called("charpoly"),
     at_a_point(Asked::Margins, "margins", [A(&FREQUENCIES), A(&FREQUENCIES), OPEN_LOOP, OPEN_LOOP]).called("margins"),
     at_a_point(Asked::Norm, "norm", [A(&PEAKS), A(&PEAKS), A(&DELAYED_PEAKS), A(&DELAYED_PEAKS)]).called("norm"),
@@ -81,7 +81,7 @@ static ROWS: &[Row] = &[
     Row::new(Asked::Locus, "locus --param NAME", [A(&FLOATING), A(&FLOATING), A(&FLOATING), NO_DELAY, NO_DELAY, BESIDE, NO_ORDER]).called("locus"),
     Row::new(Asked::Map, "map -x NAME -y NAME", [A(&DECOMPOSITION), A(&DECOMPOSITION), B(&FUNCTION_BOXES), B(&DELAYED_BOXES), B(&DELAYED_FAMILY_BOXES), BESIDE, NO_ORDER]).called("map"),
     Row::new(Asked::Tolerance, "tolerance --tol NAME=10%", [A(&TENSOR), A(&TENSOR), A(&FUNCTION_TENSOR), A(&DELAYED_TENSOR), A(&DELAYED_TENSOR), BESIDE, NO_ORDER]).called("tolerance"),
-    at_a_point(Asked::Roots, "roots", [A(&DISCS), A(&DISCS), P(&RIGHTMOST, &ADVANCED), BESIDE]).called("roots"),
+    at_a_point(Asked::Roots, "roots", [A(&DISCS), A(&DISCS), P(&RIGHTMOST, &ADVANCED), A(&RIGHTMOST)]).called("roots"),
     at_a_point(Asked::Jury, "jury", [A(&TABLE), A(&ENCLOSED_TABLE), NO_DELAY, NO_DELAY]).called("jury at a point"),
     Row::new(Asked::JuryInParameter, "jury --param NAME", [A(&TABLE), A(&ENCLOSED_TABLE), NO_FUNCTIONS, NO_DELAY, NO_DELAY, NO_DELAY, NO_ORDER]).called("jury in one parameter"),
     Row::new(Asked::Report, "report", [A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), A(&SEVERAL)]).called("report"),

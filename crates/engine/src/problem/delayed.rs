@@ -74,7 +74,7 @@ impl DelayedLoop {
             if !constants.is_empty() {
                 let placed = |p: &MultiPoly| p.map_variables(|v| constants.position(v).map_or(0, |i| i + 1));
                 let divisors = divisors().map(placed).collect();
-                return DelayedLoop::over_constants(parts, divisors, constants.table, (delay, decay)).map(Some);
+                return DelayedLoop::with_constants(parts, divisors, constants.table, (delay, decay)).map(Some);
             }
             let in_parameter = |c: &MultiPoly| c.to_univariate(0).expect("the parameter alone is left");
             let parts = parts.iter().map(|part| part.iter().map(in_parameter).collect()).collect();
@@ -110,7 +110,7 @@ impl DelayedLoop {
             }
             _ => {
                 let divisors = vec![undefined.clone()];
-                DelayedLoop::over_constants(parts, divisors, constants.clone(), (delay, decay)).map(Some)
+                DelayedLoop::with_constants(parts, divisors, constants.clone(), (delay, decay)).map(Some)
             }
         }
     }
@@ -128,7 +128,7 @@ impl DelayedLoop {
     }
 
     /// The loop whose coefficients have constants that are not rational behind the parameter, beside what it is divided by.
-    fn over_constants(
+    fn with_constants(
         mut parts: Vec<Vec<MultiPoly>>,
         divisors: Vec<MultiPoly>,
         table: Symbols,
@@ -148,6 +148,11 @@ impl DelayedLoop {
         }
         let over_constants = Some(ConstantParts::new(parts, table));
         Ok(DelayedLoop { parts: Vec::new(), over_constants, delay, decay, poles })
+    }
+
+    /// The coefficients where there are constants that are not rational.
+    pub fn over_constants(&self) -> Option<&ConstantParts> {
+        self.over_constants.as_ref()
     }
 
     /// Whether all coefficients are rational.

@@ -6,12 +6,13 @@ use super::family::{FamilyLoop, piece, trimmed};
 use super::family_function::{Function, Line};
 use super::family_zeros::zeros;
 use super::gain::{GainCells, GainLoop, NotSolved, gain_cells};
+use super::quasi_polynomial::QuasiPolynomial;
 use super::windows::Never;
 use crate::Range;
 use crate::precisions::CONSTANTS_BESIDE_DEAD_TIME;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
-use jurist_algebra::poly::{Domain, MultiPoly, UniPoly};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly, UniPoly};
 use jurist_algebra::symbols::Symbols;
 use std::fmt;
 use std::sync::Arc;
@@ -43,6 +44,29 @@ impl ConstantParts {
     /// From the coefficients, in which symbol `i` is the variable `i + 1`.
     pub fn new(coefficients: Vec<Vec<MultiPoly>>, symbols: Symbols) -> ConstantParts {
         ConstantParts { coefficients, symbols }
+    }
+
+    /// Each part, a polynomial in `s`, changed.
+    pub(super) fn map_parts(&self, change: impl Fn(&Poly<MultiPoly>) -> Poly<MultiPoly>) -> ConstantParts {
+        let all = self.coefficients.iter().map(|part| change(&Poly::new(part.clone())).into_coeffs());
+        ConstantParts { coefficients: trimmed(all.collect()), symbols: self.symbols.clone() }
+    }
+
+    /// Divided by the power of `s` that all parts have, and that power.
+    pub(super) fn without_zeros(&self) -> (usize, ConstantParts) {
+        let lowest = |part: &Vec<MultiPoly>| part.iter().position(|c| !c.is_zero());
+        let zeros = self.coefficients.iter().filter_map(lowest).min().unwrap_or(0);
+        (zeros, self.map_parts(|part| Poly::new(part.coeffs().iter().skip(zeros).cloned().collect())))
+    }
+
+    /// The function beside it with so many bits, where no coefficient depends on the parameter, and how far the coefficients may be off at most. A common
+    /// divisor of the numbers is left out.
+    pub(super) fn at_a_point(&self, bits: u64) -> (QuasiPolynomial, Vec<UniPoly>) {
+        let [numbers, errors] = self.rounded(bits).map(|parts| {
+            let part = |part: &Vec<UniPoly>| UniPoly::new(part.iter().map(|c| c.coeff(0)).collect());
+            parts.iter().map(part).collect::<Vec<UniPoly>>()
+        });
+        (QuasiPolynomial::new(numbers).expect("the function is not zero"), errors)
     }
 
     /// Integers beside the coefficients times `2^bits`, and bounds of the differences.

@@ -69,5 +69,5 @@ pub use plane::{DeadTime, PlaneLoop};
 pub use plane_function::{PlaneFunction, Shares};
 pub use plane_walk::Known;
 pub use quasi_polynomial::{Kind, QuasiPolynomial};
-pub use rightmost::{RightmostRoots, rightmost_roots};
+pub use rightmost::{RightmostRoots, rightmost_roots, rightmost_roots_over};
 pub use windows::{DelayCells, Never, Switch, delay_cells};

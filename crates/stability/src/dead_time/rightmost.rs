@@ -5,10 +5,10 @@ use super::mikhailov::{NotCounted, zero_at_origin};
 use super::rightmost_cut::{MOST_MORE, cut};
 use super::rightmost_disc::Enclosed;
 use super::rightmost_search::{Approximate, Search};
-use super::{Kind, QuasiPolynomial};
+use super::{ConstantParts, FamilyLoop, Kind, Line, QuasiPolynomial};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
-use jurist_algebra::poly::{Poly, RootDisc, UniPoly, complex_roots};
+use jurist_algebra::poly::{Domain, Poly, RootDisc, UniPoly, complex_roots};
 
 /// The rightmost roots, all roots right of a line.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,23 +65,68 @@ pub fn rightmost_roots(
         return Ok(None);
     }
     budget.step("searching roots");
-    let mut all = All::new(p, tau, relative, budget)?;
-    let mut last = None;
-    for round in 0..ROUNDS {
-        let floor = all.floor.as_ref().map_or(f64::NEG_INFINITY, Rational::to_f64_approximate);
-        for part in &mut all.parts {
-            part.search.look_approximate(wanted + MOST_MORE, floor, round, budget)?;
-        }
-        match all.attempt(wanted, budget)? {
-            Ok(mut found) => {
-                found.chain = chain(p, tau, budget)?;
-                return Ok(Some(found));
-            }
-            Err(reason) => last = reason.or(last),
-        }
+    let mut found = All::new(p, tau, relative, budget)?.searched(wanted, budget)?;
+    found.chain = chain(p, tau, budget)?;
+    Ok(Some(found))
+}
+
+/// The same of a loop whose coefficients are constants that are not rational, of retarded type: each is enclosed. A multiple root, and one at 0 that no
+/// coefficient that is zero shows, stays undecided.
+///
+/// Cost: as that of [`rightmost_roots`].
+///
+/// # Errors
+/// As [`rightmost_roots`], and for a loop that is not of retarded type.
+///
+/// # Panics
+/// Unless the dead time is positive and the function has a delay.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::number::Rational;
+/// use jurist_algebra::poly::{Domain, MultiPoly};
+/// use jurist_algebra::symbols::{Definition, Symbols};
+/// use jurist_stability::dead_time::{ConstantParts, rightmost_roots_over};
+/// // s + pi/2 exp(-s), doubled: a pair on the axis at +- j pi/2, of which no digits tell that it is there
+/// let mut symbols = Symbols::new();
+/// let pi = MultiPoly::variable(symbols.insert("pi", Definition::Pi) + 1);
+/// let two = MultiPoly::constant(2.into());
+/// let parts = ConstantParts::new(vec![vec![MultiPoly::zero(), two], vec![pi]], symbols);
+/// let small = Rational::dyadic(&1.into(), 40);
+/// let found = rightmost_roots_over(&parts, &1.into(), 1, &small, &Budget::unlimited()).unwrap();
+/// assert!(found.list[0].is_pair && found.list[0].re.abs() < small);
+/// ```
+pub fn rightmost_roots_over(
+    constants: &ConstantParts,
+    tau: &Rational,
+    wanted: usize,
+    relative: &Rational,
+    budget: &Budget,
+) -> Result<RightmostRoots, NotCounted> {
+    assert!(tau.sign().is_gt(), "there is dead time");
+    budget.step("searching roots");
+    let narrow = relative.denominator().bit_length().saturating_sub(relative.numerator().bit_length());
+    let (zeros, constants) = constants.without_zeros();
+    let (p, errors) = budget.enter(|| constants.at_a_point(MORE_BITS * (narrow + 64)))?;
+    let is_retarded = p.kind() == Kind::Retarded && errors.iter().skip(1).all(|e| e.coeff(p.order()).is_zero());
+    if !is_retarded {
+        let limit = "what is known of loops of neutral type beside constants that are not rational";
+        return Err(Exhausted::by_method(limit, "searching roots").into());
     }
-    let unknown = || Exhausted::by_method("searches for approximations", "searching roots");
-    Err(last.unwrap_or_else(unknown).into())
+    let search = Search::new(&p, tau, 0, budget)?;
+    let source = Some((errors, constants));
+    let part = Part { p, source, multiplicity: 1, at_zero: 0, search, known: Vec::new() };
+    let fixed = if zeros > 0 { vec![at_zero(zeros)] } else { Vec::new() };
+    All { tau, relative, parts: vec![part], fixed, floor: None }.searched(wanted, budget)
+}
+
+/// So many times the bits that a disc asks for.
+const MORE_BITS: u64 = 4;
+
+/// The disc of roots at 0.
+fn at_zero(count: usize) -> RootDisc {
+    let zero = || Rational::ZERO;
+    RootDisc { re: zero(), im: zero(), radius: zero(), count, is_one: true, is_pair: false }
 }
 
 /// Searches, each of them denser and further.
@@ -90,6 +135,8 @@ const ROUNDS: u32 = 5;
 /// A factor without squares, and how often it divides.
 struct Part {
     p: QuasiPolynomial,
+    /// How far its coefficients may be off, and the constants that they are.
+    source: Option<(Vec<UniPoly>, ConstantParts)>,
     multiplicity: usize,
     /// How often 0 is a root of the factor.
     at_zero: usize,
@@ -131,15 +178,29 @@ impl<'t> All<'t> {
             let own = if vanishes { zero_at_origin(&p, tau).0 } else { 0 };
             at_zero += own * multiplicity;
             let search = Search::new(&p, tau, own, budget)?;
-            parts.push(Part { p, multiplicity, at_zero: own, search, known: Vec::new() });
+            parts.push(Part { p, source: None, multiplicity, at_zero: own, search, known: Vec::new() });
         }
         if at_zero > 0 {
-            let zero = || Rational::ZERO;
-            let disc =
-                RootDisc { re: zero(), im: zero(), radius: zero(), count: at_zero, is_one: true, is_pair: false };
-            fixed.push(disc);
+            fixed.push(self::at_zero(at_zero));
         }
         Ok(All { tau, relative, floor: floor_approximate(p, tau), parts, fixed })
+    }
+
+    /// All roots right of a line.
+    fn searched(mut self, wanted: usize, budget: &Budget) -> Result<RightmostRoots, NotCounted> {
+        let mut last = None;
+        for round in 0..ROUNDS {
+            let floor = self.floor.as_ref().map_or(f64::NEG_INFINITY, Rational::to_f64_approximate);
+            for part in &mut self.parts {
+                part.search.look_approximate(wanted + MOST_MORE, floor, round, budget)?;
+            }
+            match self.attempt(wanted, budget)? {
+                Ok(found) => return Ok(found),
+                Err(reason) => last = reason.or(last),
+            }
+        }
+        let unknown = || Exhausted::by_method("searches for approximations", "searching roots");
+        Err(last.unwrap_or_else(unknown).into())
     }
 
     /// All roots right of a line, or why that is not shown.
@@ -183,7 +244,8 @@ impl<'t> All<'t> {
         reals.sort_by(|a, b| b.total_cmp(a));
         let least = reals.get(wanted).copied().unwrap_or(f64::NEG_INFINITY);
         for part in &mut self.parts {
-            let enclosed = Enclosed::new(&part.p, self.tau);
+            let errors = part.source.as_ref().map_or(&[][..], |(errors, _)| errors);
+            let enclosed = Enclosed::new(&part.p, errors, self.tau);
             for s in part.search.found_approximate().filter(|s| s.re >= least) {
                 if part.known.iter().any(|(known, _)| *known == s) {
                     continue;
@@ -223,9 +285,21 @@ impl Part {
         budget.step("counting roots right of a line");
         // In units in which the dead time is not above 1: the way along the line begins with a step of 1.
         let scale = tau.ceil().bit_length();
-        let shifted = shifted(&self.p, line, scale);
-        let count =
-            count_from_line(&shifted, &(tau * &Rational::dyadic(&Integer::ONE, scale)), &-(tau * line), budget)?;
+        let unit = Rational::dyadic(&Integer::ONE, scale);
+        let count = match &self.source {
+            None => {
+                let shift = |part: &UniPoly| shifted(part, self.p.order(), line, scale);
+                let parts = self.p.parts().iter().map(shift).collect();
+                let shifted = QuasiPolynomial::new(parts).expect("the function is not zero");
+                count_from_line(&shifted, &(tau * &unit), &-(tau * line), budget)?
+            }
+            Some((_, constants)) => {
+                let parts = constants.map_parts(|part| shifted(part, self.p.order(), line, scale));
+                let decay = (-line).checked_div(&unit).expect("not zero");
+                let family = FamilyLoop::enclosed(parts, Line::constant(tau * &unit), Line::constant(decay));
+                family.count(&Rational::ZERO, budget)?.expect("the function is not zero")
+            }
+        };
         count.right.ok_or(NotCounted::Neutral)
     }
 
@@ -236,17 +310,15 @@ impl Part {
     }
 }
 
-/// The parts in `2^scale s`, `s` being counted from a line, over the integers.
-fn shifted(p: &QuasiPolynomial, line: &Rational, scale: u64) -> QuasiPolynomial {
+/// A part in `s/2^scale`, `s` being counted from a line, times a number that all parts of an order have.
+fn shifted<R: Domain>(part: &Poly<R>, order: usize, line: &Rational, scale: u64) -> Poly<R> {
     let (a, d) = (line.numerator(), line.denominator());
-    let n = p.order();
     // d^n P(s + a/d) = Q(d s + a) with the coefficients c_j d^(n - j).
-    let shift = |part: &UniPoly| {
-        let scaled = part.coeffs().iter().enumerate().map(|(j, c)| c * &d.pow((n - j) as u64));
-        let moved = UniPoly::new(scaled.collect()).taylor_shift(&a).scaled_argument(&d);
-        UniPoly::new(moved.coeffs().iter().enumerate().map(|(j, c)| c << (scale * (n - j) as u64)).collect())
-    };
-    QuasiPolynomial::new(p.parts().iter().map(shift).collect()).expect("the function is not zero")
+    let times = |c: &R, by: Integer| c.times(&R::from_integer(&by));
+    let scaled = part.coeffs().iter().enumerate().map(|(j, c)| times(c, d.pow((order - j) as u64)));
+    let moved = Poly::new(scaled.collect()).taylor_shift(&R::from_integer(&a)).scaled_argument(&R::from_integer(&d));
+    let unit = |j: usize| Integer::ONE << (scale * (order - j) as u64);
+    Poly::new(moved.coeffs().iter().enumerate().map(|(j, c)| times(c, unit(j))).collect())
 }
 
 /// A line right of which the highest power of `s` outweighs the rest at high frequencies; `None` of a loop that is not of neutral type. It is

@@ -34,6 +34,8 @@ fn at_least([re, im]: &Complex) -> Rational {
 /// `f`, `d f'` and `d^2 f''`, where `d` is the denominator of the dead time.
 pub(super) struct Enclosed<'p> {
     sets: Vec<Vec<UniPoly>>,
+    /// How far the coefficients of the function may be off from those of `f`; none where they are exact.
+    errors: &'p [UniPoly],
     tau: &'p Rational,
 }
 
@@ -74,15 +76,15 @@ impl Centre {
 }
 
 impl<'p> Enclosed<'p> {
-    pub fn new(p: &QuasiPolynomial, tau: &'p Rational) -> Enclosed<'p> {
-        Enclosed { sets: derivatives(p, tau, 2), tau }
+    pub fn new(p: &QuasiPolynomial, errors: &'p [UniPoly], tau: &'p Rational) -> Enclosed<'p> {
+        Enclosed { sets: derivatives(p, tau, 2), errors, tau }
     }
 
     /// A disc about the root that an approximation is near to, whose radius is at most `relative` times its distance from zero: with
     /// exactly one root of the function, which is real if the centre is. `None` where no precision shows one.
     ///
     /// On a circle of radius `r` about `c` the function differs from `f(c) + f'(c) (s - c)` by at most `r^2/2` times the largest
-    /// `|f''|`. Where that is less than the modulus of the linear function, both have as many zeros inside
+    /// `|f''|`, and by how far it is off from `f`. Where that is less than the modulus of the linear function, both have as many zeros inside
     /// (Rouché).
     ///
     /// # Errors
@@ -150,10 +152,19 @@ impl<'p> Enclosed<'p> {
         let [value, slope] = self.values(centre);
         let d = Rational::from(&self.tau.denominator());
         let (value, slope) = (at_most(&value), at_least(&slope).checked_div(&d)?);
+        // What the errors are in a disc that is hardly larger.
+        let near = Rational::dyadic(&Integer::ONE, 4);
+        let value = match self.errors.is_empty() {
+            true => value,
+            false => value + most(self.errors, self.tau, centre, &near),
+        };
         let least = (&value + &value).checked_div(&slope)?.max(Rational::dyadic(&Integer::ONE, centre.bits));
         let exponent = least.numerator().bit_length() as i64 - least.denominator().bit_length() as i64 + 1;
         let radius = Rational::from(2).pow(exponent).expect("two is not zero");
-        let curved = self.second_at_most(centre, &radius).checked_div(&(&d * &d))?;
+        if !self.errors.is_empty() && radius > near {
+            return None;
+        }
+        let curved = most(&self.sets[2], self.tau, centre, &radius).checked_div(&(&d * &d))?;
         let half = Rational::dyadic(&Integer::ONE, 1);
         (value + &radius * &radius * curved * half < slope * &radius).then_some(radius)
     }
@@ -180,23 +191,23 @@ impl<'p> Enclosed<'p> {
         };
         [at(&self.sets[0]), at(&self.sets[1])]
     }
+}
 
-    /// An upper bound of `d^2 |f''|` on a disc.
-    fn second_at_most(&self, centre: &Centre, radius: &Rational) -> Rational {
-        /// Bits of a bound.
-        const BITS: u64 = 64;
-        let [re, im] = centre.rational();
-        let size = Ball::from_rational(&(re.abs() + im.abs() + radius), BITS);
-        let z = exp(&Ball::from_rational(&(-self.tau * (re - radius)), BITS));
-        let zero = Ball::zero(BITS);
-        let sum = self.sets[2].iter().rev().fold(zero.clone(), |sum, part| {
-            let value = part
-                .coeffs()
-                .iter()
-                .rev()
-                .fold(zero.clone(), |value, c| value.mul(&size).add(&Ball::from_integer(&c.abs(), BITS)));
-            sum.mul(&z).add(&value)
-        });
-        sum.upper()
-    }
+/// An upper bound of the modulus on a disc.
+fn most(parts: &[UniPoly], tau: &Rational, centre: &Centre, radius: &Rational) -> Rational {
+    /// Bits of a bound.
+    const BITS: u64 = 64;
+    let [re, im] = centre.rational();
+    let size = Ball::from_rational(&(re.abs() + im.abs() + radius), BITS);
+    let z = exp(&Ball::from_rational(&(-tau * (re - radius)), BITS));
+    let zero = Ball::zero(BITS);
+    let sum = parts.iter().rev().fold(zero.clone(), |sum, part| {
+        let value = part
+            .coeffs()
+            .iter()
+            .rev()
+            .fold(zero.clone(), |value, c| value.mul(&size).add(&Ball::from_integer(&c.abs(), BITS)));
+        sum.mul(&z).add(&value)
+    });
+    sum.upper()
 }
