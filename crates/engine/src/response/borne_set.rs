@@ -16,7 +16,7 @@ use crate::error::Error;
 use crate::problem::{Ask, DelayedLoop, Free, Problem, symbols_without};
 use crate::stability::{Range, Shape, StableInterval, StableSet, UndecidedBracket};
 use jurist_algebra::limits::{Budget, Exhausted};
-use jurist_algebra::number::Rational;
+use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{
     Domain, MultiPoly, Poly, RationalFunction, SquareFree, UniPoly, discriminant, isolate_real_roots,
 };
@@ -25,6 +25,9 @@ use jurist_algebra::symbols::{SymbolicPoly, Symbols};
 use std::cmp::Ordering;
 use std::slice::from_ref;
 use std::sync::Arc;
+
+/// Next to an end is two to minus this of a range.
+const NEXT_TO_LIMIT: u64 = 6;
 
 /// Digits of the numbers around an end up to which the loop is asked.
 const DIGITS: usize = 9;
@@ -119,19 +122,16 @@ impl<'a> BorneSet<'a> {
 
     /// The parts of a stable interval in which all less dead time is borne.
     fn within(&self, interval: &StableInterval, found: &mut RequiredSet) -> Result<(), Error> {
-        let Some(set) = self.stable_with_all(interval)? else {
-            let alone = StableSet::from_intervals(vec![interval.clone()], Vec::new());
-            let whole = self.problem.without_region();
-            let known = whole.required_in_boxes(from_ref(self.requirement), &alone, self.at, self.budget)?;
-            found.intervals.extend(known.intervals);
-            found.undecided.extend(known.undecided);
-            return Ok(());
-        };
+        let Some(set) = self.stable_with_all(interval)? else { return self.in_boxes(interval, found) };
         let ends = set.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten().map(|end| end.value.clone());
         let mut values: Vec<(Real, bool)> = ends.map(|value| (value, false)).collect();
         values.extend(self.touches.iter().map(|value| (value.clone(), true)));
         values.extend(self.undefined.iter().map(|value| (value.clone(), false)));
-        let candidates = ascending(values, self.budget)?;
+        let candidates = match ascending(values, self.budget) {
+            // Beside constants that are not rational no digits tell that two values are equal.
+            Err(stopped) if stopped.stop.is_precision() => return self.in_boxes(interval, found),
+            known => known?,
+        };
         let values: Vec<Real> = candidates.iter().map(|(value, _)| value.clone()).collect();
         let why = format!("where {} begins or ceases to be met", self.requirement.name());
         let open = |b: &UndecidedBracket| UndecidedBracket::new(b.lower.clone(), b.upper.clone(), why.as_str());
@@ -144,6 +144,16 @@ impl<'a> BorneSet<'a> {
             };
             required_parts(part, &inside, |value| self.unmet(value), is_closed, self.budget)
         })
+    }
+
+    /// The same by boxes alone.
+    fn in_boxes(&self, interval: &StableInterval, found: &mut RequiredSet) -> Result<(), Error> {
+        let alone = StableSet::from_intervals(vec![interval.clone()], Vec::new());
+        let whole = self.problem.without_region();
+        let known = whole.required_in_boxes(from_ref(self.requirement), &alone, self.at, self.budget)?;
+        found.intervals.extend(known.intervals);
+        found.undecided.extend(known.undecided);
+        Ok(())
     }
 
     /// The values around an interval with which the loop is stable with the whole time, where any is borne; `None` where they are not found.
@@ -162,20 +172,17 @@ impl<'a> BorneSet<'a> {
             let domain = Range::between(end(&part.lower, true), end(&part.upper, false));
             let mut set = self.stable_within(with_all, &domain)?;
             if set.is_none() {
-                // What is beyond a large value stays open.
-                let nominal = self.problem.free()[0].nominal.as_ref();
-                let far = [
-                    beyond(domain.upper.as_ref(), nominal).map(|x| -x).filter(|_| domain.lower.is_none()),
-                    beyond(domain.lower.as_ref(), nominal).filter(|_| domain.upper.is_none()),
-                ];
-                if far.iter().all(Option::is_none) {
-                    return Ok(None);
+                let is_limit = [&part.lower, &part.upper]
+                    .map(|end| end.as_ref().is_some_and(|end| self.limits.iter().any(|limit| limit.is_same(end))));
+                let Some(near) = self.nearer(&domain, is_limit) else { return Ok(None) };
+                let why = "nothing is known of what is beyond";
+                let is_cut = |old: &Option<Rational>, new: &Option<Rational>| old != new;
+                if is_cut(&domain.lower, &near.lower) {
+                    undecided.push(UndecidedBracket::new(domain.lower.clone(), near.lower.clone(), why));
                 }
-                let why = "the domain has no end";
-                undecided.extend(far[0].clone().map(|x| UndecidedBracket::new(None, Some(x), why)));
-                undecided.extend(far[1].clone().map(|x| UndecidedBracket::new(Some(x), None, why)));
-                let [lower, upper] = far;
-                let near = Range::between(lower.or(domain.lower), upper.or(domain.upper));
+                if is_cut(&domain.upper, &near.upper) {
+                    undecided.push(UndecidedBracket::new(near.upper.clone(), domain.upper.clone(), why));
+                }
                 set = self.stable_within(with_all, &near)?;
             }
             let Some(set) = set else { return Ok(None) };
@@ -183,6 +190,21 @@ impl<'a> BorneSet<'a> {
             undecided.extend(set.undecided().iter().cloned());
         }
         Ok(Some(StableSet::from_intervals(intervals, undecided)))
+    }
+
+    /// The range without what is far away where it has no end, and without what is next to an end at which the modulus of the open loop is one in the limit of high
+    /// frequencies; `None` where that is all of it.
+    fn nearer(&self, domain: &Range, is_limit: [bool; 2]) -> Option<Range> {
+        let nominal = self.problem.free()[0].nominal.as_ref();
+        let [lower, upper] = [&domain.lower, &domain.upper].map(Option::as_ref);
+        let far = [
+            lower.cloned().or_else(|| beyond(upper, nominal).map(|x| -x))?,
+            upper.cloned().or_else(|| beyond(lower, nominal))?,
+        ];
+        let step = (&far[1] - &far[0]) * Rational::dyadic(&Integer::ONE, NEXT_TO_LIMIT);
+        let shift = |is_limit: bool| if is_limit { step.clone() } else { Rational::ZERO };
+        let near = Range::between(Some(&far[0] + &shift(is_limit[0])), Some(&far[1] - &shift(is_limit[1])));
+        Some(near).filter(|near| near != domain)
     }
 
     /// The values in a range with which the loop is stable with the whole time; `None` where they are not found.
@@ -242,11 +264,28 @@ fn touches<R: Domain>([d, n]: [&Poly<R>; 2], budget: &Budget) -> Result<Touches<
         let excess = if excess.is_zero() { excess } else { excess.square_free_part() };
         (highest, excess)
     })?;
-    let mut elsewhere: Vec<R> = excess.leading().cloned().into_iter().collect();
+    let mut list: Vec<R> = vec![above.clone()];
+    list.extend(excess.leading().cloned());
     if excess.degree().is_some_and(|degree| degree > 1) {
-        elsewhere.push(discriminant(&excess, budget)?);
+        list.push(discriminant(&excess, budget)?);
     }
-    Ok(Touches { limits: vec![above.clone()], above, elsewhere })
+    let mut list = budget.enter(|| without_common_factors(list))?;
+    let limits = vec![list.remove(0)];
+    Ok(Touches { above, limits, elsewhere: list })
+}
+
+/// Polynomials with the same zeros, of which no two have one in common: equal zeros are seen in symbols, not in digits.
+fn without_common_factors<R: Domain>(list: Vec<R>) -> Vec<R> {
+    let mut out: Vec<R> = Vec::with_capacity(list.len());
+    for mut f in list {
+        for known in out.iter().filter(|known| !known.is_zero()) {
+            while let Some(rest) = f.div_exact(&f.gcd(known)).filter(|rest| *rest != f && *rest != f.negated()) {
+                f = rest;
+            }
+        }
+        out.push(f);
+    }
+    out
 }
 
 /// The real zeros of polynomials in the parameter (0) and in constants behind it.

@@ -14,7 +14,7 @@ use super::windows::Never;
 use crate::interval_set::zeros_in;
 use crate::precisions::{CONSTANTS_BESIDE_DEAD_TIME, ZERO_AT_EDGE};
 use crate::{Range, Shape, count_roots};
-use jurist_algebra::limits::Budget;
+use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Rational, Sign};
 use jurist_algebra::poly::{Domain, RealAlgebraic, UniPoly};
 use jurist_algebra::real::{Real, Transcendental};
@@ -319,14 +319,7 @@ pub(super) fn piece(
         Err(never) => return Ok(Err(never)),
     };
     let weights = budget.enter(|| family.weights([lower, upper]))?;
-    let quick = match family.enclosed {
-        Some(_) => budget.enter(|| family.frequency_bound(&weights, [lower, upper]))?,
-        None => None,
-    };
-    let frequency = match quick {
-        None => frequency_bound_over(&family.parts, family.errors(), &weights, range, budget)?,
-        known => known,
-    };
+    let frequency = family.beyond_crossings(&weights, range, budget)?;
     let Some(frequency) = frequency else { return Err(NotSolved::Unbounded) };
     let function = Arc::new(budget.enter(|| family.function())?);
     let Some(found) = zeros(&function, &frequency, lower, upper, budget)? else {
@@ -368,6 +361,22 @@ pub(super) fn piece(
 }
 
 impl FamilyLoop {
+    /// A frequency beyond which no root is on the line for any value of a closed range; `None` where none is known.
+    fn beyond_crossings(
+        &self,
+        weights: &[Rational],
+        range: &Range,
+        budget: &Budget,
+    ) -> Result<Option<Rational>, Exhausted> {
+        if let (Some(_), Some(lower), Some(upper)) = (&self.enclosed, &range.lower, &range.upper) {
+            let quick = budget.enter(|| self.frequency_bound(weights, [lower, upper]))?;
+            if quick.is_some() {
+                return Ok(quick);
+            }
+        }
+        frequency_bound_over(&self.parts, self.errors(), weights, range, budget)
+    }
+
     /// Bounds of the moduli of the powers of `z` on the line, for all values of a range.
     pub(super) fn weights(&self, ends: [&Rational; 2]) -> Vec<Rational> {
         let most = |line: &Line| line.at(ends[0]).abs().max(line.at(ends[1]).abs());

@@ -27,26 +27,7 @@ pub(super) fn frequency_bound_over(
     range: &Range,
     budget: &Budget,
 ) -> Result<Option<Rational>, Exhausted> {
-    let delayed: Vec<usize> = (1..parts.len()).filter(|&k| parts[k].iter().any(|c| !c.is_zero())).collect();
-    let common = weights.iter().fold(Integer::ONE, |l, w| l.lcm(&w.denominator()));
-    let scaled = |w: &Rational| (w * &Rational::from(&common)).numerator();
-    let difference = budget.enter(|| {
-        let mut own = modulus_squared(&parts[0]).scaled_by(&(&common * &common));
-        let mut others = MultiPoly::zero();
-        for &k in &delayed {
-            let w = scaled(&weights[k]);
-            let factor = &(&w * &w) * &Integer::from(delayed.len() as i64);
-            others = &others + &modulus_squared(&parts[k]).scaled_by(&factor);
-        }
-        if !errors.is_empty() {
-            let one_more = (Integer::ONE << BITS_FOR_ERRORS) + Integer::ONE;
-            own = own.scaled_by(&(Integer::ONE << BITS_FOR_ERRORS));
-            let greatest = weights.iter().map(scaled).max().unwrap_or(Integer::ZERO).max(common.clone());
-            let off = squares_of_errors(errors, range).scaled_by(&(&(&greatest * &greatest) << BITS_FOR_ERRORS));
-            others = (&others + &off).scaled_by(&one_more);
-        }
-        &own - &others
-    })?;
+    let difference = budget.enter(|| difference_of_squares(parts, errors, weights, range))?;
     if difference.is_zero() {
         return Ok(None);
     }
@@ -88,6 +69,32 @@ pub(super) fn frequency_bound_over(
     };
     let positive = at.sign_at(&inside).is_gt();
     Ok(positive.then(|| Enclosure::from_rational(beyond).sqrt(16).upper().ceil()).map(|w| Rational::from(&w)))
+}
+
+/// What is positive where `|P_0|` outweighs the delayed parts, in `omega^2` (0) and the parameter (1).
+fn difference_of_squares(
+    parts: &[Vec<UniPoly>],
+    errors: &[Vec<UniPoly>],
+    weights: &[Rational],
+    range: &Range,
+) -> MultiPoly {
+    let delayed: Vec<usize> = (1..parts.len()).filter(|&k| parts[k].iter().any(|c| !c.is_zero())).collect();
+    let common = weights.iter().fold(Integer::ONE, |l, w| l.lcm(&w.denominator()));
+    let scaled = |w: &Rational| (w * &Rational::from(&common)).numerator();
+    let own = modulus_squared(&parts[0]).scaled_by(&(&common * &common));
+    let mut others = MultiPoly::zero();
+    for &k in &delayed {
+        let w = scaled(&weights[k]);
+        let factor = &(&w * &w) * &Integer::from(delayed.len() as i64);
+        others = &others + &modulus_squared(&parts[k]).scaled_by(&factor);
+    }
+    if errors.is_empty() {
+        return &own - &others;
+    }
+    let greatest = weights.iter().map(scaled).fold(common.clone(), |a, b| a.max(b));
+    let off = squares_of_errors(errors, range).scaled_by(&(&(&greatest * &greatest) << BITS_FOR_ERRORS));
+    let one_more = (Integer::ONE << BITS_FOR_ERRORS) + Integer::ONE;
+    &own.scaled_by(&(Integer::ONE << BITS_FOR_ERRORS)) - &(&others + &off).scaled_by(&one_more)
 }
 
 /// The number `d` beside errors is one over two to this.
