@@ -12,7 +12,7 @@ use jurist_algebra::limits::Budget;
 use jurist_engine::answer::Verdict;
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Error};
 use jurist_engine::model::Model;
-use jurist_engine::problem::Ask;
+use jurist_engine::problem::{Ask, Question};
 use jurist_engine::response::Requirements;
 use jurist_show::Text;
 use jurist_show::documents::{Check, to_text};
@@ -49,10 +49,11 @@ impl Runs for Options {
         let mut unmet = Vec::new();
         let (source, diagnostics) = match read {
             Ok((model, warnings)) => {
-                if self.sarif && !model.require().is_empty() {
+                let refused = refusals(&model, &context.budget);
+                if self.sarif && refused.is_empty() && !model.require().is_empty() {
                     unmet = unmet_requirements(&model, &context.budget);
                 }
-                (Some(model.source().clone()), [warnings, unmet.clone()].concat())
+                (Some(model.source().clone()), [warnings, refused, unmet.clone()].concat())
             }
             Err(errors) => (errors.source_text().cloned(), errors.diagnostics().to_vec()),
         };
@@ -92,20 +93,70 @@ impl Runs for Options {
 /// Significant digits of the values in remarks.
 const DIGITS: usize = 6;
 
+/// Units of counted work for what is wrong with a model beside its words: about two seconds. What takes more is not looked at.
+const MOST_WORK: u64 = 200_000_000;
+
+/// What every question is refused for, and what is refused of the requirements of the model.
+fn refusals(model: &Model, budget: &Budget) -> Vec<Diagnostic> {
+    let budget = &budget.silent().within_work(MOST_WORK);
+    let refused = |found: Result<(), Error>| match found {
+        Err(Error::Refused(refused)) => refused.diagnostics().to_vec(),
+        _ => Vec::new(),
+    };
+    let mut wrong = refused(model.check_expressions(budget));
+    if !wrong.is_empty() || model.require().is_empty() {
+        return wrong;
+    }
+    let values = match model.ask().with_nominal_values() {
+        Ok(question) => question.values_set().clone().into_iter().collect::<Vec<_>>(),
+        Err(_) => return Vec::new(),
+    };
+    let asked = match Requirements::of(model, &[], &values, budget) {
+        Ok(asked) => asked,
+        other => {
+            let mut wrong = refused(other.map(drop));
+            // A value can be given with the question.
+            wrong.retain(|w| w.code != Code::NoValue);
+            return wrong;
+        }
+    };
+    let Ok(problem) = question(model, &asked).problem() else { return Vec::new() };
+    for requirement in &asked.list {
+        let met = problem.requirements_met(std::slice::from_ref(requirement), asked.at.as_deref(), budget);
+        for one in refused(met.map(drop)) {
+            let name = if one.code == Code::UnknownSignal { "at" } else { requirement.name() };
+            let one = if one.primary.is_none() { required(model, name, one) } else { one };
+            if !wrong.contains(&one) {
+                wrong.push(one);
+            }
+        }
+    }
+    wrong
+}
+
+/// The nominal loop with the region that is required.
+fn question(model: &Model, asked: &Requirements) -> Question {
+    asked.region.clone().into_iter().fold(model.ask(), Question::within)
+}
+
+/// A diagnostic at the place of a requirement.
+fn required(model: &Model, name: &str, diagnostic: Diagnostic) -> Diagnostic {
+    match model.require().iter().find(|r| r.name == name).or(model.require().first()) {
+        Some(required) => diagnostic.at(required.span, "required here"),
+        None => diagnostic,
+    }
+}
+
 /// A remark for each requirement of the model that the nominal loop does not meet, or one that they were not decided.
 fn unmet_requirements(model: &Model, budget: &Budget) -> Vec<Diagnostic> {
     let remark = |name: &str, message: String| {
         let warning = Diagnostic::warning(Code::NotMetWarning, message).help("'jurist verdict' has all values");
-        match model.require().iter().find(|r| r.name == name).or(model.require().first()) {
-            Some(required) => warning.at(required.span, "required here"),
-            None => warning,
-        }
+        required(model, name, warning)
     };
     let found = || -> Result<Vec<Diagnostic>, Error> {
         let values = model.ask().problem()?.set().to_vec();
         let asked = Requirements::of(model, &[], &values, budget)?;
-        let question = asked.region.clone().into_iter().fold(model.ask(), |question, region| question.within(region));
-        let problem = question.problem()?;
+        let problem = question(model, &asked).problem()?;
         let in_region = problem.verdict(budget)?.value().verdict == Verdict::Stable;
         let met = problem.requirements_met(&asked.list, asked.at.as_deref(), budget)?;
         let listed = met.iter().filter(|r| !r.met).map(|r| remark(r.requirement.name(), r.text(DIGITS)));
