@@ -1,6 +1,6 @@
 //! All that is required of a loop: by its model file, and by who asks.
 
-use super::requirement::{Meaning, Requirement, RequirementKind, Written, not_understood};
+use super::requirement::{Meaning, Requirement, RequirementKind, Written};
 use crate::error::{Code, Diagnostic, Diagnostics, Error, Source, Span};
 use crate::model::{Expression, Model, RequirementText};
 use crate::problem::Region;
@@ -144,7 +144,10 @@ fn meaning(
 ) -> Result<Meaning, Error> {
     let (number, unit) = kind.split(text);
     let needed = if kind.needs_unit() { "a number with its unit is needed" } else { "a number is needed" };
-    let expression = Expression::parse(number).map_err(|_| not_understood(kind.name, needed))?;
+    let expression = Expression::parse(number).map_err(|_| {
+        let message = format!("{}: {needed}", kind.name);
+        Diagnostic::error(Code::Require, message).help(kind.about)
+    })?;
     let value = model.value(&expression, values, budget).map_err(|error| match error {
         Error::Undefined(_) => {
             let message = format!("{}: a number is needed, without parameters that have no value", kind.name);
