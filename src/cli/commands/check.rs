@@ -9,6 +9,7 @@ use crate::cli::show;
 use crate::cli::status::{Outcome, Status};
 use clap::Args;
 use jurist_algebra::limits::Budget;
+use jurist_algebra::number::Rational;
 use jurist_engine::answer::Verdict;
 use jurist_engine::error::{Code, Diagnostic, Diagnostics, Error};
 use jurist_engine::model::Model;
@@ -115,8 +116,7 @@ fn refusals(model: &Model, budget: &Budget) -> Vec<Diagnostic> {
         Ok(asked) => asked,
         other => {
             let mut wrong = refused(other.map(drop));
-            // A value can be given with the question.
-            wrong.retain(|w| w.code != Code::NoValue);
+            wrong.retain(|one| !depends_on_open(model, &values, one));
             return wrong;
         }
     };
@@ -132,6 +132,14 @@ fn refusals(model: &Model, budget: &Budget) -> Vec<Diagnostic> {
         }
     }
     wrong
+}
+
+/// Whether what is wrong with a requirement may be right with a value that is given with the question.
+fn depends_on_open(model: &Model, values: &[(String, Rational)], wrong: &Diagnostic) -> bool {
+    let is_open = |word: &str| model.parameter(word).is_some() && values.iter().all(|(name, _)| name != word);
+    let words = |text: &str| text.split(|c: char| !c.is_alphanumeric() && c != '_').any(is_open);
+    let own = |span| model.require().iter().find(|required| required.span == span);
+    wrong.primary.as_ref().and_then(|label| own(label.span)).is_some_and(|required| words(&required.text))
 }
 
 /// The nominal loop with the region that is required.

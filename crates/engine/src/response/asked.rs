@@ -1,6 +1,6 @@
 //! All that is required of a loop: by its model file, and by who asks.
 
-use super::requirement::{Meaning, Requirement, RequirementKind, Written};
+use super::requirement::{Meaning, Requirement, RequirementKind, Written, not_understood};
 use crate::error::{Code, Diagnostic, Diagnostics, Error, Source, Span};
 use crate::model::{Expression, Model, RequirementText};
 use crate::problem::Region;
@@ -149,10 +149,7 @@ fn meaning(
         Diagnostic::error(Code::Require, message).help(kind.about)
     })?;
     let value = model.value(&expression, values, budget).map_err(|error| match error {
-        Error::Undefined(_) => {
-            let message = format!("{}: a number is needed, without parameters that have no value", kind.name);
-            Diagnostic::error(Code::NoValue, message).into()
-        }
+        Error::Undefined(_) => not_understood(kind.name, "a number is needed, without parameters that have no value"),
         other => other,
     })?;
     let sample_time = || model.sample_time_expression().map(|step| model.value(step, values, budget)).transpose();
