@@ -89,7 +89,11 @@ impl Shown<'_> {
         let noun = if count == 1 { "tolerance" } else { "tolerances" };
         match shares.as_deref() {
             Some([first, rest @ ..]) if rest.iter().all(|s| s == first) => {
-                format!("{count} {noun} of {} %", short(&(first * &Rational::from(100))))
+                let percent = first * &Rational::from(100);
+                let text = short(&percent);
+                // A fraction comes of a tolerance that is a number.
+                let text = if text.contains('/') { format!("about {}", to_decimal(&percent, 4)) } else { text };
+                format!("{count} {noun} of {text} %")
             }
             _ => format!("{count} {noun}"),
         }

@@ -94,8 +94,8 @@ impl Runs for Options {
 /// Significant digits of the values in remarks.
 const DIGITS: usize = 6;
 
-/// Units of counted work for what is wrong with a model beside its words: about two seconds. What takes more is not looked at.
-const MOST_WORK: u64 = 200_000_000;
+/// Units of counted work for what is wrong with a model beside its words: less than a second. What takes more is not looked at.
+const MOST_WORK: u64 = 30_000_000;
 
 /// What every question is refused for, and what is refused of the requirements of the model.
 fn refusals(model: &Model, budget: &Budget) -> Vec<Diagnostic> {
@@ -120,16 +120,23 @@ fn refusals(model: &Model, budget: &Budget) -> Vec<Diagnostic> {
             return wrong;
         }
     };
-    let Ok(problem) = question(model, &asked).problem() else { return Vec::new() };
-    for requirement in &asked.list {
-        let met = problem.requirements_met(std::slice::from_ref(requirement), asked.at.as_deref(), budget);
-        for one in refused(met.map(drop)) {
-            let name = if one.code == Code::UnknownSignal { "at" } else { requirement.name() };
+    let mut add = |found: Result<(), Error>, name: &str| {
+        for one in refused(found) {
+            let name = if one.code == Code::UnknownSignal { "at" } else { name };
             let one = if one.primary.is_none() { required(model, name, one) } else { one };
-            if !wrong.contains(&one) {
+            // A cut that is missing is so for each margin.
+            if wrong.iter().all(|known: &Diagnostic| known.message != one.message) {
                 wrong.push(one);
             }
         }
+    };
+    let Ok(plain) = model.ask().problem() else { return Vec::new() };
+    for requirement in &asked.list {
+        let met = plain.requirements_met(std::slice::from_ref(requirement), asked.at.as_deref(), budget);
+        add(met.map(drop), requirement.name());
+    }
+    if let Some((name, _)) = asked.regional.last() {
+        add(question(model, &asked).problem().and_then(|problem| problem.verdict(budget).map(drop)), name);
     }
     wrong
 }

@@ -127,6 +127,7 @@ fn of_sections(
             Err(other) => return Err(other),
         }
     }
+    wrong.sort_by_key(|one| one.primary.as_ref().map(|label| label.span.start));
     wrong.dedup();
     match wrong.is_empty() {
         true => Ok(out),
