@@ -216,7 +216,8 @@ impl Model {
     /// use jurist_algebra::limits::Budget;
     /// use jurist_model::Model;
     /// use jurist_model::error::{Code, Error, Source};
-    /// let text = "time = 'discrete'\nparameters.K = {}\nloop.characteristic = '((z + K + 1)^100)^100'\n";
+    /// let text = "time = 'discrete'\nparameters = { K = {}, b = {} }\nloop.characteristic = '((z + K + b)^100)^100'\n";
+    /// // To be read takes little work: what is large is looked at in the end.
     /// let (model, _) = Model::from_toml(&Source::new("model.toml", text))?;
     /// let Err(Error::Refused(refused)) = model.check_expressions(&Budget::unlimited()) else { panic!() };
     /// assert_eq!(refused.code(), Code::TooLarge);

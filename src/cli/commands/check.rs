@@ -94,20 +94,21 @@ impl Runs for Options {
 /// Significant digits of the values in remarks.
 const DIGITS: usize = 6;
 
-/// Units of counted work for what is wrong with a model beside its words: less than a second. What takes more is not looked at.
-const MOST_WORK: u64 = 30_000_000;
+/// Units of counted work for expressions that grow and for requirements: seconds, where a model needs them. What takes more is not looked at.
+const WORK_OF_EXPRESSIONS: u64 = 200_000_000;
+const WORK_OF_REQUIREMENTS: u64 = 30_000_000;
 
 /// What every question is refused for, and what is refused of the requirements of the model.
 fn refusals(model: &Model, budget: &Budget) -> Vec<Diagnostic> {
-    let budget = &budget.silent().within_work(MOST_WORK);
     let refused = |found: Result<(), Error>| match found {
         Err(Error::Refused(refused)) => refused.diagnostics().to_vec(),
         _ => Vec::new(),
     };
-    let mut wrong = refused(model.check_expressions(budget));
+    let mut wrong = refused(model.check_expressions(&budget.silent().within_work(WORK_OF_EXPRESSIONS)));
     if !wrong.is_empty() || model.require().is_empty() {
         return wrong;
     }
+    let budget = &budget.silent().within_work(WORK_OF_REQUIREMENTS);
     let values = match model.ask().with_nominal_values() {
         Ok(question) => question.values_set().clone().into_iter().collect::<Vec<_>>(),
         Err(_) => return Vec::new(),
