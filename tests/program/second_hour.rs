@@ -224,6 +224,10 @@ fn help_behind_an_error_is_of_use() {
     let error = |arguments: &[&str]| jurist(arguments).stderr;
     let range = error(&["margins", "K/(s+1)", "--for-all", "K=1"]);
     assert!(range.contains("for example --for-all K=0..10\n"), "{range}");
+    let name = error(&["intervals", "K*a/(s+1)", "K"]);
+    assert!(name.contains("'--param K'"), "{name}");
+    let value = error(&["margins", "K/(s+1)", "K=3"]);
+    assert!(value.contains("'--set K=3'"), "{value}");
     let input = error(&["simulate", "K/(s+1)", "--set", "K=1", "--input", "u=1"]);
     assert!(input.contains("no input 'u'") && input.contains("its inputs: r"), "{input}");
     let unit = error(&["intervals", "K/(s+1)^3", "--gain-margin", "6 db"]);
