@@ -89,6 +89,11 @@ class Tune(Document):
         return found
 
     @property
+    def unbounded(self) -> bool:
+        """Whether the best value grows without end, or nothing limits it, as a delay margin of a loop that bears any delay."""
+        return bool(self._part("optimum", "unbounded"))
+
+    @property
     def at(self) -> dict[str, Real | tuple[Fraction, Fraction] | None]:
         """The gains at the best value: exactly, or between two numbers; `None` where one has no bound."""
         return {name: _place(found) for name, found in (self._part("optimum", "at") or {}).items()}

@@ -218,7 +218,11 @@ fn range(text: &str, place: Place, option: &str) -> Result<(String, Option<Ratio
     let Some(dots) = text[start..].find("..").map(|i| start + i) else {
         return Err(Diagnostic::error(Code::OptionValue, format!("{option} expects NAME=LO..HI"))
             .at(place.part(start, text.len()), "there is no '..'")
-            .help(format!("for example {option} K=0..10, {option} K=0.. or {option} K=..10")));
+            .help(match option {
+                // Its range needs two ends.
+                "--for-all" => format!("for example {option} K=0..10"),
+                _ => format!("for example {option} K=0..10, {option} K=0.. or {option} K=..10"),
+            }));
     };
     let side = |from: usize, to: usize, infinite: &[&str]| -> Result<Option<Rational>, Diagnostic> {
         let part = text[from..to].trim();

@@ -171,7 +171,8 @@ impl CommandLine {
             let diagnostic = Diagnostic::error(Code::Usage, message).help(help).at(line, "");
             return Diagnostics::new(Some(Arc::clone(&self.source)), vec![diagnostic]);
         }
-        if let Some(written) = self.command_meant(error).or_else(|| self.negative_value(error)) {
+        let written = self.command_meant(error).or_else(|| self.negative_value(error));
+        if let Some(written) = written.or_else(|| self.word_alone(error)) {
             help = vec![written];
         }
         let mut diagnostic = Diagnostic::error(Code::Usage, message).help(help.join("; "));
@@ -189,7 +190,10 @@ impl CommandLine {
             return None;
         };
         let is_meant = |value: &str| {
-            value.starts_with(option) && !value.starts_with("--") && LoopLine::read(value, None, None).is_ok()
+            value.starts_with('-')
+                && value.starts_with(option)
+                && !value.starts_with("--")
+                && LoopLine::read(value, None, None).is_ok()
         };
         let found = self.shown.iter().take_while(|shown| shown.value != "--").find(|shown| is_meant(&shown.value));
         found.filter(|shown| shown.value.contains(['/', '*', '(', '^'])).map(|shown| shown.span)
@@ -208,6 +212,21 @@ impl CommandLine {
         };
         let pair = texts.windows(2).find(is_meant)?;
         Some(format!("a value that begins with a minus stands behind '=': '{}={}'", pair[0], pair[1]))
+    }
+
+    /// The option that a name, or a name with a value, was meant for that stands alone behind the model.
+    fn word_alone(&self, error: &clap::Error) -> Option<String> {
+        let (ErrorKind::UnknownArgument, Some(ContextValue::String(word))) =
+            (error.kind(), error.get(ContextKind::InvalidArg))
+        else {
+            return None;
+        };
+        let options: &[&str] = if word.contains('=') { &["tol", "set"] } else { &["param"] };
+        let definition = Arguments::command();
+        let command = definition.find_subcommand(self.arguments.get(1)?)?;
+        let is_known = |option: &&&str| command.get_arguments().any(|own| own.get_long() == Some(**option));
+        let option = options.iter().find(is_known).filter(|_| !word.starts_with('-'))?;
+        Some(format!("an option says what it is: '--{option} {word}'"))
     }
 
     /// Which commands take what was given without one: an option of theirs, or a model file.

@@ -156,6 +156,8 @@ pub(super) fn warn_of_ignored(model: &Model, context: &Context) {
     if !model.require().is_empty() {
         let warning =
             Diagnostic::warning(Code::RequireWarning, "[require] is not looked at here: stability alone is decided");
-        context.warn(None, &[warning.help("requirements are decided by 'verdict', 'intervals' and 'map'")]);
+        let help =
+            "requirements are decided by 'verdict', 'intervals', 'map', 'tolerance', 'tune', 'report' and 'test'";
+        context.warn(None, &[warning.help(help)]);
     }
 }

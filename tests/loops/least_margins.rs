@@ -142,6 +142,9 @@ fn the_program_tells_the_least_margins() {
     }
     let run = jurist(&["margins", "a/(s*(s + 1)*(s + 2))", "--for-all", "a=1..7", "-q"]);
     assert!(run.status == 1 && run.stdout.contains("for all a from 1 to 7: not stable, as at a = 7"), "{}", run.stdout);
+    let run = jurist(&["margins", "a/(s + 1)", "--for-all", "a=1..2", "-q"]);
+    let unlimited = "\ngain margin: at least 996; no value that was looked at has a limit\n";
+    assert!(run.stdout.contains(unlimited), "{}", run.stdout);
     let run = jurist(&["margins", "a/(s + 1)", "--for-all", "a=1..2", "--at", "nowhere", "-q"]);
     assert!(run.status == 2 && run.stderr.contains("E-unknown-signal"), "{} {}", run.status, run.stderr);
     let run = jurist(&["margins", "a/(s + 1)", "--for-all", "b=1..2", "-q"]);

@@ -190,3 +190,51 @@ fn a_sarif_log_has_the_requirements_that_are_not_met() {
     let run = jurist_with_input(&["check", "-", "--json"], model("phase_margin = '60 deg'\n").as_bytes());
     assert_eq!(run.status, 0, "{}", run.stdout);
 }
+
+/// What every question about the model would be refused for is told where the model is only read.
+#[test]
+fn a_model_is_checked_for_requirements_and_for_expressions_that_grow() {
+    let model = |plant: &str, rest: &str| {
+        format!(
+            "time = 'continuous'\nparameters.K = {{ nominal = '1/2' }}\nparameters.b = {{}}\nloop.inputs = ['r']\n[[block]]\n\
+             input = 'r - y'\noutput = 'y'\n{plant}\n[require]\n{rest}"
+        )
+    };
+    let found = |plant: &str, rest: &str| -> Vec<(String, u64)> {
+        let run = jurist_with_input(&["check", "-", "--json"], model(plant, rest).as_bytes());
+        let document: Value = serde_json::from_str(&run.stdout).unwrap();
+        let mut findings = document["diagnostics"].as_array().unwrap().clone();
+        findings.retain(|found| found["severity"] == "error");
+        assert_eq!(run.status == 0, findings.is_empty(), "{document}");
+        findings
+            .iter()
+            .map(|f| (f["code"].as_str().unwrap().to_owned(), f["place"]["line"].as_u64().unwrap()))
+            .collect()
+    };
+    let at = |code: &str, lines: &[u64]| lines.iter().map(|line| (code.to_owned(), *line)).collect::<Vec<_>>();
+    let lag = "transfer = 'K/(s*(s + 1))'";
+    // To read such a model takes little work: the constant has no value before it is needed.
+    let long = "time = 'continuous'\nconstants.a = '((1 + b)^1000)^200'\nparameters = { K = {}, b = { nominal = 2 } }\n\
+        loop.characteristic = 's + K + a'\n";
+    let run = jurist_with_input(&["check", "-"], long.as_bytes());
+    assert!(
+        run.status == 2 && run.stderr.contains("E-too-large") && run.stderr.contains("<stdin>:2:16"),
+        "{}",
+        run.stderr
+    );
+    let wrong = "gain_margin = '0.5'\nphase_margin = '200 deg'\nradius = 0.5\ndamping = 0.1\n";
+    assert_eq!(found(lag, wrong), at("E-require", &[10, 11, 12]));
+    assert_eq!(found(lag, "damping = 0.1\n"), []);
+    // A value can be given with the question.
+    assert_eq!(found(lag, "damping = 'b'\ngain_margin = '6 dB'\n"), []);
+    let fixed = |rest: &str| found("transfer = '1/(s*(s + 1))'", rest);
+    assert_eq!(fixed("gain_margin = '6 dB'\n"), []);
+    let no_b = |plant: &str, rest: &str| {
+        let text = model(plant, rest).replace("parameters.b = {}\n", "");
+        jurist_with_input(&["check", "-"], text.as_bytes()).stderr
+    };
+    let unknown = no_b(lag, "gain_margin = '6 dB'\nat = 'Q'\n");
+    assert!(unknown.contains("no signal 'Q'") && unknown.contains("<stdin>:10:6"), "{unknown}");
+    let delayed = no_b("transfer = 'K*exp(-s)/(s*(s + 1))'", "damping = 0.1\n");
+    assert!(delayed.contains("E-dead-time") && delayed.contains("<stdin>:9:11"), "{delayed}");
+}

@@ -1,6 +1,6 @@
 //! A loop in one line in place of a model file.
 
-use crate::helpers::program::{jurist, jurist_with_input, refused};
+use crate::helpers::program::{json, jurist, jurist_with_input, refused};
 use proptest::prelude::*;
 use serde_json::Value;
 
@@ -188,4 +188,13 @@ proptest! {
         };
         prop_assert_eq!(form(""), form("*"));
     }
+}
+
+/// A sample time that is called `T` is not said to be equal to itself.
+#[test]
+fn a_title_says_no_name_twice() {
+    let title =
+        |hold: &str| json(&["verdict", "K/(s*(s+1))", "--hold", hold, "--set", "K=1", "--set", "T=1", "--json"]);
+    assert_eq!(title("T")["title"], "K/(s*(s+1)) behind a hold");
+    assert_eq!(title("2*T")["title"], "K/(s*(s+1)) behind a hold, T = 2*T");
 }

@@ -217,3 +217,24 @@ fn what_is_required_may_not_depend_on_a_name_with_a_range() {
     );
     assert!(run.stdout.contains("0.389650249"), "{}", run.stdout);
 }
+
+/// An example of an option is one that the option takes, and a list of inputs follows one that is unknown.
+#[test]
+fn help_behind_an_error_is_of_use() {
+    let error = |arguments: &[&str]| jurist(arguments).stderr;
+    let range = error(&["margins", "K/(s+1)", "--for-all", "K=1"]);
+    assert!(range.contains("for example --for-all K=0..10\n"), "{range}");
+    let name = error(&["intervals", "K*a/(s+1)", "K"]);
+    assert!(name.contains("'--param K'"), "{name}");
+    let value = error(&["margins", "K/(s+1)", "K=3"]);
+    assert!(value.contains("'--set K=3'"), "{value}");
+    let input = error(&["simulate", "K/(s+1)", "--set", "K=1", "--input", "u=1"]);
+    assert!(input.contains("no input 'u'") && input.contains("its inputs: r"), "{input}");
+    let unit = error(&["intervals", "K/(s+1)^3", "--gain-margin", "6 db"]);
+    assert!(unit.contains("a factor both ways, or decibels: \"6 dB\""), "{unit}");
+    let ignored = jurist_with_input(
+        &["analyze", "-"],
+        b"time = 'continuous'\nparameters.K = 1\nloop.characteristic = 's + K'\nrequire.damping = 0.5\n",
+    );
+    assert!(ignored.stderr.contains("'tolerance', 'tune', 'report' and 'test'"), "{}", ignored.stderr);
+}

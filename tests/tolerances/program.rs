@@ -201,3 +201,13 @@ fn a_proof_is_told_as_soon_as_it_stands() {
     let run = jurist(&["tolerance", "--tol", "R_a,L_a=20%"]);
     assert_eq!(run.stdout, whole.text(9), "{}", run.stderr);
 }
+
+/// A tolerance of 10 around 110 is no short number of per cent.
+#[test]
+fn a_tolerance_in_per_cent_is_a_decimal() {
+    let run = jurist(&["tolerance", "--tol", "K_pwm=10"]);
+    assert!(run.stdout.contains("1 tolerance of about 9.091 %: stable"), "{}", run.stdout);
+    // One part in 10^12 of the margin is told as what it is.
+    let run = jurist(&["tolerance", "s + K + b/10^9", "--set", "K=1", "--set", "b=1", "--tol", "K,b=10%"]);
+    assert!(run.stdout.contains("K 100 %   b below 0.0001 %"), "{}", run.stdout);
+}

@@ -58,10 +58,18 @@ fn without_bound() {
     let options = ["K/(s+1)", "--free", "K", "--bound", "K=0.5..10", OBJECTIVE[0], OBJECTIVE[1]];
     if is_thorough() {
         let (status, found) = tune(&options);
-        assert!(status == 0 && found["proved"].is_null(), "{found}");
+        assert!(status == 0 && found["proved"].is_null() && found["optimum"]["unbounded"] == true, "{found}");
     }
     let run = Folder::new(&[]).jurist(&[&["tune"], &options[..]].concat());
     assert!(run.stdout.contains("\nlargest delay_margin: none, the loop is stable with any delay\n"), "{}", run.stdout);
+}
+
+/// `K (s + 4)/(s (s + 1)^2)` is stable below `K = 1`, the bound, and marginal there: boxes beside it do not tell.
+#[test]
+fn of_a_gain_that_is_stable_nowhere_and_marginal_on_its_bound() {
+    let options = ["K*(s+4)/(s*(s+1)^2)", "--free", "K", "--bound", "K=1..7", OBJECTIVE[0], OBJECTIVE[1]];
+    let (status, found) = tune(&options);
+    assert!(status == 1 && found["feasible"] == false, "{found}");
 }
 
 /// From `K = 1` on nothing is borne, as the open loop goes to `K` at high frequencies; below a half any delay is.

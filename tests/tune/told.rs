@@ -271,3 +271,22 @@ fn the_middle_of_gains_from_zero_on_is_a_short_number() {
     let out = line("K/(s*(s+1)^2)", "max tolerance", &["--domain", "K=0.."]);
     assert!(out.contains("type in K = 1") && !out.contains("for example"), "{out}");
 }
+
+/// `(Kp s + Ki)/(s (s + 1))` is stable for all positive factors.
+#[test]
+fn a_margin_of_several_gains_that_nothing_limits_says_so() {
+    let options = ["--json", "--free", "Ki", "--free", "Kd", "--bound", "K=1..3", "--bound", "Ki=1..3"];
+    let two = told(&[&["(K+Ki/s)/(s+1)", "--free", "K", "--objective", "max gain_margin"], &options[..3]].concat());
+    assert!(two.0 == 0 && two.1.contains("\"unbounded\": true"), "{two:?}");
+    let three = [&["(K+Ki/s+Kd*s)/(s+1)", "--free", "K", "--objective", "max gain_margin"], &options[1..]].concat();
+    let (status, out, _) = told(&[&three[..], &["--bound", "Kd=0..2"]].concat());
+    assert!(status == 0 && out.contains("gain_margin: it has no bound\n") && !out.contains("at least"), "{out}");
+}
+
+#[test]
+fn what_is_missing_or_written_in_two_words_is_said() {
+    let (status, _, error) = told(&["K/(s+1)", "--objective", "max K", "--phase-margin", "45 deg"]);
+    assert!(status == 2 && error.contains("E-tune-free") && error.contains("--free K"), "{error}");
+    let (status, _, error) = told(&["K/(s+1)", "--free", "K", "--objective", "max phase margin"]);
+    assert!(status == 2 && error.contains("write 'phase_margin'"), "{error}");
+}

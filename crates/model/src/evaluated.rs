@@ -205,6 +205,30 @@ impl Model {
         Err(Diagnostics::new(Some(self.source().clone()), vec![error]).into())
     }
 
+    /// Evaluates each expression with all parameters symbolic, as every question does.
+    ///
+    /// Cost: that part of [`Model::evaluate`].
+    ///
+    /// # Errors
+    /// [`Error::Refused`] for all expressions that have no value, such as one that becomes too large; else as [`Model::evaluate`].
+    ///
+    /// ```
+    /// use jurist_algebra::limits::Budget;
+    /// use jurist_model::Model;
+    /// use jurist_model::error::{Code, Error, Source};
+    /// let text = "time = 'discrete'\nparameters = { K = {}, b = {} }\nloop.characteristic = '((z + K + b)^100)^100'\n";
+    /// // To be read takes little work: what is large is looked at in the end.
+    /// let (model, _) = Model::from_toml(&Source::new("model.toml", text))?;
+    /// let Err(Error::Refused(refused)) = model.check_expressions(&Budget::unlimited()) else { panic!() };
+    /// assert_eq!(refused.code(), Code::TooLarge);
+    /// # Ok::<(), jurist_model::error::Diagnostics>(())
+    /// ```
+    pub fn check_expressions(&self, budget: &Budget) -> Result<(), Error> {
+        let kept: Vec<String> = self.parameters().iter().map(|p| p.name.clone()).collect();
+        let duty = || Err(Error::Undefined("no duty ratio is asked for".into()));
+        budget.enter(|| self.answer_with(&kept, &[], &duty, budget).map(drop))?
+    }
+
     /// That a model given by its characteristic polynomial has no states.
     pub fn has_no_states(&self) -> Error {
         let error = Diagnostic::error(Code::NoStates, "a model given by its characteristic polynomial has no states");

@@ -180,10 +180,15 @@ impl LoopLine {
     /// The line, with what stands in front of its plant.
     fn title(&self) -> String {
         let mut title = self.source.text.trim().to_owned();
-        for (words, time) in [(" behind a hold, T =", &self.hold), (", dead time", &self.delay)] {
-            if let Some((text, _)) = time {
-                title.push_str(&format!("{words} {}", text.trim()));
+        if let Some((text, _)) = &self.hold {
+            title.push_str(" behind a hold");
+            // The name says it already.
+            if text.trim() != "T" {
+                title.push_str(&format!(", T = {}", text.trim()));
             }
+        }
+        if let Some((text, _)) = &self.delay {
+            title.push_str(&format!(", dead time {}", text.trim()));
         }
         title
     }

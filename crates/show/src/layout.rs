@@ -15,6 +15,26 @@ const BINARY_DIGITS: usize = 28;
 /// Digits of a number or a fraction that are written out for people.
 const WHOLE_DIGITS: usize = 60;
 
+/// A smaller share is not told apart from others, in percent.
+const LEAST_PERCENT: (i64, i64) = (1, 10_000);
+
+/// A share in percent with so many digits; what is too small to matter has a bound.
+///
+/// ```
+/// use jurist_show::layout::percent;
+/// assert_eq!(percent(&"1/3".parse()?, 3), "33.3 %");
+/// assert_eq!(percent(&"2e-19".parse()?, 3), "below 0.0001 %");
+/// # Ok::<(), jurist_algebra::number::ParseNumberError>(())
+/// ```
+pub fn percent(share: &Rational, digits: usize) -> String {
+    let (least, percent) =
+        (Rational::new(LEAST_PERCENT.0.into(), LEAST_PERCENT.1.into()), share * &Rational::from(100));
+    match percent.sign().is_gt() && percent < least {
+        true => format!("below {} %", to_decimal(&least, 1)),
+        false => format!("{} %", to_decimal(&percent, digits)),
+    }
+}
+
 /// Text of a model (titles, units, descriptions) on one line, with every character that would move the cursor, colour
 /// the terminal or turn the direction of writing shown by its escape: nothing of a model can pass for an answer, and
 /// XML and HTML, where such characters are illegal, stay readable. JSON keeps the exact text.

@@ -58,7 +58,7 @@ fn line(margin: &LeastMargin, all: &[AllOf], digits: usize) -> String {
     });
     let said = match (proved, found) {
         (Some(proved), Some(found)) => format!("{proved}; {found}"),
-        (Some(proved), None) => proved,
+        (Some(proved), None) => format!("{proved}; no value that was looked at has a limit"),
         (None, found) => {
             let why = margin.why.as_deref().unwrap_or("not looked at");
             let found = found.map(|found| format!("; {found}")).unwrap_or_default();

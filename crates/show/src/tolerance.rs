@@ -3,7 +3,7 @@
 use super::bounded::{at_least, at_most};
 use super::for_all_text;
 use super::intervals::{heading, undecided_text};
-use super::layout::short;
+use super::layout::{percent, short};
 use super::real;
 use super::verdict::verdict_line;
 use crate::Text;
@@ -58,13 +58,12 @@ impl Shown<'_> {
             out.push_str(&self.factor(factor));
         }
         if let Some(volume) = &self.answer.volume {
-            let percent = |share: &Rational| to_decimal(&(share * &Rational::from(100)), 4);
             let _ = writeln!(
                 out,
-                "of the box       {} % stable, {} % not, {} % undecided ({} {})",
-                percent(&volume.stable),
-                percent(&volume.unstable),
-                percent(&volume.undecided),
+                "of the box       {} stable, {} not, {} undecided ({} {})",
+                percent(&volume.stable, 4),
+                percent(&volume.unstable, 4),
+                percent(&volume.undecided, 4),
                 volume.boxes,
                 if volume.boxes == 1 { "box" } else { "boxes" }
             );
@@ -90,7 +89,11 @@ impl Shown<'_> {
         let noun = if count == 1 { "tolerance" } else { "tolerances" };
         match shares.as_deref() {
             Some([first, rest @ ..]) if rest.iter().all(|s| s == first) => {
-                format!("{count} {noun} of {} %", short(&(first * &Rational::from(100))))
+                let percent = first * &Rational::from(100);
+                let text = short(&percent);
+                // A fraction comes of a tolerance that is a number.
+                let text = if text.contains('/') { format!("about {}", to_decimal(&percent, 4)) } else { text };
+                format!("{count} {noun} of {text} %")
             }
             _ => format!("{count} {noun}"),
         }
@@ -260,17 +263,16 @@ impl Shown<'_> {
         let names: Vec<&str> = self.names().collect();
         shares.sort_by(|(_, a), (_, b)| b.cmp(a));
         let least = Rational::new(LEAST_SHARE.0.into(), LEAST_SHARE.1.into());
-        let percent = |share: &Rational, digits| to_decimal(&(share * &Rational::from(100)), digits);
         let (large, small): (Vec<_>, Vec<_>) = shares.into_iter().partition(|(_, share)| *share >= least);
         let mut parts: Vec<String> =
-            large.iter().map(|(i, share)| format!("{} {} %", names[*i], percent(share, 3))).collect();
+            large.iter().map(|(i, share)| format!("{} {}", names[*i], percent(share, 3))).collect();
         if !small.is_empty() {
             let rest = small.iter().fold(Rational::ZERO, |sum, (_, share)| sum + share);
             let which = match small.as_slice() {
                 [(only, _)] => names[*only].to_owned(),
                 several => format!("the other {}", several.len()),
             };
-            parts.push(format!("{which} {} %", percent(&rest, 1)));
+            parts.push(format!("{which} {}", percent(&rest, 1)));
         }
         parts.join("   ")
     }

@@ -205,7 +205,11 @@ pub fn is_share(value: &Rational) -> bool {
     value.sign().is_gt() && *value < Rational::ONE
 }
 
-fn check_gains(model: &Model, gains: &[Gain]) -> Result<(), Error> {
+/// Refuses a list of gains that no search can be made of.
+///
+/// # Errors
+/// `E-tune-free` where no gain is free, too many are, or one is twice; `E-tune-bounds` of bounds that are no interval.
+pub fn check_gains(model: &Model, gains: &[Gain]) -> Result<(), Error> {
     let refused = |message: String, help: &str| Err(Diagnostic::error(Code::TuneFree, message).help(help).into());
     if gains.is_empty() {
         let own = model.parameters().first().map_or("NAME", |parameter| parameter.name.as_str());

@@ -65,6 +65,8 @@ pub struct OptimumFound {
     pub value: Option<Number>,
     /// The same as a decimal in the unit of the number of the loop: degrees of a phase margin; `null` of a bracket, and where it grows without end.
     pub decimal: Option<String>,
+    /// Whether it grows without end, or nothing limits it, as a delay margin of a loop that bears any delay.
+    pub unbounded: bool,
     /// The gains there; `null` where one grows without end.
     pub at: Named<Option<PlaceFound>>,
     /// Whether gains have the best value; they come as near as you like else. `null` where that is not known.
@@ -89,7 +91,7 @@ pub struct PlaceFound {
 pub struct PointFound {
     /// The gains.
     pub point: Named<Exact>,
-    /// They have at least this of the objective, rounded; `null` where nothing was to be best.
+    /// They have at least this of the objective, rounded; `null` where nothing was to be best, and where nothing limits it.
     pub value: Option<String>,
 }
 
@@ -171,6 +173,7 @@ impl TuneAnswer {
                 Best::Zero => Some("0".to_owned()),
                 _ => value.map(|value| reading.shown(value, digits)),
             },
+            unbounded: matches!(optimum.value, Best::Unbounded),
             at: names.zip(optimum.at.iter().map(place)).collect(),
             attained: optimum.attained,
             binding: optimum.binding.clone(),

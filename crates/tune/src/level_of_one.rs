@@ -8,6 +8,7 @@ use crate::one_gain::{GAIN, nothing};
 use crate::search::Search;
 use crate::seed::seed;
 use crate::sets::{bound_of, on_bound, outer, point_inside, widest};
+use crate::typed::named;
 use jurist_algebra::limits::{Exhausted, apart};
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::poly::{RealAlgebraic, rational_between};
@@ -230,10 +231,19 @@ pub(crate) fn bracketed(
             let beyond = "values beyond the ones that were tried";
             (
                 Best::Nothing,
-                Some(Exhausted::by_method("the search ends at a value of the level that some gains have", beyond)),
+                Some(Exhausted::by_method(
+                    "some gains have the last value that is tried, and no bound was found",
+                    beyond,
+                )),
             )
         }
     }
+}
+
+/// Whether gains have every value of a margin: nothing limits it there.
+pub(crate) fn is_unbounded_at(lines: &Lines<'_>, level: Level, gains: &[Rational]) -> Result<bool, Error> {
+    let may_be = matches!(level, Level::PhaseMargin | Level::GainMargin | Level::DelayMargin);
+    Ok(may_be && lines.has_no_bound(&named(lines, gains), level)?)
 }
 
 /// A value of the scale far beyond one, or close to the end of the scale.
@@ -386,10 +396,7 @@ fn bracket(lines: &Lines<'_>, level: Level, plain: &RequiredSet, ends: &[Rationa
             (Place::Exact(gain.clone().into()), gain, with_level(level, interval))
         }
     };
-    if found.not.is_none()
-        && matches!(level, Level::PhaseMargin | Level::GainMargin)
-        && lines.has_no_bound(&[(lines.asked.gains[GAIN].name.clone(), found_at.clone())], level)?
-    {
+    if found.not.is_none() && is_unbounded_at(lines, level, std::slice::from_ref(&found_at))? {
         return Ok(Optimum::new(Best::Unbounded, Vec::new(), vec![found_at], None).into());
     }
     let (value, stopped) = bracketed(level, &scale, found.not, found.stopped);

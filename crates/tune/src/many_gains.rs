@@ -2,8 +2,9 @@
 
 use crate::answer::{Best, Optimum, Outcome, Place};
 use crate::climb::climb;
-use crate::level_of_one::{bracketed, not_found};
+use crate::level_of_one::{bracketed, is_unbounded_at, not_found};
 use crate::lines::Lines;
+use crate::one_gain::{GAIN, nothing};
 use crate::parts::{Part, Parts, Sweep};
 use crate::target::{Target, Value};
 use jurist_algebra::limits::{Exhausted, apart};
@@ -40,6 +41,11 @@ pub(crate) fn best(lines: &Lines<'_>) -> Result<Outcome, Error> {
             return Ok(Outcome::Infeasible { conflict: Vec::new(), cells: Some(parts.cells) });
         }
         Sweep::Stopped(stopped, rest) => {
+            if !stopped.stop.is_budget()
+                && let Some(nothing) = never_stable(lines)?
+            {
+                return Ok(nothing);
+            }
             let proved = apart(|| target.as_ref().and_then(|target| target.best_within(&rest)));
             return Ok(Outcome::Open { stopped, proved });
         }
@@ -53,6 +59,17 @@ pub(crate) fn best(lines: &Lines<'_>) -> Result<Outcome, Error> {
         Err(error) => return Err(error),
     };
     Ok(apart(|| search.outcome(stopped)).into())
+}
+
+/// That one gain is stable nowhere, which boxes do not tell where a bound is marginal.
+fn never_stable(lines: &Lines<'_>) -> Result<Option<Outcome>, Error> {
+    let asked = lines.asked;
+    // What is required may be met with equality, on a bound alone.
+    if asked.gains.len() != 1 || !asked.for_all.is_empty() || !asked.requirements.list.is_empty() {
+        return Ok(None);
+    }
+    let set = lines.set(GAIN, None, None)?.into_value();
+    Ok(nothing(&set).filter(|nothing| matches!(nothing, Outcome::Infeasible { .. })))
 }
 
 /// Whether no gains meet all; `None` where so many parts do not tell.
@@ -94,10 +111,10 @@ impl Search<'_, '_> {
             if self.finds_some_delay()? {
                 self.improve()?;
             }
-            return Ok(if self.bears_any_delay()? { None } else { Some(not_found()) });
+            return Ok(if self.has_every_value()? { None } else { Some(not_found()) });
         }
         self.improve()?;
-        if self.bears_any_delay()? {
+        if self.has_every_value()? {
             return Ok(None);
         }
         let share = |(a, b): (i64, i64)| Rational::new(a.into(), b.into());
@@ -136,12 +153,11 @@ impl Search<'_, '_> {
         Ok(false)
     }
 
-    /// Whether the best point has every delay margin; it is not looked for beside other plants.
-    fn bears_any_delay(&mut self) -> Result<bool, Error> {
+    /// Whether the best point has every value of a margin; it is not looked for beside other plants.
+    fn has_every_value(&mut self) -> Result<bool, Error> {
         let lines = self.parts.lines;
-        if lines.asked.level() == Some(Level::DelayMargin) && self.parts.plants.is_one() {
-            let named = crate::typed::named(lines, &self.point);
-            self.is_unbounded = lines.has_no_bound(&named, Level::DelayMargin)?;
+        if let Some(level) = lines.asked.level().filter(|_| self.parts.plants.is_one()) {
+            self.is_unbounded = is_unbounded_at(lines, level, &self.point)?;
         }
         Ok(self.is_unbounded)
     }
@@ -173,7 +189,7 @@ impl Search<'_, '_> {
                     self.improve()?;
                     open = rest;
                     open.append(&mut aside);
-                    if self.bears_any_delay()? {
+                    if self.has_every_value()? {
                         return Ok(Ok(open));
                     }
                 }
@@ -244,7 +260,9 @@ impl Search<'_, '_> {
             Target::Gain { gain, .. } if attained.is_some() => vec![bound_of(&parts, *gain)],
             Target::Gain { .. } | Target::Formula { .. } | Target::Centre(_) => on_bounds,
         };
-        Optimum { attained, binding, stopped, cells, ..Optimum::new(best, places(), point.clone(), Some(found)) }
+        // Where nothing limits it, no number is what the gains have.
+        let has = Some(found).filter(|_| !is_unbounded);
+        Optimum { attained, binding, stopped, cells, ..Optimum::new(best, places(), point.clone(), has) }
     }
 }
 

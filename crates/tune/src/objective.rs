@@ -79,6 +79,15 @@ impl Written<'_> {
         if let Some(level) = Level::named(name) {
             return self.level(level, name, is_greatest);
         }
+        let joined = name.split_whitespace().collect::<Vec<_>>().join("_");
+        if joined != name && (Level::named(&joined).is_some() || joined == SETTLING_TIME) {
+            return Err(self.wrong(
+                format!("'{name}' is one word"),
+                name,
+                "several words",
+                format!("write '{joined}'"),
+            ));
+        }
         if name.chars().all(|c| c.is_alphanumeric() || c == '_') {
             return Err(self.unknown(name, is_greatest));
         }

@@ -10,7 +10,7 @@ use jurist_algebra::real::Real;
 use jurist_engine::problem::Bound;
 use jurist_engine::response::Level;
 use jurist_show::intervals::heading;
-use jurist_show::layout::short;
+use jurist_show::layout::{self, short};
 use jurist_show::real::{enclosed, rounded};
 use jurist_show::region::causes_text;
 use jurist_show::{Text, for_all_text};
@@ -222,9 +222,7 @@ impl TuneAnswer {
                 }
             }
             None => {
-                let bears_all = matches!((&optimum.value, asked.level()), (Best::Unbounded, Some(Level::DelayMargin)));
-                let is_level = asked.level().is_some() && !bears_all;
-                let least = optimum.found_value.as_ref().filter(|_| is_level);
+                let least = optimum.found_value.as_ref().filter(|_| asked.level().is_some());
                 let least = least.and_then(|scale| {
                     let is_below = reading.is_greatest_best();
                     let value = to_decimal(&one_sided(&reading, scale, FEW as i64, is_below)?, FEW);
@@ -240,8 +238,12 @@ impl TuneAnswer {
         match (self.share_lost(optimum), &optimum.value) {
             (None, _) => String::new(),
             (Some(lost), _) if lost.is_zero() => ", no loss".to_owned(),
-            (Some(lost), Best::Between(_)) => format!(", loss at most {} %", percent_above(&lost)),
-            (Some(lost), _) => format!(", loss {} %", percent(&lost)),
+            (Some(lost), value) => match (layout::percent(&lost, FEW), value) {
+                (shown, Best::Between(_)) if !shown.starts_with("below") => {
+                    format!(", loss at most {} %", percent_above(&lost))
+                }
+                (shown, _) => format!(", loss {shown}"),
+            },
         }
     }
 

@@ -2,7 +2,7 @@
 
 use crate::answer::{Best, Optimum, Outcome, Place};
 use crate::asked::Objective;
-use crate::level_of_one::{bracketed, is_without_end, not_found, scale};
+use crate::level_of_one::{bracketed, is_unbounded_at, is_without_end, not_found, scale};
 use crate::lines::Lines;
 use crate::near::{is_narrow, toward};
 use crate::search::Search;
@@ -208,6 +208,9 @@ fn best_level(lines: &Lines<'_>, level: Level) -> Result<Outcome, Error> {
             Optimum { stopped: found.stopped.or_else(|| Some(not_found())), ..Optimum::some(plain.into()) }.into()
         );
     };
+    if found.not.is_none() && is_unbounded_at(lines, level, &point)? {
+        return Ok(Optimum::new(Best::Unbounded, Vec::new(), point.into(), None).into());
+    }
     let (value, stopped) = bracketed(level, &scale, found.not, found.stopped);
     let at = point.iter().map(|x| Place::Exact(x.clone().into())).collect();
     let optimum = Optimum::new(value, at, point.into(), Some(scale));

@@ -20,7 +20,7 @@ use jurist_engine::problem::Question;
 use jurist_engine::response::{AllOf, Requirements};
 use jurist_show::documents;
 use jurist_tune::answer::TuneAnswer;
-use jurist_tune::asked::{Asked, Gain, is_share};
+use jurist_tune::asked::{Asked, Gain, check_gains, is_share};
 use jurist_tune::objective::SOURCE as OBJECTIVE;
 use jurist_tune::plants::{plants, plants_of_model};
 use std::ffi::OsString;
@@ -74,6 +74,7 @@ impl Runs for Options {
         let model = load(self.model.model.as_ref(), &self.model.line, context)?;
         known_names(context, &model, "--free", &self.free)?;
         let gains = gains(self, &model, context)?;
+        check_gains(&model, &gains)?;
         let question = question(context, &model, &self.model, &self.region)?;
         if let Some(gain) = gains.iter().find(|gain| question.values_set().contains_key(&gain.name)) {
             let error = Diagnostic::error(Code::KeptAndSet, format!("'{}' is free and has a value", gain.name));

@@ -38,6 +38,15 @@ fn right(printed: &[Printed], p: &CharacteristicPolynomial) -> usize {
 ///
 /// # Errors
 /// [`Error`] when the budget runs out.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_engine::model::Model;
+/// let table = jurist_drive::errata(&Model::drive(), &Budget::unlimited())?;
+/// let entry = table.rows.iter().find(|row| row[0] == "Eq. 5, entry (1,1)").unwrap();
+/// assert_eq!(entry[1..3], ["(L_a - R_a)/L_a", "(L_a - R_a*T)/L_a"]);
+/// # Ok::<(), jurist_engine::error::Error>(())
+/// ```
 pub fn errata(model: &Model, budget: &Budget) -> Result<Table, Error> {
     let (eq_23, eq_37) = (polynomial(model, "K_pwm", budget)?, polynomial(model, "T", budget)?);
     let mut table =

@@ -7,12 +7,13 @@ use super::{COLOURS, FAINT, Figure, INK};
 use crate::scene::{Anchor, Colour, Rectangle, Scene, Stroke, Words};
 use crate::simulate::{SampledModel, Trace, excitation, natural_duration, signal_unit};
 use jurist_algebra::limits::Budget;
-use jurist_algebra::number::{Rational, to_decimal};
+use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, ToleranceAnswer};
 use jurist_engine::error::Error;
 use jurist_engine::model::Time;
 use jurist_engine::problem::{Ask, Problem};
 use jurist_engine::stability::Range;
+use jurist_show::layout::percent;
 use std::sync::Arc;
 
 /// More bars are drawn as one.
@@ -99,8 +100,7 @@ fn bars(answer: &Answer<ToleranceAnswer>) -> Option<Figure> {
         scene.words(Words::new(name.clone(), (left - 8.0, top + 12.0), 12.0, INK).anchored(Anchor::End));
         let bar = Rectangle { left, top: top + 1.0, width: length.max(0.75), height: BAR - 7.0 };
         scene.rectangle(&bar, Some(Colour::css(COLOURS[0])), None);
-        let percent = format!("{} %", to_decimal(&(share * &Rational::from(100)), 3));
-        scene.words(Words::new(percent, (left + length + 6.0, top + 12.0), 12.0, INK));
+        scene.words(Words::new(percent(share, 3), (left + length + 6.0, top + 12.0), 12.0, INK));
     }
     let bottom = 24.0 + BAR * rows.len() as f64;
     scene.line((left, 22.0), (left, bottom), Stroke::new(FAINT, 0.9));

@@ -127,7 +127,10 @@ pub fn excitation(
         out.initial[state.ok_or_else(unknown)?] = *value;
     }
     for (name, sample, value) in steps {
-        let unknown = || simulation_error(format!("the loop has no input '{name}'"));
+        let unknown = || {
+            let error = Diagnostic::error(Code::Simulation, format!("the loop has no input '{name}'"));
+            error.help(format!("its inputs: {}", inputs.join(", ")))
+        };
         let position = |name: &str| inputs.iter().position(|i| i == name);
         let input =
             position(name).or_else(|| position(&format!("{name}.re"))).or_else(|| position(name.strip_suffix(".re")?));

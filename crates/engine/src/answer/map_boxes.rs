@@ -322,6 +322,20 @@ impl Problem {
     ///
     /// # Errors
     /// As [`Problem::coefficient_ring`].
+    ///
+    /// ```
+    /// use jurist_algebra::limits::Budget;
+    /// use jurist_engine::coverage::CoefficientRing;
+    /// use jurist_engine::model::LoopLine;
+    /// use jurist_engine::problem::Ask;
+    /// let (model, _) = LoopLine::read("K*(s + b)/(s*(s + a))", Some("1"), None)?.model()?;
+    /// // Behind a hold: the plant's pole is inside of an exponential, its gain and its zero are not.
+    /// let gain_and_zero = model.ask().set("a", 1).free("K").free("b").problem()?;
+    /// assert_eq!(gain_and_zero.map_ring(&Budget::unlimited())?, CoefficientRing::Constants);
+    /// let gain_and_pole = model.ask().set("b", 1).free("K").free("a").problem()?;
+    /// assert_eq!(gain_and_pole.map_ring(&Budget::unlimited())?, CoefficientRing::Functions);
+    /// # Ok::<(), jurist_engine::error::Error>(())
+    /// ```
     pub fn map_ring(self: &Arc<Self>, budget: &Budget) -> Result<CoefficientRing, Error> {
         self.in_boxes(budget)?.coefficient_ring(budget)
     }

@@ -4,6 +4,7 @@ use super::{Algebra, Problem};
 use crate::coverage::{Asked, CoefficientRing, Coverage};
 use crate::error::Error;
 use jurist_algebra::limits::Budget;
+use jurist_algebra::poly::MultiPoly;
 
 /// How a question is decided, or with which words it is refused.
 ///
@@ -55,7 +56,7 @@ impl Problem {
             symbols: algebra.map(|algebra| algebra.symbols().definitions()).unwrap_or_default(),
             order: algebra.map(Algebra::formal_degree),
             coverage: asked.over(ring),
-            presupposed: self.positive().iter().map(|p| format!("{} > 0", p.display(&names))).collect(),
+            presupposed: self.positive().iter().map(|p| format!("{} > 0", plain(p).display(&names))).collect(),
         })
     }
 
@@ -77,4 +78,9 @@ impl Problem {
     pub fn explained(&self) -> Option<&Plan> {
         self.plan.get()
     }
+}
+
+/// A polynomial with the same sign and no common factor of its coefficients.
+fn plain(p: &MultiPoly) -> MultiPoly {
+    p.div_exact_integer(&p.integer_content()).unwrap_or_default()
 }

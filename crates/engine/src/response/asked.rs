@@ -1,7 +1,7 @@
 //! All that is required of a loop: by its model file, and by who asks.
 
 use super::requirement::{Meaning, Requirement, RequirementKind, Written, not_understood};
-use crate::error::{Diagnostics, Error, Source, Span};
+use crate::error::{Code, Diagnostic, Diagnostics, Error, Source, Span};
 use crate::model::{Expression, Model, RequirementText};
 use crate::problem::Region;
 use jurist_algebra::limits::Budget;
@@ -60,7 +60,7 @@ impl Requirements {
     /// Cost: that of [`Model::value`] for each.
     ///
     /// # Errors
-    /// `E-require` for a name or a number that is no requirement; as [`Model::value`].
+    /// `E-require` for each name or number that is no requirement; as [`Model::value`].
     pub fn of(
         model: &Model,
         further: &[(&str, &str)],
@@ -111,20 +111,28 @@ fn of_sections(
         option.or_else(|| written().map(|r| Asked { text: &r.text, place: Some(r.span) }))
     };
     let mut out = Requirements { at: of("at").map(|a| a.text.to_owned()), ..Requirements::default() };
+    let mut wrong: Vec<Diagnostic> = Vec::new();
     for kind in RequirementKind::all() {
         let Some(asked) = of(kind.name) else { continue };
         let meaning = meaning(model, kind, asked.text, out.region.as_ref(), values, budget);
         // What is wrong with the constants at these values has its place in the model.
         let is_own = || model.value(&Expression::number(0), values, budget).is_ok();
-        match meaning.map_err(|error| if is_own() { placed(model, error, kind, &asked) } else { error })? {
-            Meaning::Requirement(requirement) => out.list.push(requirement),
-            Meaning::Region(region) => {
+        match meaning.map_err(|error| if is_own() { placed(model, error, kind, &asked) } else { error }) {
+            Ok(Meaning::Requirement(requirement)) => out.list.push(requirement),
+            Ok(Meaning::Region(region)) => {
                 out.region = Some(region);
                 out.regional.push((kind.name.to_owned(), asked.text.to_owned()));
             }
+            Err(Error::Refused(refused)) if asked.place.is_some() => wrong.extend_from_slice(refused.diagnostics()),
+            Err(other) => return Err(other),
         }
     }
-    Ok(out)
+    wrong.sort_by_key(|one| one.primary.as_ref().map(|label| label.span.start));
+    wrong.dedup();
+    match wrong.is_empty() {
+        true => Ok(out),
+        false => Err(Diagnostics::new(Some(model.source().clone()), wrong).into()),
+    }
 }
 
 fn meaning(
@@ -137,7 +145,10 @@ fn meaning(
 ) -> Result<Meaning, Error> {
     let (number, unit) = kind.split(text);
     let needed = if kind.needs_unit() { "a number with its unit is needed" } else { "a number is needed" };
-    let expression = Expression::parse(number).map_err(|_| not_understood(kind.name, needed))?;
+    let expression = Expression::parse(number).map_err(|_| {
+        let message = format!("{}: {needed}", kind.name);
+        Diagnostic::error(Code::Require, message).help(kind.about)
+    })?;
     let value = model.value(&expression, values, budget).map_err(|error| match error {
         Error::Undefined(_) => not_understood(kind.name, "a number is needed, without parameters that have no value"),
         other => other,

@@ -205,17 +205,19 @@ impl MapForAll {
             }
         }
         let mut set = RequiredSet { for_all: self.all.clone(), ..RequiredSet::default() };
-        let end = |x: &Rational, beside: Option<&Known>, domain: Option<&Rational>| {
+        let ends = [&parameter.domain.lower, &parameter.domain.upper];
+        let end = |x: &Rational, beside: Option<&Known>, side: usize| {
             let cause = match beside {
                 Some(Known::Spoiled(name)) => {
                     let (value, names) = (Real::from(x.clone()), vec![*name]);
                     return Some(RequiredEnd::Requirement { value, names, closed: true });
                 }
-                None if domain == Some(x) => Cause::Domain,
+                None if ends[side].as_ref() == Some(x) => Cause::Domain,
                 // The search ends here.
                 Some(Known::Good | Known::Undecided(_)) | None => Cause::Undecided,
             };
-            Some(RequiredEnd::Stability(End::new(x.clone(), cause.into(), None).closed_if(true)))
+            let closed = cause != Cause::Domain || parameter.closed[side];
+            Some(RequiredEnd::Stability(End::new(x.clone(), cause.into(), None).closed_if(closed)))
         };
         for (i, ([low, high], known)) in runs.iter().enumerate() {
             // Behind a short undecided piece stands what spoils the others.
@@ -228,8 +230,8 @@ impl MapForAll {
             };
             match known {
                 Known::Good => set.intervals.push(RequiredInterval {
-                    lower: end(low, beyond(i as isize, -1), parameter.domain.lower.as_ref()),
-                    upper: end(high, beyond(i as isize, 1), parameter.domain.upper.as_ref()),
+                    lower: end(low, beyond(i as isize, -1), 0),
+                    upper: end(high, beyond(i as isize, 1), 1),
                 }),
                 Known::Undecided(why) => {
                     set.undecided.push(UndecidedBracket::new(Some(low.clone()), Some(high.clone()), why.as_str()))

@@ -1,6 +1,7 @@
 //! The answer by boxes for people.
 
 use super::super::intervals::{heading, undecided_text};
+use super::super::layout::percent;
 use super::super::region::goal_or_stable;
 use super::text::axis_text;
 use crate::Text;
@@ -91,9 +92,9 @@ fn required_text(out: &mut String, found: &RequiredBoxes, window: &Window, names
 }
 
 fn share_line(name: &str, area: &Rational, whole: &Rational, count: usize) -> String {
-    let share = area.checked_div(whole).expect("a window has an area") * Rational::from(100);
+    let share = area.checked_div(whole).expect("a window has an area");
     let boxes = if count == 1 { "box" } else { "boxes" };
-    format!("    {name}: {} % of the window, in {count} {boxes}\n", to_decimal(&share, 4))
+    format!("    {name}: {} of the window, in {count} {boxes}\n", percent(&share, 4))
 }
 
 /// How far boxes reach; nothing where there are none.
