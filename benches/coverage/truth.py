@@ -131,8 +131,8 @@ def met(loop, point, name, required):
     if name == "gain_margin":
         n = loop.at(point)
         factors = np.geomspace(1 / required, required, 25)
-        known = [stable(loop, point, n=type(n)(n.num * f, n.den, n.tau, n.T)) for f in factors]
-        ends = [stable(loop, point, n=type(n)(n.num * f, n.den, n.tau, n.T)) for f in (required * 1.001, 1 / required / 1.001)]
+        known = [stable(loop, point, n=type(n)(np.multiply(n.num, f), n.den, n.tau, n.T)) for f in factors]
+        ends = [stable(loop, point, n=type(n)(np.multiply(n.num, f), n.den, n.tau, n.T)) for f in (required * 1.001, 1 / required / 1.001)]
         return False if False in known else (True if all(known) and all(ends) else None)
     if name == "settling_time":
         n = loop.at(point)
