@@ -255,7 +255,7 @@ fn random(draw: &mut Draw) -> (Plant, Asked) {
 /// `JURIST_LOOPS=1000` looks at so many loops; all of the usual ones are looked at with `JURIST_THOROUGH`, as in CI.
 #[test]
 fn what_is_said_of_random_loops_is_true() {
-    let usual = if is_thorough() { 40 } else { 16 };
+    let usual = if is_thorough() { 40 } else { 8 };
     let count = std::env::var("JURIST_LOOPS").ok().and_then(|n| n.parse().ok()).unwrap_or(usual);
     let (mut draw, mut seen) = (Draw(11), [0; 3]);
     for _ in 0..count {
