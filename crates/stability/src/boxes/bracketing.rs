@@ -19,6 +19,12 @@ const WITHDRAWALS: u32 = 8;
 /// How often the upper end moves to a point at which a proof failed.
 const REFUTATIONS: u32 = 64;
 
+/// After so many refutations that hardly moved the end, boxes halfway to it are tried.
+const CRAWLS: u32 = 2;
+
+/// A refutation hardly moves the end if it moves it by less than this share of it.
+const CRAWL: (i64, i64) = (1, 16);
+
 /// All corners of so many parameters are tried where a proof does not come through.
 const MOST_FOR_CORNERS: usize = 6;
 
@@ -52,13 +58,15 @@ pub(super) struct Bracketing<'b, 'a, F: Family> {
     refutations: u32,
     /// True as long as boxes stay away from the end: where a nearer end exists, such a box is refuted rather than left open.
     is_rough: bool,
+    /// How often a refutation hardly moved the end: then boxes halfway to it are tried.
+    crawls: u32,
 }
 
 impl<'b, 'a, F: Family> Bracketing<'b, 'a, F> {
     pub fn new(
         of: &'b ToleranceProblem<'a, F>,
         search: Search<'b, F>,
-        known: Option<BoxProof>,
+        proved: Option<(Rational, BoxProof)>,
         (gap, most): (Gap<'b>, Option<&'b Rational>),
         budget: &'b Budget,
     ) -> Self {
@@ -68,7 +76,7 @@ impl<'b, 'a, F: Family> Bracketing<'b, 'a, F> {
             most,
             budget,
             search,
-            proved: known.map(|proof| (Rational::ONE, proof)),
+            proved,
             open: None,
             coarser: Rational::ONE,
             beneath: None,
@@ -76,6 +84,7 @@ impl<'b, 'a, F: Family> Bracketing<'b, 'a, F> {
             retreats: 0,
             refutations: 0,
             is_rough: true,
+            crawls: 0,
         }
     }
 
@@ -86,17 +95,33 @@ impl<'b, 'a, F: Family> Bracketing<'b, 'a, F> {
             // A budget that runs out is noticed by the proof.
             let _ = self.budget.enter(|| self.search.sharpen(&share));
         }
-        let end = self.search.best.as_ref().map(|b| &b.lo).into_iter().chain(self.most).chain(&self.beneath).min();
-        let target = match end {
-            None => Rational::from(FAR),
-            Some(end) => {
-                let least = if self.is_rough { Rational::new(1.into(), 1000.into()) } else { Rational::ZERO };
-                let gap = (&(self.gap)(end) * &self.coarser).max(least);
-                lowered(end, &gap.min(Rational::new(7.into(), 8.into())))
-            }
-        };
-        let is_proved = self.proved.as_ref().is_some_and(|(lower, _)| *lower >= target);
-        (!is_proved).then_some(target)
+        let least = Rational::new(1.into(), 1000.into());
+        let is_new = |target: &Rational| self.proved.as_ref().is_none_or(|(lower, _)| lower < target);
+        let rough = Some(self.below_end(&least)).filter(|target| self.is_rough && is_new(target));
+        let target = rough.or_else(|| Some(self.below_end(&Rational::ZERO)).filter(is_new))?;
+        match (self.crawls >= CRAWLS, self.end()) {
+            (true, Some(end)) => Some(self.halfway_to(end).filter(is_new).unwrap_or(target)),
+            _ => Some(target),
+        }
+    }
+
+    /// The factor before which boxes are tried; `None` where nothing bounds it.
+    fn end(&self) -> Option<&Rational> {
+        self.search.best.as_ref().map(|b| &b.lo).into_iter().chain(self.most).chain(&self.beneath).min()
+    }
+
+    /// A factor before the end by the gap, or at least by so large a share of it.
+    fn below_end(&self, least: &Rational) -> Rational {
+        let Some(end) = self.end() else { return Rational::from(FAR) };
+        let gap = (&(self.gap)(end) * &self.coarser).max(least.clone());
+        lowered(end, &gap.min(Rational::new(7.into(), 8.into())))
+    }
+
+    /// A factor of few digits about in the middle between what is proved and the end.
+    fn halfway_to(&self, end: &Rational) -> Option<Rational> {
+        let proved = self.proved.as_ref().map_or(Rational::ZERO, |(lower, _)| lower.clone());
+        let share = (end - &proved).checked_div(end)?;
+        share.sign().is_gt().then(|| lowered(end, &(&share * &Rational::new(2.into(), 3.into()))))
     }
 
     /// An attempt was ended by the budget.
@@ -122,6 +147,7 @@ impl<'b, 'a, F: Family> Bracketing<'b, 'a, F> {
             return Ok(false);
         }
         self.budget.step("looking for the worst point");
+        let before = self.search.best.as_ref().map(|best| best.hi.clone());
         let nearer = self.budget.enter(|| self.search.run_from(point));
         self.budget.step("proving the largest box");
         let is_bounded = nearer.is_err() || self.of.reaches(&mut self.search, point);
@@ -136,6 +162,9 @@ impl<'b, 'a, F: Family> Bracketing<'b, 'a, F> {
                 Ok(false)
             }
             Ok(_) => {
+                let kept = Rational::ONE - Rational::new(CRAWL.0.into(), CRAWL.1.into());
+                let now = self.search.best.as_ref().map(|best| &best.hi);
+                self.crawls += u32::from(before.zip(now).is_some_and(|(before, now)| *now > &before * &kept));
                 self.begin_again();
                 Ok(true)
             }
@@ -146,6 +175,11 @@ impl<'b, 'a, F: Family> Bracketing<'b, 'a, F> {
     fn begin_again(&mut self) {
         (self.coarser, self.retreats, self.open) = (Rational::ONE, 0, None);
         self.is_rough = self.proved.is_none();
+    }
+
+    /// Whether refutations alone do not bring the ends together.
+    pub fn crawls(&self) -> bool {
+        self.crawls >= CRAWLS
     }
 
     /// A box was not decided; whether there is more to try.
@@ -163,6 +197,9 @@ impl<'b, 'a, F: Family> Bracketing<'b, 'a, F> {
             self.withdrawals += 1;
             self.beneath = Some(nearest);
             return true;
+        }
+        if self.crawls() {
+            self.beneath = Some(factor.clone());
         }
         self.retreats += 1;
         self.coarser = &self.coarser * &Rational::from(16);

@@ -7,7 +7,7 @@
 //! parameter whose corner moves with the factor, a strict one. Then the Jacobian by `(v, rho)`, their weighted sum, has no zero
 //! on `C`, and by the implicit function theorem zeros go along as a `tau_i` shrinks, with `rho` not growing; they stay in `C`. So a
 //! zero of least `rho` can be taken on the line, and its factor is `r*`. Of a real root the same follows from the signs of the
-//! derivatives alone: towards the corner the polynomial falls.
+//! derivatives alone: towards the corner the polynomial falls. So it does for several polynomials that vanish there ([`super::by_signs`]).
 //!
 //! One parameter may be inside of its side: it stays where it is along these paths, and at the zero of least `rho` its
 //! determinant vanishes too, which [`super::tangent`] turns into a polynomial in the factor.
@@ -27,7 +27,7 @@ use super::tree::Tree;
 use crate::{Cause, End};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational, Sign};
-use jurist_algebra::poly::RealAlgebraic;
+use jurist_algebra::poly::{MultiPoly, RealAlgebraic};
 use jurist_algebra::real::Real;
 
 /// Halvings of the parameters' sides at the corner, tried one after the other.
@@ -48,10 +48,17 @@ pub struct ExactProof {
     pub value: Real,
     /// Where each parameter is at the worst point.
     pub place: Vec<Place>,
-    /// All zeros of the pair, or of the polynomial of a real root, are in this cell of the box, which [`Tree`] marks `c`.
+    /// All zeros of the pair, or of each polynomial that vanishes at the corner, are in this cell of the box, which [`Tree`] marks `c`.
     pub cell: CriticalCell,
-    /// Cells of frequency and parameters (of parameters alone for a real root) without a zero, but for those in the critical one.
-    pub tree: Tree,
+    /// Cells of frequency and parameters without a zero, but for those in the critical one; of parameters alone a tree for each polynomial.
+    pub trees: Vec<Tree>,
+}
+
+impl ExactProof {
+    /// The number of cells.
+    pub fn cells(&self) -> usize {
+        self.trees.iter().map(Tree::leaves).sum()
+    }
 }
 
 /// Where a parameter is at the worst point.
@@ -91,21 +98,39 @@ impl ToleranceProblem<'_> {
             return Ok(None);
         }
         let causes: Vec<Cause> = end.causes.iter().collect();
-        let &[cause] = causes.as_slice() else { return Ok(None) };
+        let cause = if let &[cause] = causes.as_slice() { Some(cause) } else { None };
         let worst = WorstLine { direction, interval: [&from, &to], cause, end, zeros };
+        let found = if cause.is_some() { self.exact_along(&worst, shares, factor, budget)? } else { None };
+        match found {
+            Some(found) => Ok(Some(found)),
+            // Several things may happen at one corner, and one of them more than once.
+            None => Ok(self.by_signs(|told| told.exact_along(&worst, shares, factor, budget), budget)?.flatten()),
+        }
+    }
+
+    fn exact_along(
+        &self,
+        worst: &WorstLine<'_>,
+        shares: &[Rational],
+        factor: &LargestFactor,
+        budget: &Budget,
+    ) -> Result<Option<ExactProof>, Exhausted> {
+        let (direction, [from, to]) = (worst.direction, worst.interval);
         // A parameter that stays at its nominal value may be one on which the zero does not depend: any side will do then.
         let mut tried = None;
         for idle in [Place::High, Place::Inside] {
             let Some(place) = self.places(direction, idle).filter(|place| tried.as_ref() != Some(place)) else {
                 continue;
             };
-            let Some(value) = self.candidate(&place, &worst, budget)? else { continue };
-            let sides = at_factor(&self.sides, &to);
+            let Some(value) = self.candidate(&place, worst, budget)? else { continue };
+            let sides = at_factor(&self.sides, to);
             let idle = direction.iter().map(Rational::is_zero).collect();
             let known = Known { from: from.clone(), to: to.clone(), value, place: place.clone(), idle };
-            let found = budget.enter(|| match cause {
-                Cause::ComplexPair => self.exact_pair(known, &sides, shares, factor, budget),
-                _ => self.exact_real(known, &sides, cause, budget),
+            let found = budget.enter(|| match worst.cause {
+                Some(Cause::ComplexPair) if !self.p.by_signs => {
+                    self.exact_pair(known, &sides, shares, factor, budget)
+                }
+                _ => self.exact_real(known, &sides, budget),
             })??;
             if found.is_some() {
                 return Ok(found);
@@ -122,7 +147,7 @@ impl ToleranceProblem<'_> {
             let between = |z: &&RealAlgebraic| z.compare_rational(from).is_gt() && z.compare_rational(to).is_le();
             return Ok((worst.zeros.iter().filter(between).count() == 1).then(|| worst.end.value.clone()));
         };
-        if worst.cause != Cause::ComplexPair {
+        if worst.cause != Some(Cause::ComplexPair) || self.p.by_signs {
             return Ok(None);
         }
         let line = ray(&self.sides, worst.direction);
@@ -204,7 +229,7 @@ impl ToleranceProblem<'_> {
                 continue;
             }
             if let Some(tree) = self.cover(sides, &cell, known.place.contains(&Place::Inside), budget)? {
-                return Ok(Some(known.proved(cell, tree)));
+                return Ok(Some(known.proved(cell, vec![tree])));
             }
         }
         Ok(None)
@@ -276,31 +301,30 @@ impl ToleranceProblem<'_> {
         if bends { cover(tensor, critical, &closed_by_vector, budget) } else { Ok(None) }
     }
 
-    /// A real root that reaches the boundary: everything else keeps away from it, and near the corner, outside of which it keeps
-    /// its sign, the polynomial that vanishes falls towards the corner in every parameter.
+    /// Where polynomials in the parameters tell of the end, as of a real root: everything else keeps away from the boundary, and near the corner,
+    /// outside of which they keep their signs, those that vanish fall towards the corner in every parameter.
     fn exact_real(
         &self,
         known: Known,
         sides: &[[Rational; 2]],
-        cause: Cause,
         budget: &Budget,
     ) -> Result<Option<ExactProof>, Exhausted> {
-        let mut falling = None;
-        for ((own, f), &sign) in self.p.certain.iter().zip(&self.reference) {
+        let mut falling = Vec::new();
+        for ((_, f), &sign) in self.p.certain.iter().zip(&self.reference) {
             match keeps_sign(&Bundle::new(&[f], sides.len()), sides, sign, CELLS, budget)? {
                 Ok(_) => {}
-                Err(Outcome::Refuted(_)) if *own == cause && falling.is_none() => falling = Some((f, sign)),
+                Err(Outcome::Refuted(_)) => falling.push((f, sign)),
                 Err(_) => return Ok(None),
             }
         }
-        let Some((f, sign)) = falling else { return Ok(None) };
-        let mut parts = vec![[Rational::ZERO, Rational::ONE]; sides.len()];
-        parts.push([Rational::from(2), Rational::from(3)]);
-        if self.cover(sides, &CriticalCell { parts }, false, budget)?.is_none() {
+        if falling.is_empty() {
             return Ok(None);
         }
-        let bundle = Bundle::new(&[f], sides.len());
-        let closed = closed_by_sign(sign);
+        let mut parts = vec![[Rational::ZERO, Rational::ONE]; sides.len()];
+        parts.push([Rational::from(2), Rational::from(3)]);
+        if !self.p.by_signs && self.cover(sides, &CriticalCell { parts }, false, budget)?.is_none() {
+            return Ok(None);
+        }
         for depth in DEPTHS {
             let parts: Option<Vec<[Rational; 2]>> =
                 (0..sides.len()).map(|i| self.part(&known, i, &Rational::ZERO, depth)).collect();
@@ -308,20 +332,28 @@ impl ToleranceProblem<'_> {
             parts.push([Rational::ZERO, Rational::ONE]);
             let cell = CriticalCell { parts };
             let inner = cell.sides(sides);
-            let falls = |(i, place): (usize, &Place)| {
-                let slope = f.derivative(i);
-                let rising = if *place == Place::High { sign } else { sign.reverse() };
-                expand(&Bundle::new(&[&slope], sides.len()), &inner).iter().all(|v| v.sign() != rising)
-            };
-            if !known.place.iter().enumerate().all(falls) {
+            if !falling.iter().all(|&falling| falls_to_corner(falling, &known.place, &inner)) {
                 continue;
             }
-            if let Some(tree) = cover(Tensor::of_one(&bundle, sides), &cell, &closed, budget)? {
-                return Ok(Some(known.proved(cell, tree)));
+            let mut trees = Vec::new();
+            for &(f, sign) in &falling {
+                let tensor = Tensor::of_one(&Bundle::new(&[f], sides.len()), sides);
+                trees.extend(cover(tensor, &cell, &closed_by_sign(sign), budget)?);
+            }
+            if trees.len() == falling.len() {
+                return Ok(Some(known.proved(cell, trees)));
             }
         }
         Ok(None)
     }
+}
+
+/// Whether a polynomial of this sign nowhere rises towards a corner in a box, in any parameter.
+fn falls_to_corner((f, sign): (&MultiPoly, Sign), place: &[Place], inner: &[[Rational; 2]]) -> bool {
+    place.iter().enumerate().all(|(i, place)| {
+        let rising = if *place == Place::High { sign } else { sign.reverse() };
+        expand(&Bundle::new(&[&f.derivative(i)], inner.len()), inner).iter().all(|v| v.sign() != rising)
+    })
 }
 
 /// The line on which stability is lost first.
@@ -329,7 +361,8 @@ struct WorstLine<'w> {
     direction: &'w [Rational],
     /// The end is between these factors, and up to the second one nothing worse is to come.
     interval: [&'w Rational; 2],
-    cause: Cause,
+    /// What happens at the end, if it is one thing.
+    cause: Option<Cause>,
     end: &'w End,
     /// The critical factors of the line.
     zeros: &'w [RealAlgebraic],
@@ -346,8 +379,8 @@ struct Known {
 }
 
 impl Known {
-    fn proved(self, cell: CriticalCell, tree: Tree) -> ExactProof {
+    fn proved(self, cell: CriticalCell, trees: Vec<Tree>) -> ExactProof {
         let Known { from, to, value, place, .. } = self;
-        ExactProof { from, to, value, place, cell, tree }
+        ExactProof { from, to, value, place, cell, trees }
     }
 }

@@ -1,6 +1,6 @@
 //! The largest factor by which all tolerances can be scaled, between a proof and a point.
 
-use super::bracketing::{Bracketing, Open};
+use super::bracketing::{Bracketing, Gap, Open};
 use super::family::{Family, Path};
 use super::largest::{LargestFactor, Witness};
 use super::polynomial::BoxPolynomial;
@@ -132,11 +132,31 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
     /// [`Exhausted`] when the budget runs out.
     pub fn decide(&self, factor: &Rational, budget: &Budget) -> Result<BoxDecision, Exhausted> {
         budget.step("proving the box");
-        match self.attempt(factor, MOST_CELLS, budget)? {
-            Outcome::Stable(proof) => Ok(BoxDecision::Stable(proof)),
-            Outcome::Refuted(point) => Ok(BoxDecision::NotStable { witness: self.witness_near(&point) }),
-            Outcome::Open { why, cell } => Ok(BoxDecision::Undecided { why, cell }),
+        let found = self.decided(self.attempt(factor, CELLS, budget)?);
+        let BoxDecision::Undecided { .. } = found else { return Ok(found) };
+        let by_signs = |told: &ToleranceProblem<'_, F>| Ok(told.decided(told.attempt(factor, CELLS, budget)?));
+        match self.by_signs(by_signs, budget)? {
+            Some(BoxDecision::Undecided { .. }) | None => Ok(self.decided(self.attempt(factor, MOST_CELLS, budget)?)),
+            Some(found) => Ok(found),
         }
+    }
+
+    fn decided(&self, outcome: Outcome) -> BoxDecision {
+        match outcome {
+            Outcome::Stable(proof) => BoxDecision::Stable(proof),
+            Outcome::Refuted(point) => BoxDecision::NotStable { witness: self.witness_near(&point) },
+            Outcome::Open { why, cell } => BoxDecision::Undecided { why, cell },
+        }
+    }
+
+    /// What is found of the same loop told by signs, where that is short.
+    pub(super) fn by_signs<T>(
+        &self,
+        ask: impl FnOnce(&ToleranceProblem<'_, F>) -> Result<T, Exhausted>,
+        budget: &Budget,
+    ) -> Result<Option<T>, Exhausted> {
+        let Some(p) = self.p.told_by_signs(budget)? else { return Ok(None) };
+        ToleranceProblem::new(&p, self.sides.clone()).map(|told| ask(&told)).transpose()
     }
 
     /// A point that is not stable: this one, or one on the way to it.
@@ -145,7 +165,7 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
             let search = self.search();
             let direction = search.towards(point)?;
             let line = search.line(&direction);
-            let (lo, hi) = line.crossing(Some(&self.factor_of(point)), 40)?;
+            let (lo, hi) = line.crossing(Some(&self.search().factor_of(point)), 40)?;
             return self.witness(line.witness(&lo, &hi)?);
         }
         self.witness(point.to_vec())
@@ -200,10 +220,35 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
         most: Option<&Rational>,
         budget: &Budget,
     ) -> Result<LargestFactor, Exhausted> {
+        self.bracket_from(search, known.map(|proof| (Rational::ONE, proof)), (gap, most), budget)
+    }
+
+    fn bracket_from(
+        &self,
+        search: Search<F>,
+        proved: Option<(Rational, BoxProof)>,
+        (gap, most): (Gap<'_>, Option<&Rational>),
+        budget: &Budget,
+    ) -> Result<LargestFactor, Exhausted> {
         budget.step("proving the largest box");
-        let mut bracketing = Bracketing::new(self, search, known, (gap, most), budget);
+        let mut bracketing = Bracketing::new(self, search, proved, (gap, most), budget);
+        let mut is_told = false;
         while let Some(target) = bracketing.target() {
-            let goes_on = match self.attempt(&target, CELLS, budget) {
+            let outcome = self.attempt(&target, CELLS, budget);
+            let is_stuck = matches!(outcome, Ok(Outcome::Open { .. })) || bracketing.crawls();
+            if is_stuck && outcome.is_ok() && !std::mem::replace(&mut is_told, true) {
+                let best = bracketing.search.best.clone();
+                let closer = |told: &ToleranceProblem<'_, F>| told.closer(best, bracketing.proved.clone(), (gap, most), budget);
+                match self.by_signs(closer, budget) {
+                    Ok(Some(found)) => return Ok(found),
+                    Ok(None) => budget.step("proving the largest box"),
+                    Err(exhausted) => {
+                        bracketing.exhausted(exhausted)?;
+                        break;
+                    }
+                }
+            }
+            let goes_on = match outcome {
                 Err(exhausted) => bracketing.exhausted(exhausted)?,
                 Ok(Outcome::Stable(proof)) => bracketing.proved(target, proof),
                 Ok(Outcome::Refuted(point)) => bracketing.refuted(&point)?,
@@ -215,6 +260,25 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
         }
         let Bracketing { search, proved, open, .. } = bracketing;
         Ok(self.bracketed(search, proved, open))
+    }
+
+    /// The bracket from a crossing and a proof that are known.
+    fn closer(
+        &self,
+        crossing: Option<Crossing>,
+        proved: Option<(Rational, BoxProof)>,
+        (gap, most): (Gap<'_>, Option<&Rational>),
+        budget: &Budget,
+    ) -> Result<LargestFactor, Exhausted> {
+        let mut search = self.searched(budget)?;
+        if let Some(crossing) = crossing {
+            let point = search.line(&crossing.direction).point(&crossing.hi);
+            budget.enter(|| search.run_from(&point))?;
+            if search.best.as_ref().is_none_or(|best| crossing.hi < best.hi) {
+                search.best = Some(crossing);
+            }
+        }
+        self.bracket_from(search, proved, (gap, most), budget)
     }
 
     /// A factor a little larger than that of the worst point, and the point of the same line there.
@@ -229,7 +293,7 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
     pub(super) fn reaches(&self, search: &mut Search<F>, point: &[Rational]) -> bool {
         let Some(direction) = search.towards(point) else { return false };
         let line = search.line(&direction);
-        let factor = self.factor_of(point);
+        let factor = self.search().factor_of(point);
         let best = search.best.as_ref().map(|b| b.hi.clone());
         if best.is_some_and(|best| best <= factor) || line.is_good(&factor) {
             return false;
@@ -239,20 +303,11 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
         true
     }
 
-    /// The least factor whose box holds a point.
-    fn factor_of(&self, point: &[Rational]) -> Rational {
-        let shares = self.sides.iter().zip(point).filter(|(side, _)| side.grows()).map(|(side, x)| {
-            let offset = x - side.nominal();
-            offset.abs().checked_div(side.width(offset.sign())).unwrap_or(Rational::ZERO)
-        });
-        shares.max().unwrap_or(Rational::ZERO)
-    }
-
     /// The least factor whose box holds a point of a cell.
     pub(super) fn nearest_factor(&self, cell: &[[Rational; 2]]) -> Rational {
         let sides = self.sides.iter().zip(cell);
         let nearest = |(side, [low, high]): (&Side, &[Rational; 2])| side.nominal().max(low).min(high).clone();
-        self.factor_of(&sides.map(nearest).collect::<Vec<_>>())
+        self.search().factor_of(&sides.map(nearest).collect::<Vec<_>>())
     }
 
     fn bracketed(&self, search: Search<F>, proved: Option<(Rational, BoxProof)>, open: Option<Open>) -> LargestFactor {

@@ -62,6 +62,17 @@ pub trait Family {
         None
     }
 
+    /// The same loop told by signs of polynomials in the parameters alone, where that is short.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    fn told_by_signs(&self, _budget: &Budget) -> Result<Option<Self>, Exhausted>
+    where
+        Self: Sized,
+    {
+        Ok(None)
+    }
+
     /// Decides one box with at most so many cells; `known` are the signs and the scale at its nominal point.
     fn prove(
         &self,
@@ -280,6 +291,10 @@ impl Family for BoxPolynomial {
 
     fn as_polynomial(&self) -> Option<&BoxPolynomial> {
         Some(self)
+    }
+
+    fn told_by_signs(&self, budget: &Budget) -> Result<Option<Self>, Exhausted> {
+        self.by_determinant(budget)
     }
 
     fn prove(

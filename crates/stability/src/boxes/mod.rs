@@ -7,6 +7,7 @@
 //! [Farouki2012](jurist_algebra::bibliography#farouki2012)).
 
 mod bracketing;
+mod by_signs;
 mod critical;
 mod delayed;
 mod delayed_look;

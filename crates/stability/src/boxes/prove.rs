@@ -1,8 +1,8 @@
 //! The proof that a whole box is stable.
 
-use super::look::BoxLook;
+use super::look::{BoxLook, MOST_CORNERS};
 use super::multiplier::{Sought, affine_multiplier};
-use super::parts::middle;
+use super::parts::{corners, middle};
 use super::polynomial::{BoxPolynomial, Bundle, Excluded};
 use super::reason::OpenReason;
 use super::separate::separating_vector_within;
@@ -136,10 +136,10 @@ pub(super) fn simplest_point(sides: &[[Rational; 2]]) -> Vec<Rational> {
     sides.iter().map(simplest).collect()
 }
 
-/// A point of a box that is not stable, among the simplest ones of it and of its parts along each side.
+/// A point of a box that is not stable, among the simplest ones of it and of its parts along each side, and its corners.
 fn not_stable_in(p: &BoxPolynomial, sides: &[[Rational; 2]]) -> Option<Vec<Rational>> {
     let unstable = |sides: &[[Rational; 2]]| Some(simplest_point(sides)).filter(|point| !p.is_stable_at(point));
-    unstable(sides).or_else(|| {
+    let in_parts = || {
         (0..sides.len()).filter(|&i| sides[i][0] < sides[i][1]).find_map(|i| {
             let [low, high] = &sides[i];
             let at = |k: i64| low + &(&(high - low) * &Rational::new(k.into(), PARTS.into()));
@@ -149,7 +149,9 @@ fn not_stable_in(p: &BoxPolynomial, sides: &[[Rational; 2]]) -> Option<Vec<Ratio
                 unstable(&part)
             })
         })
-    })
+    };
+    let at_corner = || corners(sides).take(MOST_CORNERS).find(|corner| !p.is_stable_at(corner));
+    unstable(sides).or_else(in_parts).or_else(at_corner)
 }
 
 /// The simplest point of a box in or beside a cell, if it is not stable: a point that is touched keeps the proof of the cells around it open, too.
@@ -188,6 +190,9 @@ pub(super) fn prove(
             Ok(tree) => certain.push(tree),
             Err(outcome) => return Ok(outcome),
         }
+    }
+    if p.by_signs {
+        return Ok(Outcome::Stable(BoxProof::of_cells(scale, certain.iter().map(Tree::leaves).sum())));
     }
     let Excluded { pair, power, mirrored } = p.excluded();
     let whole = if mirrored { with_both_signs(sides) } else { sides.to_vec() };
