@@ -22,6 +22,9 @@ const REFUTATIONS: u32 = 64;
 /// After so many refutations that hardly moved the end, boxes halfway to it are tried.
 const CRAWLS: u32 = 2;
 
+/// After so many refutations the search is taken to miss what is there.
+const MISSES: u32 = 4;
+
 /// A refutation hardly moves the end if it moves it by less than this share of it.
 const CRAWL: (i64, i64) = (1, 16);
 
@@ -99,7 +102,7 @@ impl<'b, 'a, F: Family> Bracketing<'b, 'a, F> {
         let is_new = |target: &Rational| self.proved.as_ref().is_none_or(|(lower, _)| lower < target);
         let rough = Some(self.below_end(&least)).filter(|target| self.is_rough && is_new(target));
         let target = rough.or_else(|| Some(self.below_end(&Rational::ZERO)).filter(is_new))?;
-        match (self.crawls >= CRAWLS, self.end()) {
+        match (self.crawls(), self.end()) {
             (true, Some(end)) => Some(self.halfway_to(end).filter(is_new).unwrap_or(target)),
             _ => Some(target),
         }
@@ -178,8 +181,13 @@ impl<'b, 'a, F: Family> Bracketing<'b, 'a, F> {
     }
 
     /// Whether refutations alone do not bring the ends together.
-    pub fn crawls(&self) -> bool {
+    fn crawls(&self) -> bool {
         self.crawls >= CRAWLS
+    }
+
+    /// Whether many boxes were refuted: the search misses what is there.
+    pub fn is_misled(&self) -> bool {
+        self.refutations >= MISSES
     }
 
     /// A box was not decided; whether there is more to try.

@@ -235,7 +235,7 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
         let mut is_told = false;
         while let Some(target) = bracketing.target() {
             let outcome = self.attempt(&target, CELLS, budget);
-            let is_stuck = matches!(outcome, Ok(Outcome::Open { .. })) || bracketing.crawls();
+            let is_stuck = matches!(outcome, Ok(Outcome::Open { .. })) || bracketing.is_misled();
             if is_stuck && outcome.is_ok() && !std::mem::replace(&mut is_told, true) {
                 let best = bracketing.search.best.clone();
                 let closer = |told: &ToleranceProblem<'_, F>| told.closer(best, bracketing.proved.clone(), (gap, most), budget);

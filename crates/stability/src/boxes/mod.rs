@@ -15,6 +15,7 @@ mod delayed_prove;
 mod delayed_rounded;
 mod determinants;
 mod exact;
+mod exact_signs;
 mod factor;
 mod families;
 mod family;
@@ -44,7 +45,7 @@ mod window;
 
 pub use critical::CriticalCell;
 pub use delayed::DelayedFunction;
-pub use exact::{ExactProof, Place};
+pub use exact::{Cover, ExactProof, Place};
 pub use factor::{BoxDecision, ToleranceProblem};
 pub use family::{Family, Gradient, Path};
 pub use intervals::open_parts;
