@@ -76,6 +76,7 @@ impl Answer<ToleranceAnswer> {
         match (&value.limit, proved(value)) {
             (Some(limit), _) => of.limit(&value.sides, &truth, limit),
             (None, Some((factor, proof))) => {
+                let proof = &in_trees(p, truth.beside(&value.sides), (&factor, proof), budget)?;
                 let (sides, factor) = match value.sides.iter().all(Side::grows) {
                     true => (value.sides.clone(), factor),
                     // In a certificate all sides grow: it is of the box itself.
@@ -97,6 +98,21 @@ fn proved(value: &ToleranceAnswer) -> Option<(Rational, &BoxProof)> {
         }
         _ => bracket,
     }
+}
+
+/// The proof of the box of a factor as the checkers read it: a box that is known by signs is proved once more by cells of frequency.
+fn in_trees(
+    p: &BoxPolynomial,
+    sides: Vec<Side>,
+    (factor, proof): (&Rational, &BoxProof),
+    budget: &Budget,
+) -> Result<BoxProof, Error> {
+    if proof.is_in_trees() {
+        return Ok(proof.clone());
+    }
+    let boxes = ToleranceProblem::new(p, sides).expect("stable at the nominal point");
+    let proof = boxes.proof_in_trees(factor, budget)?;
+    proof.ok_or_else(|| no_certificate("no certificate: the proof of the box by cells of frequency takes too many"))
 }
 
 /// What boxes are certified of.
@@ -196,7 +212,7 @@ impl Loop<'_> {
         let mut own = sides.to_vec();
         own[at] = Side::scaled(limit.nominal.clone(), [&limit.nominal - &lower.safe, &upper.safe - &limit.nominal]);
         let boxes = ToleranceProblem::new(self.p, truth.beside(&own)).expect("stable at the nominal point");
-        let BoxDecision::Stable(proof) = boxes.decide(&Rational::ONE, self.budget)? else {
+        let Some(proof) = boxes.proof_in_trees(&Rational::ONE, self.budget)? else {
             return Err(no_certificate("no certificate: the proof of the whole range at once takes too many cells"));
         };
         // Only the limit's own side grows with the factor of a point beyond.

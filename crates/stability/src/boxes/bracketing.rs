@@ -22,9 +22,6 @@ const REFUTATIONS: u32 = 64;
 /// After so many refutations that hardly moved the end, boxes halfway to it are tried.
 const CRAWLS: u32 = 2;
 
-/// After so many refutations the search is taken to miss what is there.
-const MISSES: u32 = 4;
-
 /// A refutation hardly moves the end if it moves it by less than this share of it.
 const CRAWL: (i64, i64) = (1, 16);
 
@@ -51,7 +48,9 @@ pub(super) struct Bracketing<'b, 'a, F: Family> {
     pub search: Search<'b, F>,
     /// The lower end.
     pub proved: Option<(Rational, BoxProof)>,
-    pub open: Option<Open>,
+    open: Option<Open>,
+    /// The same before the end moved.
+    earlier: Option<Open>,
     /// The gap is so many times as wide.
     coarser: Rational,
     /// The box does not reach the cell at which a proof ended: there stability may be touched and not lost.
@@ -81,6 +80,7 @@ impl<'b, 'a, F: Family> Bracketing<'b, 'a, F> {
             search,
             proved,
             open: None,
+            earlier: None,
             coarser: Rational::ONE,
             beneath: None,
             withdrawals: 0,
@@ -136,10 +136,10 @@ impl<'b, 'a, F: Family> Bracketing<'b, 'a, F> {
         Ok(false)
     }
 
-    /// The box of a factor is stable; whether there is more to try.
-    pub fn proved(&mut self, factor: Rational, proof: BoxProof) -> bool {
+    /// The box of a factor is stable.
+    pub fn proved(&mut self, factor: Rational, proof: BoxProof) {
         self.proved = Some((factor, proof));
-        std::mem::replace(&mut self.is_rough, false)
+        self.is_rough = false;
     }
 
     /// A box was refuted by a point; whether there is more to try.
@@ -176,7 +176,8 @@ impl<'b, 'a, F: Family> Bracketing<'b, 'a, F> {
 
     /// A new end, a new attempt at the full precision.
     fn begin_again(&mut self) {
-        (self.coarser, self.retreats, self.open) = (Rational::ONE, 0, None);
+        (self.coarser, self.retreats) = (Rational::ONE, 0);
+        self.earlier = self.open.take().or(self.earlier.take());
         self.is_rough = self.proved.is_none();
     }
 
@@ -185,9 +186,14 @@ impl<'b, 'a, F: Family> Bracketing<'b, 'a, F> {
         self.crawls >= CRAWLS
     }
 
-    /// Whether many boxes were refuted: the search misses what is there.
-    pub fn is_misled(&self) -> bool {
-        self.refutations >= MISSES
+    /// What the bracket is at the end, with why it is not narrower if it is wider than was asked for.
+    pub fn into_parts(mut self) -> (Search<'b, F>, Option<(Rational, BoxProof)>, Option<Open>) {
+        self.beneath = None;
+        self.coarser = Rational::from(2);
+        let nearest = self.below_end(&Rational::ZERO);
+        let is_narrow = self.proved.as_ref().is_some_and(|(lower, _)| nearest <= *lower);
+        let open = self.open.or(self.earlier).filter(|_| !is_narrow);
+        (self.search, self.proved, open)
     }
 
     /// A box was not decided; whether there is more to try.

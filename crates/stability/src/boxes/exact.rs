@@ -106,12 +106,11 @@ impl ToleranceProblem<'_> {
             return Ok(None);
         }
         let causes: Vec<Cause> = end.causes.iter().collect();
-        let cause = if let &[cause] = causes.as_slice() { Some(cause) } else { None };
-        let worst = WorstLine { direction, interval: [&from, &to], cause, end, zeros };
-        let found = budget.enter(|| match cause {
-            None => Ok(None),
-            Some(Cause::ComplexPair) => self.exact_pair_along(&worst, factor, budget),
-            Some(_) => self.exact_real(&worst, budget),
+        let worst = WorstLine { direction, interval: [&from, &to], end, zeros };
+        let found = budget.enter(|| match causes.as_slice() {
+            [Cause::ComplexPair] => self.exact_pair_along(&worst, factor, budget),
+            [_] => self.exact_real(&worst, budget),
+            _ => Ok(None),
         })??;
         match found {
             Some(found) => Ok(Some(found)),
@@ -321,8 +320,6 @@ pub(super) struct WorstLine<'w> {
     direction: &'w [Rational],
     /// The end is between these factors, and up to the second one nothing worse is to come.
     pub interval: [&'w Rational; 2],
-    /// What happens at the end, if it is one thing.
-    cause: Option<Cause>,
     pub end: &'w End,
     /// The critical factors of the line.
     zeros: &'w [RealAlgebraic],

@@ -15,7 +15,7 @@ use super::sides::at_factor;
 use super::tensor::{Tensor, expand};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Rational, Sign};
-use jurist_algebra::poly::{Domain, MultiPoly, SquareFree, isolate_real_roots};
+use jurist_algebra::poly::{MultiPoly, SquareFree, isolate_real_roots};
 use jurist_algebra::real::Real;
 use std::cmp::Ordering;
 

@@ -18,6 +18,9 @@ const CELLS: usize = 4000;
 /// A box that needs more cells than this is not decided.
 const MOST_CELLS: usize = 1 << 18;
 
+/// A proof of more cells than this is not kept as trees.
+const KEPT_CELLS: usize = 1 << 14;
+
 /// A point just beyond the worst one is so many binary digits away.
 const BEYOND: u64 = 40;
 
@@ -141,6 +144,20 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
         }
     }
 
+    /// The proof of the box of a factor by trees of cells; `None` where it is not stable, or that takes too many.
+    ///
+    /// Cost: that of [`ToleranceProblem::decide`].
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub fn proof_in_trees(&self, factor: &Rational, budget: &Budget) -> Result<Option<BoxProof>, Exhausted> {
+        budget.step("proving the box");
+        Ok(match self.attempt(factor, KEPT_CELLS, budget)? {
+            Outcome::Stable(proof) => Some(proof),
+            _ => None,
+        })
+    }
+
     fn decided(&self, outcome: Outcome) -> BoxDecision {
         match outcome {
             Outcome::Stable(proof) => BoxDecision::Stable(proof),
@@ -235,8 +252,8 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
         let mut is_told = false;
         while let Some(target) = bracketing.target() {
             let outcome = self.attempt(&target, CELLS, budget);
-            let is_stuck = matches!(outcome, Ok(Outcome::Open { .. })) || bracketing.is_misled();
-            if is_stuck && outcome.is_ok() && !std::mem::replace(&mut is_told, true) {
+            let is_proved_or_ended = matches!(outcome, Ok(Outcome::Stable(_)) | Err(_));
+            if !is_proved_or_ended && !std::mem::replace(&mut is_told, true) {
                 let best = bracketing.search.best.clone();
                 let closer = |told: &ToleranceProblem<'_, F>| told.closer(best, bracketing.proved.clone(), (gap, most), budget);
                 match self.by_signs(closer, budget) {
@@ -250,7 +267,10 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
             }
             let goes_on = match outcome {
                 Err(exhausted) => bracketing.exhausted(exhausted)?,
-                Ok(Outcome::Stable(proof)) => bracketing.proved(target, proof),
+                Ok(Outcome::Stable(proof)) => {
+                    bracketing.proved(target, proof);
+                    true
+                }
                 Ok(Outcome::Refuted(point)) => bracketing.refuted(&point)?,
                 Ok(Outcome::Open { why, cell }) => bracketing.left_open(&target, why, cell),
             };
@@ -258,7 +278,7 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
                 break;
             }
         }
-        let Bracketing { search, proved, open, .. } = bracketing;
+        let (search, proved, open) = bracketing.into_parts();
         Ok(self.bracketed(search, proved, open))
     }
 

@@ -1,6 +1,7 @@
 //! The proof that a whole box is stable.
 
 use super::look::{BoxLook, MOST_CORNERS};
+use super::line::{along, rational_zero};
 use super::multiplier::{Sought, affine_multiplier};
 use super::parts::{corners, middle};
 use super::polynomial::{BoxPolynomial, Bundle, Excluded};
@@ -31,6 +32,9 @@ const GREATEST_ERROR: i128 = 1 << 60;
 /// Parts of each side in which a cell that stays open is tested.
 const PARTS: i64 = 8;
 
+/// Points at which a polynomial is stationary are looked for among so many parameters at most.
+const MOST_STATIONARY: usize = 6;
+
 /// A cell is not halved more often than this: the error of the coefficients would swallow them.
 const MOST_HALVINGS: u32 = 160;
 
@@ -47,13 +51,12 @@ pub struct BoxProof {
     pub weight: i64,
     /// Cells of frequency and parameters without a zero of the pair.
     pub pair: Tree,
-    /// Cells that are not in the tree: of loops with functions of parameters, and with dead time.
+    /// Cells that are not in the tree: of loops with functions of parameters, with dead time, and of what is told by signs.
     pub beside: usize,
 }
 
 impl BoxProof {
-    /// The proof by so many cells that are in no tree.
-    /// A proof by cells that are not kept.
+    /// A proof by so many cells that are not kept.
     pub fn of_cells(scale: i64, beside: usize) -> BoxProof {
         BoxProof { certain: Vec::new(), scale, weight: 0, pair: Tree::default(), beside }
     }
@@ -61,6 +64,11 @@ impl BoxProof {
     /// The proof of a box of one name by the stable set of its line: the box is in one cell.
     pub fn of_line() -> BoxProof {
         BoxProof::of_cells(0, 1)
+    }
+
+    /// Whether all cells are in the trees.
+    pub fn is_in_trees(&self) -> bool {
+        self.beside == 0
     }
 
     /// The number of cells of frequency and parameters.
@@ -316,6 +324,30 @@ pub(super) fn closed_by_vector(cell: &Cell, nodes: usize) -> Result<Node, Option
     }
 }
 
+/// Points of a box, in or beside a cell, at which a polynomial is stationary along all parameters but one, as far as one after the other tells: where it is zero
+/// without a change of its sign, it is so.
+fn stationary_points<'p>(
+    f: &'p Bundle,
+    cell: &'p [[Rational; 2]],
+    sides: &'p [[Rational; 2]],
+) -> impl Iterator<Item = Vec<Rational>> + 'p {
+    let count = if cell.len() <= MOST_STATIONARY { cell.len() } else { 0 };
+    (0..count).map(move |kept| {
+        let mut point = simplest_point(cell);
+        for i in (kept + 1..kept + cell.len()).map(|i| i % cell.len()) {
+            let [low, high] = &cell[i];
+            let width = high - low;
+            let mut step = vec![Rational::ZERO; cell.len()];
+            step[i] = Rational::ONE;
+            point[i] = Rational::ZERO;
+            let slope = along(f, &point, &step).remove(0).derivative();
+            let place = rational_zero(&slope, &(low - &width), &(high + &width));
+            point[i] = place.filter(|x| sides[i][0] <= *x && *x <= sides[i][1]).unwrap_or_else(|| low.midpoint(high));
+        }
+        point
+    })
+}
+
 /// The tree that proves that a polynomial keeps its sign in a box, or why that is not so or not known.
 pub(super) fn keeps_sign(
     f: &Bundle,
@@ -345,10 +377,10 @@ pub(super) fn keeps_sign(
         if let Some(axis) = cell.tensor.best_axis().filter(|_| may_cut) {
             return Ok(Look::Cut(axis));
         }
-        let point = simplest_point(&inner);
-        Ok(Look::Open(match has_other_sign(&point) {
-            true => Outcome::Refuted(point),
-            false => Outcome::Open { why: OpenReason::Vanishing, cell: inner },
+        let simplest = Some(simplest_point(&inner)).filter(has_other_sign);
+        Ok(Look::Open(match simplest.or_else(|| stationary_points(f, &inner, sides).find(has_other_sign)) {
+            Some(point) => Outcome::Refuted(point),
+            None => Outcome::Open { why: OpenReason::Vanishing, cell: inner },
         }))
     };
     let steps = subdivide([Cell::whole(Tensor::of_one(f, sides))], Order::Depth, budget, look)?;
