@@ -14,8 +14,9 @@ use proptest::prelude::*;
 type Names<'n> = [(&'n str, &'n str, &'n str)];
 
 fn answer(time: &str, characteristic: &str, names: &Names) -> ToleranceAnswer {
-    let name =
-        |(name, nominal, width): &(&str, &str, &str)| format!("{name} = {{ nominal = '{nominal}', tolerance = '{width}' }}\n");
+    let name = |(name, nominal, width): &(&str, &str, &str)| {
+        format!("{name} = {{ nominal = '{nominal}', tolerance = '{width}' }}\n")
+    };
     let parameters: String = names.iter().map(name).collect();
     let text = format!("time = '{time}'\n[parameters]\n{parameters}[loop]\ncharacteristic = '{characteristic}'\n");
     let model = load(&text);

@@ -22,6 +22,9 @@ const REFUTATIONS: u32 = 64;
 /// After so many refutations that hardly moved the end, boxes halfway to it are tried.
 const CRAWLS: u32 = 2;
 
+/// After so many of any kind it is so, too.
+const MANY: u32 = 8;
+
 /// A refutation hardly moves the end if it moves it by less than this share of it.
 const CRAWL: (i64, i64) = (1, 16);
 
@@ -183,7 +186,7 @@ impl<'b, 'a, F: Family> Bracketing<'b, 'a, F> {
 
     /// Whether refutations alone do not bring the ends together.
     fn crawls(&self) -> bool {
-        self.crawls >= CRAWLS
+        self.crawls >= CRAWLS || self.refutations >= MANY
     }
 
     /// What the bracket is at the end, with why it is not narrower if it is wider than was asked for.

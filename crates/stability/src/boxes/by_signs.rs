@@ -26,22 +26,29 @@ impl BoxPolynomial {
     /// # Errors
     /// [`Exhausted`] when the budget runs out.
     pub(super) fn by_determinant(&self, budget: &Budget) -> Result<Option<BoxPolynomial>, Exhausted> {
-        let [even, odd] = self.even_and_odd();
-        if self.by_signs || self.instead.is_some() || !is_short(&even, &odd, self.parameters()) {
+        if !self.has_short_determinant() {
             return Ok(None);
         }
+        let [even, odd] = self.even_and_odd();
         budget.step("the determinant of the boundary");
         let determinant = resultant(&even, &odd, budget)?;
-        budget.enter(|| {
-            let factors = |(cause, f): &(Cause, MultiPoly)| factors(f).into_iter().map(|f| (*cause, f)).collect();
-            let mut apart: Vec<Vec<(Cause, MultiPoly)>> = self.certain.iter().map(factors).collect();
-            apart.push(factors(&(Cause::ComplexPair, determinant)));
-            let divisors = apart[..self.divisors].iter().map(Vec::len).sum();
-            let mut told = self.clone();
-            (told.certain, told.divisors, told.by_signs) = (apart.concat(), divisors, true);
-            told
-        })
-        .map(Some)
+        budget
+            .enter(|| {
+                let factors = |(cause, f): &(Cause, MultiPoly)| factors(f).into_iter().map(|f| (*cause, f)).collect();
+                let mut apart: Vec<Vec<(Cause, MultiPoly)>> = self.certain.iter().map(factors).collect();
+                apart.push(factors(&(Cause::ComplexPair, determinant)));
+                let divisors = apart[..self.divisors].iter().map(Vec::len).sum();
+                let mut told = self.clone();
+                (told.certain, told.divisors, told.by_signs) = (apart.concat(), divisors, true);
+                told
+            })
+            .map(Some)
+    }
+
+    /// Whether the determinant is short, and nothing else is excluded.
+    pub(super) fn has_short_determinant(&self) -> bool {
+        let [even, odd] = self.even_and_odd();
+        !self.by_signs && self.instead.is_none() && is_short(&even, &odd, self.parameters())
     }
 
     /// `E` and `O` as polynomials in the square of the frequency.

@@ -15,6 +15,9 @@ use jurist_algebra::number::{Integer, Rational, Sign};
 /// A proof that needs more cells than this is first tried at a smaller factor.
 const CELLS: usize = 4000;
 
+/// The same where signs may tell.
+const FEW_CELLS: usize = 400;
+
 /// A box that needs more cells than this is not decided.
 const MOST_CELLS: usize = 1 << 18;
 
@@ -249,13 +252,14 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
     ) -> Result<LargestFactor, Exhausted> {
         budget.step("proving the largest box");
         let mut bracketing = Bracketing::new(self, search, proved, (gap, most), budget);
-        let mut is_told = false;
+        let mut may_be_told = self.p.may_be_told_by_signs();
         while let Some(target) = bracketing.target() {
-            let outcome = self.attempt(&target, CELLS, budget);
+            let outcome = self.attempt(&target, if may_be_told { FEW_CELLS } else { CELLS }, budget);
             let is_proved_or_ended = matches!(outcome, Ok(Outcome::Stable(_)) | Err(_));
-            if !is_proved_or_ended && !std::mem::replace(&mut is_told, true) {
+            if !is_proved_or_ended && std::mem::take(&mut may_be_told) {
                 let best = bracketing.search.best.clone();
-                let closer = |told: &ToleranceProblem<'_, F>| told.closer(best, bracketing.proved.clone(), (gap, most), budget);
+                let closer =
+                    |told: &ToleranceProblem<'_, F>| told.closer(best, bracketing.proved.clone(), (gap, most), budget);
                 match self.by_signs(closer, budget) {
                     Ok(Some(found)) => return Ok(found),
                     Ok(None) => budget.step("proving the largest box"),

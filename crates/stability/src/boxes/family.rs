@@ -62,6 +62,11 @@ pub trait Family {
         None
     }
 
+    /// Whether [`Family::told_by_signs`] tells of it.
+    fn may_be_told_by_signs(&self) -> bool {
+        false
+    }
+
     /// The same loop told by signs of polynomials in the parameters alone, where that is short.
     ///
     /// # Errors
@@ -303,6 +308,10 @@ impl Family for BoxPolynomial {
 
     fn as_polynomial(&self) -> Option<&BoxPolynomial> {
         Some(self)
+    }
+
+    fn may_be_told_by_signs(&self) -> bool {
+        self.has_short_determinant()
     }
 
     fn told_by_signs(&self, budget: &Budget) -> Result<Option<Self>, Exhausted> {

@@ -1,7 +1,7 @@
 //! The proof that a whole box is stable.
 
-use super::look::{BoxLook, MOST_CORNERS};
 use super::line::{along, rational_zero};
+use super::look::{BoxLook, MOST_CORNERS};
 use super::multiplier::{Sought, affine_multiplier};
 use super::parts::{corners, middle};
 use super::polynomial::{BoxPolynomial, Bundle, Excluded};
