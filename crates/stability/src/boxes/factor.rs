@@ -21,9 +21,6 @@ const FEW_CELLS: usize = 400;
 /// A box that needs more cells than this is not decided.
 const MOST_CELLS: usize = 1 << 18;
 
-/// A proof of more cells than this is not kept as trees.
-const KEPT_CELLS: usize = 1 << 14;
-
 /// A point just beyond the worst one is so many binary digits away.
 const BEYOND: u64 = 40;
 
@@ -155,7 +152,7 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
     /// [`Exhausted`] when the budget runs out.
     pub fn proof_in_trees(&self, factor: &Rational, budget: &Budget) -> Result<Option<BoxProof>, Exhausted> {
         budget.step("proving the box");
-        Ok(match self.attempt(factor, KEPT_CELLS, budget)? {
+        Ok(match self.attempt(factor, CELLS, budget)? {
             Outcome::Stable(proof) => Some(proof),
             _ => None,
         })

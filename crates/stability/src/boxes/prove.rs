@@ -192,13 +192,10 @@ pub(super) fn prove(
     (closed, most_cells): (Closing, usize),
     budget: &Budget,
 ) -> Result<Outcome, Exhausted> {
-    let mut certain = Vec::new();
-    for ((_, f), &sign) in p.certain.iter().zip(reference) {
-        match keeps_sign(&Bundle::new(&[f], sides.len()), sides, sign, most_cells, budget)? {
-            Ok(tree) => certain.push(tree),
-            Err(outcome) => return Ok(outcome),
-        }
-    }
+    let certain = match certain_trees(p, sides, reference, most_cells, budget)? {
+        Ok(certain) => certain,
+        Err(outcome) => return Ok(outcome),
+    };
     if p.by_signs {
         return Ok(Outcome::Stable(BoxProof::of_cells(scale, certain.iter().map(Tree::leaves).sum())));
     }
@@ -246,6 +243,24 @@ pub(super) fn prove(
         }
         Err(outcome) => outcome,
     })
+}
+
+/// The trees that prove that the certain polynomials keep these signs in a box.
+fn certain_trees(
+    p: &BoxPolynomial,
+    sides: &[[Rational; 2]],
+    reference: &[Sign],
+    most_cells: usize,
+    budget: &Budget,
+) -> Result<Result<Vec<Tree>, Outcome>, Exhausted> {
+    let mut trees = Vec::new();
+    for ((_, f), &sign) in p.certain.iter().zip(reference) {
+        match keeps_sign(&Bundle::new(&[f], sides.len()), sides, sign, most_cells, budget)? {
+            Ok(tree) => trees.push(tree),
+            Err(outcome) => return Ok(Err(outcome)),
+        }
+    }
+    Ok(Ok(trees))
 }
 
 /// Frequencies of one box are halved into so many parts at most, where it is looked at alone.
