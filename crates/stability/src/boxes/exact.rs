@@ -107,16 +107,19 @@ impl ToleranceProblem<'_> {
         }
         let causes: Vec<Cause> = end.causes.iter().collect();
         let worst = WorstLine { direction, interval: [&from, &to], end, zeros };
+        let by_signs = || self.by_signs(|told| told.exact_by_signs(&worst, budget), budget).map(Option::flatten);
+        // A parameter that does not matter may be anywhere; that one that does is inside of its side takes an elimination to prove.
+        let is_inside = worst.places().contains(&Place::Inside);
+        if is_inside && let Some(found) = by_signs()? {
+            return Ok(Some(found));
+        }
         let found = budget.enter(|| match causes.as_slice() {
             [Cause::ComplexPair] => self.exact_pair_along(&worst, factor, budget),
             [_] => self.exact_real(&worst, budget),
             _ => Ok(None),
         })??;
-        match found {
-            Some(found) => Ok(Some(found)),
-            // Several things may happen at one corner, and one of them more than once.
-            None => Ok(self.by_signs(|told| told.exact_by_signs(&worst, budget), budget)?.flatten()),
-        }
+        // Several things may happen at one corner, and one of them more than once.
+        if found.is_some() || is_inside { Ok(found) } else { by_signs() }
     }
 
     fn exact_pair_along(
