@@ -18,6 +18,9 @@ const CELLS: usize = 4000;
 /// The same where signs may tell.
 const FEW_CELLS: usize = 400;
 
+/// The same of signs alone, whose cells are small.
+const CELLS_OF_SIGNS: usize = 1 << 14;
+
 /// A box that needs more cells than this is not decided.
 const MOST_CELLS: usize = 1 << 18;
 
@@ -137,7 +140,8 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
         budget.step("proving the box");
         let found = self.decided(self.attempt(factor, CELLS, budget)?);
         let BoxDecision::Undecided { .. } = found else { return Ok(found) };
-        let by_signs = |told: &ToleranceProblem<'_, F>| Ok(told.decided(told.attempt(factor, CELLS, budget)?));
+        let by_signs =
+            |told: &ToleranceProblem<'_, F>| Ok(told.decided(told.attempt(factor, CELLS_OF_SIGNS, budget)?));
         match self.by_signs(by_signs, budget)? {
             Some(BoxDecision::Undecided { .. }) | None => Ok(self.decided(self.attempt(factor, MOST_CELLS, budget)?)),
             Some(found) => Ok(found),
@@ -237,12 +241,12 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
         most: Option<&Rational>,
         budget: &Budget,
     ) -> Result<LargestFactor, Exhausted> {
-        self.bracket_from(search, known.map(|proof| (Rational::ONE, proof)), (gap, most), budget)
+        self.bracket_from((search, CELLS), known.map(|proof| (Rational::ONE, proof)), (gap, most), budget)
     }
 
     fn bracket_from(
         &self,
-        search: Search<F>,
+        (search, cells): (Search<F>, usize),
         proved: Option<(Rational, BoxProof)>,
         (gap, most): (Gap<'_>, Option<&Rational>),
         budget: &Budget,
@@ -251,7 +255,7 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
         let mut bracketing = Bracketing::new(self, search, proved, (gap, most), budget);
         let mut may_be_told = self.p.may_be_told_by_signs();
         while let Some(target) = bracketing.target() {
-            let outcome = self.attempt(&target, if may_be_told { FEW_CELLS } else { CELLS }, budget);
+            let outcome = self.attempt(&target, if may_be_told { FEW_CELLS } else { cells }, budget);
             let is_proved_or_ended = matches!(outcome, Ok(Outcome::Stable(_)) | Err(_));
             if !is_proved_or_ended && std::mem::take(&mut may_be_told) {
                 let best = bracketing.search.best.clone();
@@ -299,7 +303,7 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
                 search.best = Some(crossing);
             }
         }
-        self.bracket_from(search, proved, (gap, most), budget)
+        self.bracket_from((search, CELLS_OF_SIGNS), proved, (gap, most), budget)
     }
 
     /// A factor a little larger than that of the worst point, and the point of the same line there.
