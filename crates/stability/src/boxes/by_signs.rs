@@ -95,6 +95,9 @@ fn factors(f: &MultiPoly) -> Vec<MultiPoly> {
 mod tests {
     use super::*;
     use crate::Shape;
+    use crate::boxes::{Family, Outcome};
+    use jurist_algebra::number::Rational;
+    use proptest::prelude::*;
 
     #[test]
     fn factors_are_taken_once_and_apart() {
@@ -117,5 +120,31 @@ mod tests {
         let of_pair = told.certain().iter().filter(|(cause, _)| *cause == Cause::ComplexPair);
         assert_eq!(of_pair.count(), 3);
         assert!(told.by_determinant(&Budget::unlimited()).unwrap().is_none());
+    }
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(32))]
+
+        /// Cells of frequency prove and refute the same boxes of `s^4 + a s^3 + (b + 3) s^2 + (a b + c) s + 1`.
+        #[test]
+        fn signs_agree_with_cells_of_frequency(low in [0i64..=8, 0i64..=8, -4i64..=8], width in [0i64..=4, 0i64..=4, 0i64..=4]) {
+            let [a, b, c] = [0, 1, 2].map(MultiPoly::variable);
+            let second = b.plus(&MultiPoly::constant(3.into()));
+            let p = Poly::new(vec![MultiPoly::one(), a.times(&b).plus(&c), second, a, MultiPoly::one()]);
+            let p = BoxPolynomial::of_parts(p, 4, [], 3, Shape::LeftHalfPlane);
+            let told = p.by_determinant(&Budget::unlimited()).unwrap().unwrap();
+            let quarter = |n: i64| Rational::new(n.into(), 4.into());
+            let sides: Vec<[Rational; 2]> = (0..3).map(|i| [low[i], low[i] + width[i]].map(quarter)).collect();
+            let nominal: Vec<Rational> = sides.iter().map(|[low, high]| low.midpoint(high)).collect();
+            prop_assume!(p.is_stable_at(&nominal));
+            let found = |p: &BoxPolynomial| {
+                let (signs, scale) = p.signs_at(&nominal).unwrap();
+                p.prove(&sides, (&signs, scale), 4000, &Budget::unlimited()).unwrap()
+            };
+            match (found(&p), found(&told)) {
+                (Outcome::Stable(_), other) => prop_assert!(!matches!(other, Outcome::Refuted(_)), "{other:?}"),
+                (Outcome::Refuted(_), other) => prop_assert!(!matches!(other, Outcome::Stable(_)), "{other:?}"),
+                _ => {}
+            }
+        }
     }
 }

@@ -200,8 +200,8 @@ impl ToleranceProblem<'_> {
             Place::Low => Some([Rational::ZERO, part]),
             Place::High => Some([&Rational::ONE - &part, Rational::ONE]),
             Place::Inside => {
-                let [low, high] = self.sides[i].at(&known.worst.interval[1]);
-                let [least, most] = self.sides[i].at(&known.worst.interval[0]);
+                let [low, high] = self.sides[i].at(known.worst.interval[1]);
+                let [least, most] = self.sides[i].at(known.worst.interval[0]);
                 let width = &high - &low;
                 let share = (at - &low).checked_div(&width)?;
                 let part = around(&share, u64::from(halvings));
