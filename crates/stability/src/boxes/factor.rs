@@ -138,13 +138,20 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
     /// [`Exhausted`] when the budget runs out.
     pub fn decide(&self, factor: &Rational, budget: &Budget) -> Result<BoxDecision, Exhausted> {
         budget.step("proving the box");
-        let found = self.decided(self.attempt(factor, CELLS, budget)?);
-        let BoxDecision::Undecided { .. } = found else { return Ok(found) };
+        let by_cells = |cells: usize| Ok(self.decided(self.attempt(factor, cells, budget)?));
+        if !self.p.may_be_told_by_signs() {
+            return by_cells(MOST_CELLS);
+        }
+        let is_open = |found: &BoxDecision| matches!(found, BoxDecision::Undecided { .. });
+        let found = by_cells(CELLS)?;
+        if !is_open(&found) {
+            return Ok(found);
+        }
         let by_signs =
             |told: &ToleranceProblem<'_, F>| Ok(told.decided(told.attempt(factor, CELLS_OF_SIGNS, budget)?));
-        match self.by_signs(by_signs, budget)? {
-            Some(BoxDecision::Undecided { .. }) | None => Ok(self.decided(self.attempt(factor, MOST_CELLS, budget)?)),
+        match self.by_signs(by_signs, budget)?.filter(|found| !is_open(found)) {
             Some(found) => Ok(found),
+            None => by_cells(MOST_CELLS),
         }
     }
 
