@@ -124,6 +124,7 @@ mod tolerances {
     mod random_families;
     mod required;
     mod shares;
+    mod singular;
     mod spiral;
 }
 

@@ -14,11 +14,12 @@ if TYPE_CHECKING:
 
 
 class Factor(NamedTuple):
-    """The largest factor of all tolerances that keeps every point stable: proved below ``lower``, not stable at ``upper``."""
+    """The largest factor of all tolerances that keeps every point stable: proved below ``lower``, not stable at ``upper``; ``open`` says why these are no nearer to each other."""
 
     lower: Fraction
     upper: Fraction | None
     decimal: str
+    open: str | None = None
 
 
 class Worst(NamedTuple):
@@ -65,7 +66,7 @@ class Tolerance(Document):
         if found is None:
             return None
         upper = None if found["upper"] is None else fraction(found["upper"])
-        return Factor(fraction(found["lower"]), upper, found["decimal"])
+        return Factor(fraction(found["lower"]), upper, found["decimal"], found.get("open", {}).get("budget"))
 
     @property
     def worst(self) -> Worst | None:

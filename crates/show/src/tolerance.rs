@@ -217,7 +217,7 @@ impl Shown<'_> {
             (None, None) => format!("{}.., known to any digits", exact.value.decimal(digits)),
         };
         match &exact.proof {
-            Some(proof) => format!("{number} (proof: {} cells)", proof.tree.leaves()),
+            Some(proof) => format!("{number} (proof: {} cells)", proof.cells()),
             None => number,
         }
     }

@@ -23,6 +23,9 @@ use std::sync::Arc;
 /// The schema of certificates of boxes.
 const SCHEMA: &str = "jurist/certificate/4";
 
+/// The parts of the largest proved factor that are tried where it is known by signs.
+const SHARES: [(i64, i64); 4] = [(1, 1), (999, 1000), (99, 100), (9, 10)];
+
 /// The schema of those over symbols.
 const SCHEMA_WITH_SYMBOLS: &str = "jurist/certificate/8";
 
@@ -76,6 +79,8 @@ impl Answer<ToleranceAnswer> {
         match (&value.limit, proved(value)) {
             (Some(limit), _) => of.limit(&value.sides, &truth, limit),
             (None, Some((factor, proof))) => {
+                let (factor, proof) = &in_trees(p, truth.beside(&value.sides), (factor, proof), budget)?;
+                let factor = factor.clone();
                 let (sides, factor) = match value.sides.iter().all(Side::grows) {
                     true => (value.sides.clone(), factor),
                     // In a certificate all sides grow: it is of the box itself.
@@ -97,6 +102,26 @@ fn proved(value: &ToleranceAnswer) -> Option<(Rational, &BoxProof)> {
         }
         _ => bracket,
     }
+}
+
+/// A proof as the checkers read it: a box that is known by signs, or a little smaller one, is proved once more by cells of frequency.
+fn in_trees(
+    p: &BoxPolynomial,
+    sides: Vec<Side>,
+    (factor, proof): (Rational, &BoxProof),
+    budget: &Budget,
+) -> Result<(Rational, BoxProof), Error> {
+    if proof.is_in_trees() {
+        return Ok((factor, proof.clone()));
+    }
+    let boxes = ToleranceProblem::new(p, sides).expect("stable at the nominal point");
+    for (n, d) in SHARES {
+        let factor = &factor * &Rational::new(n.into(), d.into());
+        if let Some(proof) = boxes.proof_in_trees(&factor, budget)? {
+            return Ok((factor, proof));
+        }
+    }
+    Err(no_certificate("no certificate: the proof of the box by cells of frequency takes too many"))
 }
 
 /// What boxes are certified of.
@@ -196,9 +221,11 @@ impl Loop<'_> {
         let mut own = sides.to_vec();
         own[at] = Side::scaled(limit.nominal.clone(), [&limit.nominal - &lower.safe, &upper.safe - &limit.nominal]);
         let boxes = ToleranceProblem::new(self.p, truth.beside(&own)).expect("stable at the nominal point");
-        let BoxDecision::Stable(proof) = boxes.decide(&Rational::ONE, self.budget)? else {
-            return Err(no_certificate("no certificate: the proof of the whole range at once takes too many cells"));
-        };
+        let none = || no_certificate("no certificate: the proof of the whole range at once takes too many cells");
+        let BoxDecision::Stable(proof) = boxes.decide(&Rational::ONE, self.budget)? else { return Err(none()) };
+        if !proof.is_in_trees() {
+            return Err(none());
+        }
         // Only the limit's own side grows with the factor of a point beyond.
         let alone: Vec<Side> =
             own.iter().enumerate().map(|(i, side)| if i == at { side.clone() } else { still(side) }).collect();

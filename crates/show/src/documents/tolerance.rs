@@ -15,7 +15,7 @@ use jurist_engine::answer::{
 };
 use jurist_engine::model::Time;
 use jurist_engine::problem::Problem;
-use jurist_engine::stability::boxes::{BoxDecision, LargestFactor, Witness};
+use jurist_engine::stability::boxes::{BoxDecision, LargestFactor, OpenReason, Witness};
 use serde::{Deserialize, Serialize};
 
 schema_name!(ToleranceName, "jurist/tolerance/1");
@@ -114,6 +114,9 @@ pub struct Factor {
     pub exact: Option<End>,
     /// The factor at which the first parameter reaches the end of its domain; `null` where none does.
     pub domain: Option<Exact>,
+    /// What ended the proof of a narrower bracket, and in which part of the box; only where the bracket is wider than was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub open: Option<Undecided>,
 }
 
 /// The worst point.
@@ -227,13 +230,7 @@ fn found(problem: &Problem, answer: &ToleranceAnswer, digits: usize) -> Toleranc
     let (verdict, cells, own_witness, undecided) = match &answer.decision {
         BoxDecision::Stable(proof) => (Some(ToleranceVerdict::Stable), Some(proof.cells()), None, None),
         BoxDecision::NotStable { witness } => (Some(ToleranceVerdict::NotStable), None, witness.as_ref(), None),
-        BoxDecision::Undecided { why, cell } => {
-            let side = |[low, high]: &[Rational; 2]| format!("{} to {}", to_decimal(low, 6), to_decimal(high, 6));
-            let names = problem.free().iter().map(|free| &free.name);
-            let reached: Vec<String> = names.zip(cell).map(|(name, c)| format!("{name} from {}", side(c))).collect();
-            let undecided = Undecided { budget: why.to_string(), reached: reached.join(", ") };
-            (None, None, None, Some(undecided))
-        }
+        BoxDecision::Undecided { why, cell } => (None, None, None, Some(ended(problem, *why, cell))),
     };
     let witness = own_witness.or_else(|| factor.and_then(|f| f.witness.as_ref()));
     ToleranceFound {
@@ -246,6 +243,7 @@ fn found(problem: &Problem, answer: &ToleranceAnswer, digits: usize) -> Toleranc
             decimal: at_most(&f.lower, digits),
             exact: answer.worst.as_ref().zip(answer.exact.as_ref()).map(|(w, exact)| exact_end(w, exact, digits)),
             domain: answer.domain_factor.as_ref().map(Exact::from),
+            open: f.open.as_ref().map(|(why, cell)| ended(problem, *why, cell)),
         }),
         worst: factor.and_then(|f| worst(problem, answer, f, digits)),
         witness: witness.map(|w| witness_point(problem, w)),
@@ -266,6 +264,14 @@ fn found(problem: &Problem, answer: &ToleranceAnswer, digits: usize) -> Toleranc
         cells,
         undecided,
     }
+}
+
+/// What ended a proof, and in which cell.
+fn ended(problem: &Problem, why: OpenReason, cell: &[[Rational; 2]]) -> Undecided {
+    let side = |[low, high]: &[Rational; 2]| format!("{} to {}", to_decimal(low, 6), to_decimal(high, 6));
+    let names = problem.free().iter().map(|free| &free.name);
+    let reached: Vec<String> = names.zip(cell).map(|(name, c)| format!("{name} from {}", side(c))).collect();
+    Undecided { budget: why.to_string(), reached: reached.join(", ") }
 }
 
 fn required(answer: &ToleranceAnswer, number: usize, found: &RequiredBox) -> RequirementOverBox {

@@ -19,6 +19,15 @@ const WITHDRAWALS: u32 = 8;
 /// How often the upper end moves to a point at which a proof failed.
 const REFUTATIONS: u32 = 64;
 
+/// After so many refutations that hardly moved the end, boxes halfway to it are tried.
+const CRAWLS: u32 = 2;
+
+/// After so many of any kind it is so, too.
+const MANY: u32 = 8;
+
+/// A refutation hardly moves the end if it moves it by less than this share of it.
+const CRAWL: (i64, i64) = (1, 16);
+
 /// All corners of so many parameters are tried where a proof does not come through.
 const MOST_FOR_CORNERS: usize = 6;
 
@@ -42,7 +51,9 @@ pub(super) struct Bracketing<'b, 'a, F: Family> {
     pub search: Search<'b, F>,
     /// The lower end.
     pub proved: Option<(Rational, BoxProof)>,
-    pub open: Option<Open>,
+    open: Option<Open>,
+    /// The same before the end moved.
+    earlier: Option<Open>,
     /// The gap is so many times as wide.
     coarser: Rational,
     /// The box does not reach the cell at which a proof ended: there stability may be touched and not lost.
@@ -52,13 +63,15 @@ pub(super) struct Bracketing<'b, 'a, F: Family> {
     refutations: u32,
     /// True as long as boxes stay away from the end: where a nearer end exists, such a box is refuted rather than left open.
     is_rough: bool,
+    /// How often a refutation hardly moved the end: then boxes halfway to it are tried.
+    crawls: u32,
 }
 
 impl<'b, 'a, F: Family> Bracketing<'b, 'a, F> {
     pub fn new(
         of: &'b ToleranceProblem<'a, F>,
         search: Search<'b, F>,
-        known: Option<BoxProof>,
+        proved: Option<(Rational, BoxProof)>,
         (gap, most): (Gap<'b>, Option<&'b Rational>),
         budget: &'b Budget,
     ) -> Self {
@@ -68,14 +81,16 @@ impl<'b, 'a, F: Family> Bracketing<'b, 'a, F> {
             most,
             budget,
             search,
-            proved: known.map(|proof| (Rational::ONE, proof)),
+            proved,
             open: None,
+            earlier: None,
             coarser: Rational::ONE,
             beneath: None,
             withdrawals: 0,
             retreats: 0,
             refutations: 0,
             is_rough: true,
+            crawls: 0,
         }
     }
 
@@ -86,17 +101,33 @@ impl<'b, 'a, F: Family> Bracketing<'b, 'a, F> {
             // A budget that runs out is noticed by the proof.
             let _ = self.budget.enter(|| self.search.sharpen(&share));
         }
-        let end = self.search.best.as_ref().map(|b| &b.lo).into_iter().chain(self.most).chain(&self.beneath).min();
-        let target = match end {
-            None => Rational::from(FAR),
-            Some(end) => {
-                let least = if self.is_rough { Rational::new(1.into(), 1000.into()) } else { Rational::ZERO };
-                let gap = (&(self.gap)(end) * &self.coarser).max(least);
-                lowered(end, &gap.min(Rational::new(7.into(), 8.into())))
-            }
-        };
-        let is_proved = self.proved.as_ref().is_some_and(|(lower, _)| *lower >= target);
-        (!is_proved).then_some(target)
+        let least = Rational::new(1.into(), 1000.into());
+        let is_new = |target: &Rational| self.proved.as_ref().is_none_or(|(lower, _)| lower < target);
+        let rough = Some(self.below_end(&least)).filter(|target| self.is_rough && is_new(target));
+        let target = rough.or_else(|| Some(self.below_end(&Rational::ZERO)).filter(is_new))?;
+        match (self.crawls(), self.end()) {
+            (true, Some(end)) => Some(self.halfway_to(end).filter(is_new).unwrap_or(target)),
+            _ => Some(target),
+        }
+    }
+
+    /// The factor before which boxes are tried; `None` where nothing bounds it.
+    fn end(&self) -> Option<&Rational> {
+        self.search.best.as_ref().map(|b| &b.lo).into_iter().chain(self.most).chain(&self.beneath).min()
+    }
+
+    /// A factor before the end by the gap, or at least by so large a share of it.
+    fn below_end(&self, least: &Rational) -> Rational {
+        let Some(end) = self.end() else { return Rational::from(FAR) };
+        let gap = (&(self.gap)(end) * &self.coarser).max(least.clone());
+        lowered(end, &gap.min(Rational::new(7.into(), 8.into())))
+    }
+
+    /// A factor of few digits about in the middle between what is proved and the end.
+    fn halfway_to(&self, end: &Rational) -> Option<Rational> {
+        let proved = self.proved.as_ref().map_or(Rational::ZERO, |(lower, _)| lower.clone());
+        let share = (end - &proved).checked_div(end)?;
+        share.sign().is_gt().then(|| lowered(end, &(&share * &Rational::new(2.into(), 3.into()))))
     }
 
     /// An attempt was ended by the budget.
@@ -108,10 +139,10 @@ impl<'b, 'a, F: Family> Bracketing<'b, 'a, F> {
         Ok(false)
     }
 
-    /// The box of a factor is stable; whether there is more to try.
-    pub fn proved(&mut self, factor: Rational, proof: BoxProof) -> bool {
+    /// The box of a factor is stable.
+    pub fn proved(&mut self, factor: Rational, proof: BoxProof) {
         self.proved = Some((factor, proof));
-        std::mem::replace(&mut self.is_rough, false)
+        self.is_rough = false;
     }
 
     /// A box was refuted by a point; whether there is more to try.
@@ -122,6 +153,7 @@ impl<'b, 'a, F: Family> Bracketing<'b, 'a, F> {
             return Ok(false);
         }
         self.budget.step("looking for the worst point");
+        let before = self.search.best.as_ref().map(|best| best.hi.clone());
         let nearer = self.budget.enter(|| self.search.run_from(point));
         self.budget.step("proving the largest box");
         let is_bounded = nearer.is_err() || self.of.reaches(&mut self.search, point);
@@ -136,6 +168,9 @@ impl<'b, 'a, F: Family> Bracketing<'b, 'a, F> {
                 Ok(false)
             }
             Ok(_) => {
+                let kept = Rational::ONE - Rational::new(CRAWL.0.into(), CRAWL.1.into());
+                let now = self.search.best.as_ref().map(|best| &best.hi);
+                self.crawls += u32::from(before.zip(now).is_some_and(|(before, now)| *now > &before * &kept));
                 self.begin_again();
                 Ok(true)
             }
@@ -144,8 +179,24 @@ impl<'b, 'a, F: Family> Bracketing<'b, 'a, F> {
 
     /// A new end, a new attempt at the full precision.
     fn begin_again(&mut self) {
-        (self.coarser, self.retreats, self.open) = (Rational::ONE, 0, None);
+        (self.coarser, self.retreats) = (Rational::ONE, 0);
+        self.earlier = self.open.take().or(self.earlier.take());
         self.is_rough = self.proved.is_none();
+    }
+
+    /// Whether refutations alone do not bring the ends together.
+    fn crawls(&self) -> bool {
+        self.crawls >= CRAWLS || self.refutations >= MANY
+    }
+
+    /// What the bracket is at the end, with why it is not narrower if it is wider than was asked for.
+    pub fn into_parts(mut self) -> (Search<'b, F>, Option<(Rational, BoxProof)>, Option<Open>) {
+        self.beneath = None;
+        self.coarser = Rational::from(2);
+        let nearest = self.below_end(&Rational::ZERO);
+        let is_narrow = self.proved.as_ref().is_some_and(|(lower, _)| nearest <= *lower);
+        let open = self.open.or(self.earlier).filter(|_| !is_narrow);
+        (self.search, self.proved, open)
     }
 
     /// A box was not decided; whether there is more to try.
@@ -163,6 +214,9 @@ impl<'b, 'a, F: Family> Bracketing<'b, 'a, F> {
             self.withdrawals += 1;
             self.beneath = Some(nearest);
             return true;
+        }
+        if self.crawls() {
+            self.beneath = Some(factor.clone());
         }
         self.retreats += 1;
         self.coarser = &self.coarser * &Rational::from(16);

@@ -6,8 +6,8 @@
 //! determinants `det(P_v, P_(p_i))`, times the corner's signs, have one sign on `C` (zero is allowed), and one of them, of a
 //! parameter whose corner moves with the factor, a strict one. Then the Jacobian by `(v, rho)`, their weighted sum, has no zero
 //! on `C`, and by the implicit function theorem zeros go along as a `tau_i` shrinks, with `rho` not growing; they stay in `C`. So a
-//! zero of least `rho` can be taken on the line, and its factor is `r*`. Of a real root the same follows from the signs of the
-//! derivatives alone: towards the corner the polynomial falls.
+//! zero of least `rho` can be taken on the line, and its factor is `r*`. Of a real root, and of what signs tell, see
+//! [`super::exact_signs`].
 //!
 //! One parameter may be inside of its side: it stays where it is along these paths, and at the zero of least `rho` its
 //! determinant vanishes too, which [`super::tangent`] turns into a polynomial in the factor.
@@ -18,7 +18,7 @@ use super::factor::ToleranceProblem;
 use super::family::Path;
 use super::largest::LargestFactor;
 use super::polynomial::Bundle;
-use super::prove::{Outcome, closed_by_constant, closed_by_sign, closed_by_vector, keeps_sign};
+use super::prove::{closed_by_constant, closed_by_vector, keeps_sign};
 use super::search::ray;
 use super::sides::{Side, at_factor};
 use super::tangent::touching;
@@ -31,7 +31,7 @@ use jurist_algebra::poly::RealAlgebraic;
 use jurist_algebra::real::Real;
 
 /// Halvings of the parameters' sides at the corner, tried one after the other.
-const DEPTHS: [u32; 7] = [2, 4, 6, 9, 13, 18, 24];
+pub(super) const DEPTHS: [u32; 7] = [2, 4, 6, 9, 13, 18, 24];
 
 /// How much beyond the end the box is taken: this share of it.
 const BEYOND: u64 = 52;
@@ -48,9 +48,24 @@ pub struct ExactProof {
     pub value: Real,
     /// Where each parameter is at the worst point.
     pub place: Vec<Place>,
-    /// All zeros of the pair, or of the polynomial of a real root, are in this cell of the box, which [`Tree`] marks `c`.
+    /// Of the pair, or of each polynomial in the parameters that vanishes then: where all of its zeros are.
+    pub covers: Vec<Cover>,
+}
+
+impl ExactProof {
+    /// The number of cells.
+    pub fn cells(&self) -> usize {
+        self.covers.iter().map(|cover| cover.tree.leaves()).sum()
+    }
+}
+
+/// Where the zeros of the pair, or of a polynomial in the parameters, are in a box.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Cover {
+    /// All of them are in this cell, which [`Tree`] marks `c`.
     pub cell: CriticalCell,
-    /// Cells of frequency and parameters (of parameters alone for a real root) without a zero, but for those in the critical one.
+    /// Cells of frequency and parameters (of parameters alone for a polynomial in these) without a zero, but for those in the critical one.
     pub tree: Tree,
 }
 
@@ -82,7 +97,7 @@ impl ToleranceProblem<'_> {
     ) -> Result<Option<ExactProof>, Exhausted> {
         budget.step("proving the exact factor");
         let from = factor.lower.clone();
-        let (Some(direction), Some(shares)) = (&factor.direction, &factor.shares) else { return Ok(None) };
+        let Some(direction) = &factor.direction else { return Ok(None) };
         let narrow = end.value.refined_to_digits(30);
         let top = narrow.enclosure().1;
         let to = &top + &(&top * &Rational::dyadic(&Integer::ONE, BEYOND));
@@ -91,28 +106,57 @@ impl ToleranceProblem<'_> {
             return Ok(None);
         }
         let causes: Vec<Cause> = end.causes.iter().collect();
-        let &[cause] = causes.as_slice() else { return Ok(None) };
-        let worst = WorstLine { direction, interval: [&from, &to], cause, end, zeros };
+        let worst = WorstLine { direction, interval: [&from, &to], end, zeros };
+        let by_signs = || self.by_signs(|told| told.exact_by_signs(&worst, budget), budget).map(Option::flatten);
+        // A parameter that does not matter may be anywhere; that one that does is inside of its side takes an elimination to prove.
+        let is_inside = worst.places().contains(&Place::Inside);
+        if is_inside && let Some(found) = by_signs()? {
+            return Ok(Some(found));
+        }
+        let found = budget.enter(|| match causes.as_slice() {
+            [Cause::ComplexPair] => self.exact_pair_along(&worst, factor, budget),
+            [_] => self.exact_real(&worst, budget),
+            _ => Ok(None),
+        })??;
+        // Several things may happen at one corner, and one of them more than once.
+        if found.is_some() || is_inside { Ok(found) } else { by_signs() }
+    }
+
+    fn exact_pair_along(
+        &self,
+        worst: &WorstLine<'_>,
+        factor: &LargestFactor,
+        budget: &Budget,
+    ) -> Result<Option<ExactProof>, Exhausted> {
+        let direction = worst.direction;
+        let Some(shares) = &factor.shares else { return Ok(None) };
         // A parameter that stays at its nominal value may be one on which the zero does not depend: any side will do then.
         let mut tried = None;
         for idle in [Place::High, Place::Inside] {
             let Some(place) = self.places(direction, idle).filter(|place| tried.as_ref() != Some(place)) else {
                 continue;
             };
-            let Some(value) = self.candidate(&place, &worst, budget)? else { continue };
-            let sides = at_factor(&self.sides, &to);
+            let Some(value) = self.candidate(&place, worst, budget)? else { continue };
             let idle = direction.iter().map(Rational::is_zero).collect();
-            let known = Known { from: from.clone(), to: to.clone(), value, place: place.clone(), idle };
-            let found = budget.enter(|| match cause {
-                Cause::ComplexPair => self.exact_pair(known, &sides, shares, factor, budget),
-                _ => self.exact_real(known, &sides, cause, budget),
-            })??;
+            let known = Known { worst, value, place: place.clone(), idle };
+            let found = self.exact_pair(known, shares, factor, budget)?;
             if found.is_some() {
                 return Ok(found);
             }
             tried = Some(place);
         }
         Ok(None)
+    }
+
+    /// A real root that reaches the boundary, while no pair does.
+    fn exact_real(&self, worst: &WorstLine<'_>, budget: &Budget) -> Result<Option<ExactProof>, Exhausted> {
+        let sides = at_factor(&self.sides, worst.interval[1]);
+        let mut nowhere = vec![[Rational::ZERO, Rational::ONE]; sides.len()];
+        nowhere.push([Rational::from(2), Rational::from(3)]);
+        if self.cover(&sides, &CriticalCell { parts: nowhere }, false, budget)?.is_none() {
+            return Ok(None);
+        }
+        self.exact_by_signs(worst, budget)
     }
 
     /// The only factor in an interval at which a zero can come first, by where the parameters are then.
@@ -122,9 +166,6 @@ impl ToleranceProblem<'_> {
             let between = |z: &&RealAlgebraic| z.compare_rational(from).is_gt() && z.compare_rational(to).is_le();
             return Ok((worst.zeros.iter().filter(between).count() == 1).then(|| worst.end.value.clone()));
         };
-        if worst.cause != Cause::ComplexPair {
-            return Ok(None);
-        }
         let line = ray(&self.sides, worst.direction);
         Ok(touching(&self.p.pair(), &line, inside, worst.interval, budget)?.map(Real::from))
     }
@@ -152,15 +193,15 @@ impl ToleranceProblem<'_> {
 
     /// The part of a side around where a parameter is, of so many halvings; `None` where a parameter that is inside comes
     /// too near to the ends.
-    fn part(&self, known: &Known, i: usize, at: &Rational, halvings: u32) -> Option<[Rational; 2]> {
+    fn part(&self, known: &Known<'_>, i: usize, at: &Rational, halvings: u32) -> Option<[Rational; 2]> {
         let halvings = if known.idle[i] && known.place[i] != Place::Inside { 0 } else { halvings };
         let part = Rational::dyadic(&Integer::ONE, u64::from(halvings));
         match known.place[i] {
             Place::Low => Some([Rational::ZERO, part]),
             Place::High => Some([&Rational::ONE - &part, Rational::ONE]),
             Place::Inside => {
-                let [low, high] = self.sides[i].at(&known.to);
-                let [least, most] = self.sides[i].at(&known.from);
+                let [low, high] = self.sides[i].at(known.worst.interval[1]);
+                let [least, most] = self.sides[i].at(known.worst.interval[0]);
                 let width = &high - &low;
                 let share = (at - &low).checked_div(&width)?;
                 let part = around(&share, u64::from(halvings));
@@ -172,12 +213,12 @@ impl ToleranceProblem<'_> {
 
     fn exact_pair(
         &self,
-        known: Known,
-        sides: &[[Rational; 2]],
+        known: Known<'_>,
         shares: &[Rational],
         factor: &LargestFactor,
         budget: &Budget,
     ) -> Result<Option<ExactProof>, Exhausted> {
+        let sides = &at_factor(&self.sides, known.worst.interval[1]);
         for ((_, f), &sign) in self.p.certain.iter().zip(&self.reference) {
             if keeps_sign(&Bundle::new(&[f], sides.len()), sides, sign, CELLS, budget)?.is_err() {
                 return Ok(None);
@@ -212,7 +253,7 @@ impl ToleranceProblem<'_> {
 
     /// Whether on the cell all determinants of the pair's derivatives by frequency and by a parameter, times the corner's
     /// signs, have the same strict sign.
-    fn turns_one_way(&self, known: &Known, sides: &[[Rational; 2]], cell: &CriticalCell, v0: &Rational) -> bool {
+    fn turns_one_way(&self, known: &Known<'_>, sides: &[[Rational; 2]], cell: &CriticalCell, v0: &Rational) -> bool {
         let mut inner: Vec<[Rational; 2]> = cell.sides(sides);
         let value = |t: &Rational| (v0 * t).checked_div(&(&Rational::ONE - t)).expect("below 1");
         inner.push(cell.parts[sides.len()].each_ref().map(value));
@@ -275,79 +316,47 @@ impl ToleranceProblem<'_> {
         // Zeros bend away from a point inside of a side only.
         if bends { cover(tensor, critical, &closed_by_vector, budget) } else { Ok(None) }
     }
-
-    /// A real root that reaches the boundary: everything else keeps away from it, and near the corner, outside of which it keeps
-    /// its sign, the polynomial that vanishes falls towards the corner in every parameter.
-    fn exact_real(
-        &self,
-        known: Known,
-        sides: &[[Rational; 2]],
-        cause: Cause,
-        budget: &Budget,
-    ) -> Result<Option<ExactProof>, Exhausted> {
-        let mut falling = None;
-        for ((own, f), &sign) in self.p.certain.iter().zip(&self.reference) {
-            match keeps_sign(&Bundle::new(&[f], sides.len()), sides, sign, CELLS, budget)? {
-                Ok(_) => {}
-                Err(Outcome::Refuted(_)) if *own == cause && falling.is_none() => falling = Some((f, sign)),
-                Err(_) => return Ok(None),
-            }
-        }
-        let Some((f, sign)) = falling else { return Ok(None) };
-        let mut parts = vec![[Rational::ZERO, Rational::ONE]; sides.len()];
-        parts.push([Rational::from(2), Rational::from(3)]);
-        if self.cover(sides, &CriticalCell { parts }, false, budget)?.is_none() {
-            return Ok(None);
-        }
-        let bundle = Bundle::new(&[f], sides.len());
-        let closed = closed_by_sign(sign);
-        for depth in DEPTHS {
-            let parts: Option<Vec<[Rational; 2]>> =
-                (0..sides.len()).map(|i| self.part(&known, i, &Rational::ZERO, depth)).collect();
-            let Some(mut parts) = parts else { return Ok(None) };
-            parts.push([Rational::ZERO, Rational::ONE]);
-            let cell = CriticalCell { parts };
-            let inner = cell.sides(sides);
-            let falls = |(i, place): (usize, &Place)| {
-                let slope = f.derivative(i);
-                let rising = if *place == Place::High { sign } else { sign.reverse() };
-                expand(&Bundle::new(&[&slope], sides.len()), &inner).iter().all(|v| v.sign() != rising)
-            };
-            if !known.place.iter().enumerate().all(falls) {
-                continue;
-            }
-            if let Some(tree) = cover(Tensor::of_one(&bundle, sides), &cell, &closed, budget)? {
-                return Ok(Some(known.proved(cell, tree)));
-            }
-        }
-        Ok(None)
-    }
 }
 
 /// The line on which stability is lost first.
-struct WorstLine<'w> {
+pub(super) struct WorstLine<'w> {
     direction: &'w [Rational],
     /// The end is between these factors, and up to the second one nothing worse is to come.
-    interval: [&'w Rational; 2],
-    cause: Cause,
-    end: &'w End,
+    pub interval: [&'w Rational; 2],
+    pub end: &'w End,
     /// The critical factors of the line.
     zeros: &'w [RealAlgebraic],
 }
 
+impl WorstLine<'_> {
+    /// Where each parameter is at its end.
+    pub fn places(&self) -> Vec<Place> {
+        let place = |c: &Rational| match c.abs() == Rational::ONE {
+            true if c.is_negative() => Place::Low,
+            true => Place::High,
+            false => Place::Inside,
+        };
+        self.direction.iter().map(place).collect()
+    }
+
+    /// The proof that a factor is the largest.
+    pub fn proved(&self, value: Real, place: Vec<Place>, covers: Vec<Cover>) -> ExactProof {
+        let [from, to] = self.interval.map(Rational::clone);
+        ExactProof { from, to, value, place, covers }
+    }
+}
+
 /// What the exact proof begins with.
-struct Known {
-    from: Rational,
-    to: Rational,
+struct Known<'w> {
+    worst: &'w WorstLine<'w>,
     value: Real,
     place: Vec<Place>,
     /// Which parameters are at their nominal value, and may have no influence: the critical cell has all of their sides.
     idle: Vec<bool>,
 }
 
-impl Known {
+impl Known<'_> {
     fn proved(self, cell: CriticalCell, tree: Tree) -> ExactProof {
-        let Known { from, to, value, place, .. } = self;
-        ExactProof { from, to, value, place, cell, tree }
+        self.worst.proved(self.value, self.place, vec![Cover { cell, tree }])
     }
 }

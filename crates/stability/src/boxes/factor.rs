@@ -1,6 +1,6 @@
 //! The largest factor by which all tolerances can be scaled, between a proof and a point.
 
-use super::bracketing::{Bracketing, Open};
+use super::bracketing::{Bracketing, Gap, Open};
 use super::family::{Family, Path};
 use super::largest::{LargestFactor, Witness};
 use super::polynomial::BoxPolynomial;
@@ -14,6 +14,12 @@ use jurist_algebra::number::{Integer, Rational, Sign};
 
 /// A proof that needs more cells than this is first tried at a smaller factor.
 const CELLS: usize = 4000;
+
+/// The same where signs may tell.
+const FEW_CELLS: usize = 400;
+
+/// The same of signs alone, whose cells are small.
+const CELLS_OF_SIGNS: usize = 1 << 14;
 
 /// A box that needs more cells than this is not decided.
 const MOST_CELLS: usize = 1 << 18;
@@ -132,11 +138,53 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
     /// [`Exhausted`] when the budget runs out.
     pub fn decide(&self, factor: &Rational, budget: &Budget) -> Result<BoxDecision, Exhausted> {
         budget.step("proving the box");
-        match self.attempt(factor, MOST_CELLS, budget)? {
-            Outcome::Stable(proof) => Ok(BoxDecision::Stable(proof)),
-            Outcome::Refuted(point) => Ok(BoxDecision::NotStable { witness: self.witness_near(&point) }),
-            Outcome::Open { why, cell } => Ok(BoxDecision::Undecided { why, cell }),
+        let by_cells = |cells: usize| Ok(self.decided(self.attempt(factor, cells, budget)?));
+        if !self.p.may_be_told_by_signs() {
+            return by_cells(MOST_CELLS);
         }
+        let is_open = |found: &BoxDecision| matches!(found, BoxDecision::Undecided { .. });
+        let found = by_cells(CELLS)?;
+        if !is_open(&found) {
+            return Ok(found);
+        }
+        let by_signs =
+            |told: &ToleranceProblem<'_, F>| Ok(told.decided(told.attempt(factor, CELLS_OF_SIGNS, budget)?));
+        match self.by_signs(by_signs, budget)?.filter(|found| !is_open(found)) {
+            Some(found) => Ok(found),
+            None => by_cells(MOST_CELLS),
+        }
+    }
+
+    /// The proof of the box of a factor by trees of cells; `None` where it is not stable, or that takes too many.
+    ///
+    /// Cost: that of [`ToleranceProblem::decide`].
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub fn proof_in_trees(&self, factor: &Rational, budget: &Budget) -> Result<Option<BoxProof>, Exhausted> {
+        budget.step("proving the box");
+        Ok(match self.attempt(factor, CELLS, budget)? {
+            Outcome::Stable(proof) => Some(proof),
+            _ => None,
+        })
+    }
+
+    fn decided(&self, outcome: Outcome) -> BoxDecision {
+        match outcome {
+            Outcome::Stable(proof) => BoxDecision::Stable(proof),
+            Outcome::Refuted(point) => BoxDecision::NotStable { witness: self.witness_near(&point) },
+            Outcome::Open { why, cell } => BoxDecision::Undecided { why, cell },
+        }
+    }
+
+    /// What is found of the same loop told by signs, where that is short.
+    pub(super) fn by_signs<T>(
+        &self,
+        ask: impl FnOnce(&ToleranceProblem<'_, F>) -> Result<T, Exhausted>,
+        budget: &Budget,
+    ) -> Result<Option<T>, Exhausted> {
+        let Some(p) = self.p.told_by_signs(budget)? else { return Ok(None) };
+        ToleranceProblem::new(&p, self.sides.clone()).map(|told| ask(&told)).transpose()
     }
 
     /// A point that is not stable: this one, or one on the way to it.
@@ -145,7 +193,7 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
             let search = self.search();
             let direction = search.towards(point)?;
             let line = search.line(&direction);
-            let (lo, hi) = line.crossing(Some(&self.factor_of(point)), 40)?;
+            let (lo, hi) = line.crossing(Some(&self.search().factor_of(point)), 40)?;
             return self.witness(line.witness(&lo, &hi)?);
         }
         self.witness(point.to_vec())
@@ -200,12 +248,41 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
         most: Option<&Rational>,
         budget: &Budget,
     ) -> Result<LargestFactor, Exhausted> {
+        self.bracket_from((search, CELLS), known.map(|proof| (Rational::ONE, proof)), (gap, most), budget)
+    }
+
+    fn bracket_from(
+        &self,
+        (search, cells): (Search<F>, usize),
+        proved: Option<(Rational, BoxProof)>,
+        (gap, most): (Gap<'_>, Option<&Rational>),
+        budget: &Budget,
+    ) -> Result<LargestFactor, Exhausted> {
         budget.step("proving the largest box");
-        let mut bracketing = Bracketing::new(self, search, known, (gap, most), budget);
+        let mut bracketing = Bracketing::new(self, search, proved, (gap, most), budget);
+        let mut may_be_told = self.p.may_be_told_by_signs();
         while let Some(target) = bracketing.target() {
-            let goes_on = match self.attempt(&target, CELLS, budget) {
+            let outcome = self.attempt(&target, if may_be_told { FEW_CELLS } else { cells }, budget);
+            let is_proved_or_ended = matches!(outcome, Ok(Outcome::Stable(_)) | Err(_));
+            if !is_proved_or_ended && std::mem::take(&mut may_be_told) {
+                let best = bracketing.search.best.clone();
+                let closer =
+                    |told: &ToleranceProblem<'_, F>| told.closer(best, bracketing.proved.clone(), (gap, most), budget);
+                match self.by_signs(closer, budget) {
+                    Ok(Some(found)) => return Ok(found),
+                    Ok(None) => budget.step("proving the largest box"),
+                    Err(exhausted) => {
+                        bracketing.exhausted(exhausted)?;
+                        break;
+                    }
+                }
+            }
+            let goes_on = match outcome {
                 Err(exhausted) => bracketing.exhausted(exhausted)?,
-                Ok(Outcome::Stable(proof)) => bracketing.proved(target, proof),
+                Ok(Outcome::Stable(proof)) => {
+                    bracketing.proved(target, proof);
+                    true
+                }
                 Ok(Outcome::Refuted(point)) => bracketing.refuted(&point)?,
                 Ok(Outcome::Open { why, cell }) => bracketing.left_open(&target, why, cell),
             };
@@ -213,8 +290,27 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
                 break;
             }
         }
-        let Bracketing { search, proved, open, .. } = bracketing;
+        let (search, proved, open) = bracketing.into_parts();
         Ok(self.bracketed(search, proved, open))
+    }
+
+    /// The bracket from a crossing and a proof that are known.
+    fn closer(
+        &self,
+        crossing: Option<Crossing>,
+        proved: Option<(Rational, BoxProof)>,
+        (gap, most): (Gap<'_>, Option<&Rational>),
+        budget: &Budget,
+    ) -> Result<LargestFactor, Exhausted> {
+        let mut search = self.searched(budget)?;
+        if let Some(crossing) = crossing {
+            let point = search.line(&crossing.direction).point(&crossing.hi);
+            budget.enter(|| search.run_from(&point))?;
+            if search.best.as_ref().is_none_or(|best| crossing.hi < best.hi) {
+                search.best = Some(crossing);
+            }
+        }
+        self.bracket_from((search, CELLS_OF_SIGNS), proved, (gap, most), budget)
     }
 
     /// A factor a little larger than that of the worst point, and the point of the same line there.
@@ -229,7 +325,7 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
     pub(super) fn reaches(&self, search: &mut Search<F>, point: &[Rational]) -> bool {
         let Some(direction) = search.towards(point) else { return false };
         let line = search.line(&direction);
-        let factor = self.factor_of(point);
+        let factor = self.search().factor_of(point);
         let best = search.best.as_ref().map(|b| b.hi.clone());
         if best.is_some_and(|best| best <= factor) || line.is_good(&factor) {
             return false;
@@ -239,20 +335,11 @@ impl<'a, F: Family> ToleranceProblem<'a, F> {
         true
     }
 
-    /// The least factor whose box holds a point.
-    fn factor_of(&self, point: &[Rational]) -> Rational {
-        let shares = self.sides.iter().zip(point).filter(|(side, _)| side.grows()).map(|(side, x)| {
-            let offset = x - side.nominal();
-            offset.abs().checked_div(side.width(offset.sign())).unwrap_or(Rational::ZERO)
-        });
-        shares.max().unwrap_or(Rational::ZERO)
-    }
-
     /// The least factor whose box holds a point of a cell.
     pub(super) fn nearest_factor(&self, cell: &[[Rational; 2]]) -> Rational {
         let sides = self.sides.iter().zip(cell);
         let nearest = |(side, [low, high]): (&Side, &[Rational; 2])| side.nominal().max(low).min(high).clone();
-        self.factor_of(&sides.map(nearest).collect::<Vec<_>>())
+        self.search().factor_of(&sides.map(nearest).collect::<Vec<_>>())
     }
 
     fn bracketed(&self, search: Search<F>, proved: Option<(Rational, BoxProof)>, open: Option<Open>) -> LargestFactor {

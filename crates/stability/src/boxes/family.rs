@@ -62,6 +62,22 @@ pub trait Family {
         None
     }
 
+    /// Whether [`Family::told_by_signs`] tells of it.
+    fn may_be_told_by_signs(&self) -> bool {
+        false
+    }
+
+    /// The same loop told by signs of polynomials in the parameters alone, where that is short.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    fn told_by_signs(&self, _budget: &Budget) -> Result<Option<Self>, Exhausted>
+    where
+        Self: Sized,
+    {
+        Ok(None)
+    }
+
     /// Decides one box with at most so many cells; `known` are the signs and the scale at its nominal point.
     fn prove(
         &self,
@@ -140,9 +156,18 @@ pub trait Path {
         None
     }
 
+    /// The first stretch after a good place and up to another in which something vanishes, to so many bits; `None` where only places one by one are told.
+    fn first_zero(&self, _from: &Rational, _to: &Rational, _bits: u64) -> Option<Option<(Rational, Rational)>> {
+        None
+    }
+
     /// A stretch `(lo, hi)` in which stability is lost, of width at most `hi / 2^bits`: `lo` is good, `hi` is not; up to
     /// 40 by rounded numbers only. Looked for up to `limit`; `None` where nothing is found.
     fn crossing(&self, limit: Option<&Rational>, bits: u64) -> Option<(Rational, Rational)> {
+        let farthest = Rational::from(1i64 << FARTHEST);
+        if let Some(found) = self.first_zero(&Rational::ZERO, limit.unwrap_or(&farthest), bits) {
+            return found;
+        }
         let is_good = |t: &Rational| self.is_good_for(t, bits);
         let (mut lo, mut hi) = (Rational::ZERO, None);
         match limit {
@@ -172,6 +197,9 @@ pub trait Path {
 
     /// The stretch between a good and another place, narrowed.
     fn narrowed(&self, lo: Rational, hi: Rational, bits: u64) -> Option<(Rational, Rational)> {
+        if let Some(Some(found)) = self.first_zero(&lo, &hi, bits) {
+            return Some(found);
+        }
         let (near, far) = halved(lo.clone(), hi.clone(), bits.min(ROUGH_BITS), |t| self.seems_good(t));
         if bits <= ROUGH_BITS {
             return Some((near, far));
@@ -280,6 +308,14 @@ impl Family for BoxPolynomial {
 
     fn as_polynomial(&self) -> Option<&BoxPolynomial> {
         Some(self)
+    }
+
+    fn may_be_told_by_signs(&self) -> bool {
+        self.has_short_determinant()
+    }
+
+    fn told_by_signs(&self, budget: &Budget) -> Result<Option<Self>, Exhausted> {
+        self.by_determinant(budget)
     }
 
     fn prove(

@@ -4,10 +4,11 @@ use super::family::{Gradient, Path};
 use super::polynomial::{BoxPolynomial, Bundle};
 use super::rough::{Rough, RoughPoly, is_roughly_hurwitz};
 use crate::is_hurwitz_routh;
-use jurist_algebra::limits::checkpoint;
+use jurist_algebra::limits::{Budget, checkpoint};
 use jurist_algebra::number::{Integer, Rational, Sign};
 use jurist_algebra::poly::real_roots::signed_remainder_sequence;
-use jurist_algebra::poly::{Domain, MultiPoly, Poly, UniPoly};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots};
+use std::cell::OnceCell;
 use std::cmp::Ordering;
 
 /// The polynomials on the line `base + t step`, as polynomials in `t` up to positive factors.
@@ -22,6 +23,8 @@ pub struct Line<'a> {
     reference: &'a [Sign],
     /// The same polynomials, rounded: coefficients and certain ones.
     rough: [Vec<RoughPoly>; 2],
+    /// The zeros of the certain polynomials, where these tell of stability.
+    zeros: OnceCell<Vec<RealAlgebraic>>,
 }
 
 impl<'a> Line<'a> {
@@ -30,7 +33,7 @@ impl<'a> Line<'a> {
         let one = |f| along(&Bundle::new(&[f], base.len()), &base, &step).remove(0);
         let certain: Vec<UniPoly> = p.certain.iter().map(|(_, f)| one(f)).collect();
         let rough = [&coefficients, &certain].map(|all| all.iter().map(RoughPoly::of).collect());
-        Line { p, base, step, coefficients, certain, reference, rough }
+        Line { p, base, step, coefficients, certain, reference, rough, zeros: OnceCell::new() }
     }
 
     fn coefficients_at(&self, t: &Rational) -> UniPoly {
@@ -50,6 +53,14 @@ impl<'a> Line<'a> {
             &sum * &scale[degree - top]
         };
         Poly::new(self.coefficients.iter().map(value).collect())
+    }
+
+    fn zeros(&self) -> &[RealAlgebraic] {
+        self.zeros.get_or_init(|| {
+            let square_free = self.certain.iter().filter_map(SquareFree::part_of);
+            // A budget that runs out is noticed by who asks for the line.
+            square_free.flat_map(|f| isolate_real_roots(&f, &Budget::unlimited()).unwrap_or_default()).collect()
+        })
     }
 
     /// The frequency, as `omega^2` in the half plane, of the pair that is nearest to crossing at `t`.
@@ -94,6 +105,21 @@ impl Path for Line<'_> {
         Gradient::new(by_parameter, &self.step)
     }
 
+    fn first_zero(&self, from: &Rational, to: &Rational, bits: u64) -> Option<Option<(Rational, Rational)>> {
+        if !self.p.by_signs {
+            return None;
+        }
+        let is_between =
+            |zero: &&RealAlgebraic| zero.compare_rational(from).is_gt() && zero.compare_rational(to).is_le();
+        let first = self.zeros().iter().filter(is_between).min_by(|a, b| a.compare(b));
+        Some(first.map(|zero| {
+            let width = &zero.refined_to_digits(1).enclosure().0 * &Rational::dyadic(&Integer::ONE, bits);
+            let (lo, hi) = zero.refined(&width).enclosure();
+            let lo = if lo == hi { &lo - &width } else { lo };
+            (lo.max(from.clone()), hi.min(to.clone()))
+        }))
+    }
+
     fn rational_zero(&self, lo: &Rational, hi: &Rational) -> Option<Rational> {
         self.certain.iter().filter_map(|f| rational_zero(f, lo, hi)).min()
     }
@@ -101,9 +127,8 @@ impl Path for Line<'_> {
 
 /// The zero of a linear polynomial, or of another that has a rational one, in `(lo, hi]`.
 pub(super) fn rational_zero(f: &UniPoly, lo: &Rational, hi: &Rational) -> Option<Rational> {
-    let square_free = jurist_algebra::poly::SquareFree::part_of(f).filter(|f| f.degree() > 0)?;
-    let budget = jurist_algebra::limits::Budget::unlimited();
-    let (zeros, _) = jurist_algebra::poly::real_roots::rational_roots(&square_free, &budget).ok()?;
+    let square_free = SquareFree::part_of(f).filter(|f| f.degree() > 0)?;
+    let (zeros, _) = jurist_algebra::poly::real_roots::rational_roots(&square_free, &Budget::unlimited()).ok()?;
     zeros.into_iter().filter(|z| lo < z && z <= hi).min()
 }
 

@@ -7,6 +7,7 @@
 //! [Farouki2012](jurist_algebra::bibliography#farouki2012)).
 
 mod bracketing;
+mod by_signs;
 mod critical;
 mod delayed;
 mod delayed_look;
@@ -14,6 +15,7 @@ mod delayed_prove;
 mod delayed_rounded;
 mod determinants;
 mod exact;
+mod exact_signs;
 mod factor;
 mod families;
 mod family;
@@ -43,7 +45,7 @@ mod window;
 
 pub use critical::CriticalCell;
 pub use delayed::DelayedFunction;
-pub use exact::{ExactProof, Place};
+pub use exact::{Cover, ExactProof, Place};
 pub use factor::{BoxDecision, ToleranceProblem};
 pub use family::{Family, Gradient, Path};
 pub use intervals::open_parts;

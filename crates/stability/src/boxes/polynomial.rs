@@ -137,6 +137,8 @@ pub struct BoxPolynomial {
     shape: Shape,
     /// What to exclude instead of the pair of the polynomial itself.
     pub(super) instead: Option<Excluded>,
+    /// Where none of the certain polynomials vanishes, no pair is on the axis.
+    pub(super) by_signs: bool,
 }
 
 impl BoxPolynomial {
@@ -182,7 +184,18 @@ impl BoxPolynomial {
         certain.push((at_infinity, without_squares(&in_half_plane[n])));
         let coefficients = Bundle::new(&in_half_plane.iter().collect::<Vec<_>>(), parameters);
         let (formal_degree, divisors) = (n, count);
-        BoxPolynomial { original, certain, coefficients, divisors, parameters, formal_degree, shape, instead: None }
+        let instead = None;
+        BoxPolynomial {
+            original,
+            certain,
+            coefficients,
+            divisors,
+            parameters,
+            formal_degree,
+            shape,
+            instead,
+            by_signs: false,
+        }
     }
 
     /// What a proof excludes.

@@ -1,8 +1,9 @@
 //! The proof that a whole box is stable.
 
-use super::look::BoxLook;
+use super::line::{along, rational_zero};
+use super::look::{BoxLook, MOST_CORNERS};
 use super::multiplier::{Sought, affine_multiplier};
-use super::parts::middle;
+use super::parts::{corners, middle};
 use super::polynomial::{BoxPolynomial, Bundle, Excluded};
 use super::reason::OpenReason;
 use super::separate::separating_vector_within;
@@ -31,6 +32,9 @@ const GREATEST_ERROR: i128 = 1 << 60;
 /// Parts of each side in which a cell that stays open is tested.
 const PARTS: i64 = 8;
 
+/// Points at which a polynomial is stationary are looked for among so many parameters at most.
+const MOST_STATIONARY: usize = 6;
+
 /// A cell is not halved more often than this: the error of the coefficients would swallow them.
 const MOST_HALVINGS: u32 = 160;
 
@@ -47,13 +51,12 @@ pub struct BoxProof {
     pub weight: i64,
     /// Cells of frequency and parameters without a zero of the pair.
     pub pair: Tree,
-    /// Cells that are not in the tree: of loops with functions of parameters, and with dead time.
+    /// Cells that are not in the tree: of loops with functions of parameters, with dead time, and of what is told by signs.
     pub beside: usize,
 }
 
 impl BoxProof {
-    /// The proof by so many cells that are in no tree.
-    /// A proof by cells that are not kept.
+    /// A proof by so many cells that are not kept.
     pub fn of_cells(scale: i64, beside: usize) -> BoxProof {
         BoxProof { certain: Vec::new(), scale, weight: 0, pair: Tree::default(), beside }
     }
@@ -61,6 +64,11 @@ impl BoxProof {
     /// The proof of a box of one name by the stable set of its line: the box is in one cell.
     pub fn of_line() -> BoxProof {
         BoxProof::of_cells(0, 1)
+    }
+
+    /// Whether all cells are in the trees.
+    pub fn is_in_trees(&self) -> bool {
+        self.beside == 0
     }
 
     /// The number of cells of frequency and parameters.
@@ -136,10 +144,10 @@ pub(super) fn simplest_point(sides: &[[Rational; 2]]) -> Vec<Rational> {
     sides.iter().map(simplest).collect()
 }
 
-/// A point of a box that is not stable, among the simplest ones of it and of its parts along each side.
+/// A point of a box that is not stable, among the simplest ones of it and of its parts along each side, and its corners.
 fn not_stable_in(p: &BoxPolynomial, sides: &[[Rational; 2]]) -> Option<Vec<Rational>> {
     let unstable = |sides: &[[Rational; 2]]| Some(simplest_point(sides)).filter(|point| !p.is_stable_at(point));
-    unstable(sides).or_else(|| {
+    let in_parts = || {
         (0..sides.len()).filter(|&i| sides[i][0] < sides[i][1]).find_map(|i| {
             let [low, high] = &sides[i];
             let at = |k: i64| low + &(&(high - low) * &Rational::new(k.into(), PARTS.into()));
@@ -149,7 +157,9 @@ fn not_stable_in(p: &BoxPolynomial, sides: &[[Rational; 2]]) -> Option<Vec<Ratio
                 unstable(&part)
             })
         })
-    })
+    };
+    let at_corner = || corners(sides).take(MOST_CORNERS).find(|corner| !p.is_stable_at(corner));
+    unstable(sides).or_else(in_parts).or_else(at_corner)
 }
 
 /// The simplest point of a box in or beside a cell, if it is not stable: a point that is touched keeps the proof of the cells around it open, too.
@@ -182,12 +192,12 @@ pub(super) fn prove(
     (closed, most_cells): (Closing, usize),
     budget: &Budget,
 ) -> Result<Outcome, Exhausted> {
-    let mut certain = Vec::new();
-    for ((_, f), &sign) in p.certain.iter().zip(reference) {
-        match keeps_sign(&Bundle::new(&[f], sides.len()), sides, sign, most_cells, budget)? {
-            Ok(tree) => certain.push(tree),
-            Err(outcome) => return Ok(outcome),
-        }
+    let certain = match certain_trees(p, sides, reference, most_cells, budget)? {
+        Ok(certain) => certain,
+        Err(outcome) => return Ok(outcome),
+    };
+    if p.by_signs {
+        return Ok(Outcome::Stable(BoxProof::of_cells(scale, certain.iter().map(Tree::leaves).sum())));
     }
     let Excluded { pair, power, mirrored } = p.excluded();
     let whole = if mirrored { with_both_signs(sides) } else { sides.to_vec() };
@@ -233,6 +243,24 @@ pub(super) fn prove(
         }
         Err(outcome) => outcome,
     })
+}
+
+/// The trees that prove that the certain polynomials keep these signs in a box.
+fn certain_trees(
+    p: &BoxPolynomial,
+    sides: &[[Rational; 2]],
+    reference: &[Sign],
+    most_cells: usize,
+    budget: &Budget,
+) -> Result<Result<Vec<Tree>, Outcome>, Exhausted> {
+    let mut trees = Vec::new();
+    for ((_, f), &sign) in p.certain.iter().zip(reference) {
+        match keeps_sign(&Bundle::new(&[f], sides.len()), sides, sign, most_cells, budget)? {
+            Ok(tree) => trees.push(tree),
+            Err(outcome) => return Ok(Err(outcome)),
+        }
+    }
+    Ok(Ok(trees))
 }
 
 /// Frequencies of one box are halved into so many parts at most, where it is looked at alone.
@@ -311,6 +339,30 @@ pub(super) fn closed_by_vector(cell: &Cell, nodes: usize) -> Result<Node, Option
     }
 }
 
+/// Points of a box, in or beside a cell, at which a polynomial is stationary along all parameters but one, as far as one after the other tells: where it is zero
+/// without a change of its sign, it is so.
+fn stationary_points<'p>(
+    f: &'p Bundle,
+    cell: &'p [[Rational; 2]],
+    sides: &'p [[Rational; 2]],
+) -> impl Iterator<Item = Vec<Rational>> + 'p {
+    let count = if cell.len() <= MOST_STATIONARY { cell.len() } else { 0 };
+    (0..count).map(move |kept| {
+        let mut point = simplest_point(cell);
+        for i in (kept + 1..kept + cell.len()).map(|i| i % cell.len()) {
+            let [low, high] = &cell[i];
+            let width = high - low;
+            let mut step = vec![Rational::ZERO; cell.len()];
+            step[i] = Rational::ONE;
+            point[i] = Rational::ZERO;
+            let slope = along(f, &point, &step).remove(0).derivative();
+            let place = rational_zero(&slope, &(low - &width), &(high + &width));
+            point[i] = place.filter(|x| sides[i][0] <= *x && *x <= sides[i][1]).unwrap_or_else(|| low.midpoint(high));
+        }
+        point
+    })
+}
+
 /// The tree that proves that a polynomial keeps its sign in a box, or why that is not so or not known.
 pub(super) fn keeps_sign(
     f: &Bundle,
@@ -340,10 +392,10 @@ pub(super) fn keeps_sign(
         if let Some(axis) = cell.tensor.best_axis().filter(|_| may_cut) {
             return Ok(Look::Cut(axis));
         }
-        let point = simplest_point(&inner);
-        Ok(Look::Open(match has_other_sign(&point) {
-            true => Outcome::Refuted(point),
-            false => Outcome::Open { why: OpenReason::Vanishing, cell: inner },
+        let simplest = Some(simplest_point(&inner)).filter(has_other_sign);
+        Ok(Look::Open(match simplest.or_else(|| stationary_points(f, &inner, sides).find(has_other_sign)) {
+            Some(point) => Outcome::Refuted(point),
+            None => Outcome::Open { why: OpenReason::Vanishing, cell: inner },
         }))
     };
     let steps = subdivide([Cell::whole(Tensor::of_one(f, sides))], Order::Depth, budget, look)?;

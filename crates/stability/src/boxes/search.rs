@@ -68,6 +68,15 @@ impl<'a, F: Family> Search<'a, F> {
         self.normalised(shares.collect())
     }
 
+    /// The least factor whose box holds a point.
+    pub(super) fn factor_of(&self, point: &[Rational]) -> Rational {
+        let shares = self.sides.iter().zip(point).filter(|(side, _)| side.grows()).map(|(side, x)| {
+            let offset = x - side.nominal();
+            offset.abs().checked_div(side.width(offset.sign())).unwrap_or(Rational::ZERO)
+        });
+        shares.max().unwrap_or(Rational::ZERO)
+    }
+
     /// The greatest share of a growing side is 1; where a side has no width on that side, its share is 0.
     fn normalised(&self, mut direction: Vec<Rational>) -> Option<Vec<Rational>> {
         for (c, side) in direction.iter_mut().zip(self.sides) {
@@ -119,7 +128,7 @@ impl<'a, F: Family> Search<'a, F> {
     /// Begins from directions of its own.
     pub(super) fn run(&mut self, scale: i64) {
         for start in self.starts(scale) {
-            self.improve(start);
+            self.improve(start, None);
         }
         self.refine();
     }
@@ -128,7 +137,7 @@ impl<'a, F: Family> Search<'a, F> {
     pub(super) fn run_from(&mut self, point: &[Rational]) -> bool {
         let before = self.best.as_ref().map(|b| b.lo.clone());
         if let Some(direction) = self.towards(point) {
-            self.improve(direction);
+            self.improve(direction, Some(self.factor_of(point)));
         }
         self.refine();
         match (&self.best, before) {
@@ -144,10 +153,12 @@ impl<'a, F: Family> Search<'a, F> {
         Some((Crossing { direction: direction.to_vec(), lo, hi }, line))
     }
 
-    /// Turns each coordinate to the side that brings the crossing nearer, until none helps.
-    fn improve(&mut self, start: Vec<Rational>) {
-        let limit = self.best.as_ref().map(|b| b.hi.clone());
-        let Some((mut current, mut line)) = self.nearer(&start, limit.as_ref()) else { return };
+    /// Turns each coordinate to the side that brings the crossing nearer, until none helps. On the line there may be a crossing before `near`.
+    fn improve(&mut self, start: Vec<Rational>, near: Option<Rational>) {
+        let best = self.best.as_ref().map(|b| b.hi.clone());
+        let near = near.filter(|near| !near.is_zero() && best.as_ref().is_none_or(|best| near < best));
+        let found = near.and_then(|near| self.nearer(&start, Some(&near)));
+        let Some((mut current, mut line)) = found.or_else(|| self.nearer(&start, best.as_ref())) else { return };
         for _ in 0..ROUNDS {
             let closer = || {
                 let (lo, hi) = line.crossing(Some(&(&current.hi + &current.hi)), FINE)?;
