@@ -91,8 +91,8 @@ pub(crate) static MARGINS_IN_ONE: Refusal = Refusal::new(
 );
 pub(crate) static DELAY_BESIDE: Refusal = Refusal::new(
     Code::Require,
-    "a delay margin of a continuous loop with functions that are not rational is decided at points only",
-    "write the values of exp, sqrt, sin, cos, tan and pi as numbers, or ask 'verdict' with a value for every parameter",
+    "a delay margin of a continuous loop is decided at points only where a free name is inside of a function that is not rational",
+    "give that name a value, or ask 'verdict' with a value for every parameter",
 );
 pub(crate) static DELAY_OF_NUMBERS: Refusal = Refusal::new(
     Code::Require,
