@@ -192,6 +192,8 @@ fn margins_and_peaks_are_those_of_numbers_beside_the_constants() {
             all.push(peak(model));
             all
         });
+        let factors = [&own, &known].map(|margins| ends(&margins.stable.as_ref().unwrap().gain.set));
+        assert_eq!(factors[0], factors[1], "{transfers:?} {gain}");
         for (a, b) in both[0].iter().zip(&both[1]) {
             match (a, b) {
                 (Some(a), Some(b)) => assert!(is_near(a, b), "{transfers:?} {gain} {a:?} {b:?}"),

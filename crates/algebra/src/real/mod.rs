@@ -124,7 +124,7 @@ impl Real {
         }
     }
 
-    /// The number with the other sign.
+    /// The number with the other sign; a transcendental one is refined as this one is.
     pub fn negated(&self) -> Real {
         match self {
             Real::Algebraic(x) => Real::Algebraic(x.negated()),
@@ -211,25 +211,6 @@ impl Real {
         to_decimal(&lo.midpoint(&hi), digits)
     }
 
-    /// The greatest integer that is not above this number.
-    ///
-    /// Cost: refinement until no integer is inside of the enclosure.
-    pub fn floor(&self) -> Integer {
-        match self {
-            Real::Algebraic(x) => x.floor(),
-            Real::Transcendental(x) => {
-                let (lo, hi) = x.refined(&Rational::ONE).enclosure();
-                // One integer at most is left to ask about.
-                let above = hi.floor();
-                if lo.floor() == above || x.compare_rational(&Rational::from(&above)).is_ge() {
-                    above
-                } else {
-                    above - Integer::ONE
-                }
-            }
-        }
-    }
-
     /// An integer below this number: the greatest one, unless the number is an integer that is known by enclosures alone.
     pub fn rational_below(&self) -> Rational {
         match self {
@@ -254,7 +235,7 @@ impl Real {
     }
 }
 
-/// Numbers that are nearer to an integer are as good as one where an integer beside them is asked for.
+/// An enclosure of this width is taken to find an integer beside a number: no narrower one needs to tell whether the number is an integer.
 fn narrow() -> Rational {
     Rational::dyadic(&Integer::ONE, 64)
 }
@@ -338,13 +319,33 @@ mod tests {
         }
     }
 
+    /// An integer of which no enclosure tells that it is one.
+    #[derive(Debug)]
+    struct Integral(i64);
+
+    impl Enclosing for Integral {
+        fn enclose(&self, bits: u64, _known: Option<&Enclosure>) -> Enclosure {
+            let (value, width) = (Rational::from(self.0), Rational::dyadic(&Integer::ONE, bits + 1));
+            Enclosure::new(&value - &width, &value + &width)
+        }
+
+        fn origin(&self) -> Origin {
+            Origin::Function { function: "an integer".to_owned(), details: Vec::new() }
+        }
+    }
+
+    #[test]
+    fn beside_an_integer_that_no_enclosure_shows_there_are_others() {
+        let x = Real::from(Transcendental::new(Integral(2)));
+        assert!(x.rational_below() < Rational::from(2) && x.rational_above() > Rational::from(2));
+    }
+
     #[test]
     fn a_rational_number_of_which_enclosures_are_known_is_compared() {
         let number = Rational::from(1_000_000_000_001_i64);
         let x = Real::from(Transcendental::new(Unknown(number.clone())));
         assert!(x.compare_rational(&number).is_eq() && x.compare_rational(&(&number - &Rational::ONE)).is_gt());
-        assert_eq!((Rational::from(x.floor()), x.rational_above()), (number.clone(), &number + &Rational::ONE));
-        assert_eq!(x.rational_below(), &number - &Rational::ONE);
+        assert_eq!([x.rational_below(), x.rational_above()], [&number - &Rational::ONE, &number + &Rational::ONE]);
         let below = Real::from(&number - &Rational::new(Integer::ONE, Integer::from(1 << 20)));
         let between = rational_between(&below, &x, &Budget::unlimited()).unwrap().unwrap();
         assert!(below.compare_rational(&between).is_lt() && between < number);
@@ -368,10 +369,10 @@ mod tests {
     }
 
     #[test]
-    fn logarithms_have_digits_signs_and_floors() {
+    fn logarithms_have_digits_signs_and_integers_beside_them() {
         assert_eq!(ln(2).decimal(30), "0.693147180559945309417232121458");
-        assert_eq!(ln(10).floor(), Integer::from(2));
-        assert_eq!(ln(10).rational_above(), Rational::from(3));
+        assert_eq!([ln(10).rational_below(), ln(10).rational_above()], [2, 3].map(Rational::from));
+        assert!(ln(2).negated().decimal(12) == "-0.693147180560" && ln(2).negated().negated().sign().is_gt());
         assert!(ln(2).sign().is_gt());
         assert!(ln(2).compare_rational(&parse_number("0.69314718055994530941723212146").unwrap()).is_lt());
         let (lo, hi) = ln(3).refined(&parse_number("1e-50").unwrap()).enclosure();

@@ -194,7 +194,7 @@ fn gains(
     }
 }
 
-/// The stable set of a factor of which these cells are known.
+/// The stable set of a factor of the open loop, from its cells.
 pub(crate) fn stable_factors(
     cells: Result<Result<GainCells, Never>, NotSolved>,
     family: &FamilyLoop,

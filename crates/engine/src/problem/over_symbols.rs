@@ -181,14 +181,16 @@ pub(crate) fn fixed_symbols(symbols: &model::Symbols) -> Result<Symbols, Error> 
     Ok(table)
 }
 
+/// The definition of a symbol that no polynomial contains: the table keeps its row, and the other symbols their numbers.
+const PLACEHOLDER: Definition = Definition::Pi;
+
 /// The table of symbols that do not depend on a kept name, beside others that are not asked for; `None` where one has no value.
 pub(crate) fn symbols_without(symbols: &model::Symbols, moving: &[usize]) -> Option<Symbols> {
     let mut table = Symbols::new();
     for (i, symbol) in (symbols.first()..).zip(symbols.iter()) {
         let is_fixed = |f: &&RationalFunction| f.variables().iter().all(|variable| *variable >= symbols.first());
         let place = |f: &RationalFunction| Some(f).filter(is_fixed)?.map_variables(|i| i - symbols.first());
-        // Something has to stand in the place of what is not asked for.
-        let own = if moving.contains(&i) { Definition::Pi } else { definition(symbol, place).ok()? };
+        let own = if moving.contains(&i) { PLACEHOLDER } else { definition(symbol, place).ok()? };
         table.push(&symbol.name, own);
     }
     Some(table)
@@ -201,13 +203,12 @@ pub(crate) fn moving_symbols(symbols: &model::Symbols) -> Result<MovingSymbols, 
 
 /// The table of symbols where several names are kept, on which they may depend.
 ///
-/// No function may be in those that stand for dead times.
+/// Symbols that stand for dead times have a placeholder: the polynomials that are asked may not contain them.
 pub(crate) fn parametric_symbols(symbols: &model::Symbols) -> Result<ParametricSymbols, Error> {
     let delays: Vec<usize> = symbols.delays().into_iter().map(|(variable, _)| variable).collect();
     let own = |(variable, symbol): (usize, &Symbol)| {
-        // Something has to stand in the place of what is not asked for.
         let definition = match delays.contains(&variable) {
-            true => Definition::Pi,
+            true => PLACEHOLDER,
             false => definition(symbol, |f| Some(f.clone()))?,
         };
         Ok((symbol.name.clone(), definition))

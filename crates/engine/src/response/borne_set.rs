@@ -128,7 +128,7 @@ impl<'a> BorneSet<'a> {
         values.extend(self.touches.iter().map(|value| (value.clone(), true)));
         values.extend(self.undefined.iter().map(|value| (value.clone(), false)));
         let candidates = match ascending(values, self.budget) {
-            // Beside constants that are not rational no digits tell that two values are equal.
+            // Two values that depend on constants may be equal, and no digits show that.
             Err(stopped) if stopped.stop.is_precision() => return self.in_boxes(interval, found),
             known => known?,
         };
@@ -274,7 +274,8 @@ fn touches<R: Domain>([d, n]: [&Poly<R>; 2], budget: &Budget) -> Result<Touches<
     Ok(Touches { above, limits, elsewhere: list })
 }
 
-/// Polynomials with the same zeros, of which no two have one in common: equal zeros are seen in symbols, not in digits.
+/// Pairwise coprime polynomials with the same zeros. A common zero of two polynomials shows in their greatest common divisor; no digits show that two numbers
+/// are equal.
 fn without_common_factors<R: Domain>(list: Vec<R>) -> Vec<R> {
     let mut out: Vec<R> = Vec::with_capacity(list.len());
     for mut f in list {

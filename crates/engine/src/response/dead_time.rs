@@ -58,29 +58,17 @@ impl<'a, G: Ground> DeadTime<'a, G> {
     /// An angular frequency beyond which the modulus of the open loop is below a hundredth, or where it does not fall as far, below a number between its limit
     /// and one.
     fn beyond(&self, budget: &Budget) -> Result<Rational, Error> {
-        let r = &self.parts.reduced;
-        let (above, below) = (&r.numerator_squared, &r.denominator_squared);
-        let ground = &self.parts.ground;
-        let is_below_one = match above.degree().cmp(&below.degree()) {
-            Ordering::Less => true,
-            // Leading coefficients of polynomials in s^2 < 0 have either sign.
-            Ordering::Equal => {
-                let [above, below] = [above, below].map(|p| p.leading().cloned().expect("not zero"));
-                ground.sign(&above.minus(&below).times(&below), budget)?.is_lt()
-            }
-            Ordering::Greater => false,
-        };
-        if !is_below_one {
+        let Some(level) = self.level(budget)? else {
             let help = "such a loop bears no delay, and its gain margin is a limit of 'intervals'";
             return Err(refused(
                 "the modulus of the open loop with dead time is one or more at high frequencies",
                 help,
             ));
-        }
-        let level = self.level(budget)?;
+        };
+        let r = &self.parts.reduced;
         let [up, down] = [level.numerator(), level.denominator()].map(|c| G::Number::from_integer(&c));
-        let excess = above.scaled(&down).minus(&below.scaled(&up));
-        let zeros = ground.zeros(&excess, &Range::between(None, Some(Rational::ZERO)), budget)?;
+        let excess = r.numerator_squared.scaled(&down).minus(&r.denominator_squared.scaled(&up));
+        let zeros = self.parts.ground.zeros(&excess, &Range::between(None, Some(Rational::ZERO)), budget)?;
         Ok(match zeros.first() {
             // x = -omega^2 of the highest frequency.
             Some(x) => {
@@ -91,24 +79,31 @@ impl<'a, G: Ground> DeadTime<'a, G> {
         })
     }
 
-    /// A number above the square of the modulus that is reached at high frequencies, and below one.
-    fn level(&self, budget: &Budget) -> Result<Rational, Error> {
+    /// A number below one and above the limit of the squared modulus at high frequencies; `None` where that limit is one or more.
+    fn level(&self, budget: &Budget) -> Result<Option<Rational>, Error> {
         let r = &self.parts.reduced;
         let (above, below) = (&r.numerator_squared, &r.denominator_squared);
-        let above_limit =
+        let beside =
             |limit: &Rational, part: i64| limit + &(&(Rational::ONE - limit) * &Rational::new(1.into(), part.into()));
-        if above.degree() < below.degree() {
-            return Ok(above_limit(&Rational::ZERO, LISTED * LISTED));
+        match above.degree().cmp(&below.degree()) {
+            Ordering::Less => return Ok(Some(beside(&Rational::ZERO, LISTED * LISTED))),
+            Ordering::Greater => return Ok(None),
+            Ordering::Equal => {}
+        }
+        let [above, below] = [above, below].map(|p| p.leading().cloned().expect("not zero"));
+        let ground = &self.parts.ground;
+        // Leading coefficients of polynomials in s^2 < 0 have either sign.
+        if ground.sign(&above.minus(&below).times(&below), budget)?.is_ge() {
+            return Ok(None);
         }
         // Toward a limit that is not 0 crossings go on without end.
-        let [above, below] = [above, below].map(|p| p.leading().cloned().expect("not zero"));
-        let limit = self.parts.ground.quotient(&above, &below, budget)?;
+        let limit = ground.quotient(&above, &below, budget)?;
         let level = try_until_shown(64, |bits| -> Result<Option<Rational>, Exhausted> {
             budget.check()?;
             let limit = budget.enter(|| limit.enclosure(bits))?;
-            Ok(Some(above_limit(limit.upper(), LISTED)).filter(|_| *limit.upper() < Rational::ONE))
+            Ok(Some(beside(limit.upper(), LISTED)).filter(|_| *limit.upper() < Rational::ONE))
         })?;
-        Ok(level)
+        Ok(Some(level))
     }
 
     /// All crossings of modulus one, and those of the negative real axis down to a hundredth.

@@ -4,10 +4,10 @@ use super::gain::{GainCells, GainLoop, NotSolved, direct_cells};
 use super::gain_points::{GainPoint, Happening};
 use super::windows::Never;
 use crate::Range;
-use jurist_algebra::limits::{Budget, Exhausted, until_shown};
-use jurist_algebra::number::{Enclosure, Rational};
+use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{RealAlgebraic, SquareFree};
-use jurist_algebra::real::{Enclosing, Origin, Real, Transcendental};
+use jurist_algebra::real::Real;
 
 /// The cells of a range by the reciprocal of the parameter, on either side of zero, where the highest power of `s` is lost
 /// or the reciprocal has no end.
@@ -67,7 +67,7 @@ fn inverted(side: &Range) -> Range {
 pub(super) fn reciprocal(value: &Real, budget: &Budget) -> Result<Real, Exhausted> {
     let x = match value {
         Real::Algebraic(x) => x,
-        Real::Transcendental(_) => return Ok(Transcendental::new(Reciprocal(value.clone())).into()),
+        Real::Transcendental(_) => return Ok(value.recip()),
     };
     if let Some(exact) = x.exact() {
         return Ok(exact.recip().expect("a value other than zero").into());
@@ -79,26 +79,4 @@ pub(super) fn reciprocal(value: &Real, budget: &Budget) -> Result<Real, Exhauste
     let (a, b) = (hi.recip().expect("not zero"), lo.recip().expect("not zero"));
     let found = RealAlgebraic::in_interval(&reversed, &a, &b, budget)?;
     Ok(found.expect("the reciprocal alone is there").into())
-}
-
-/// The reciprocal of a number that is not rational.
-#[derive(Debug)]
-struct Reciprocal(Real);
-
-impl Enclosing for Reciprocal {
-    fn enclose(&self, bits: u64, _known: Option<&Enclosure>) -> Enclosure {
-        let goal = Rational::dyadic(&1.into(), bits);
-        until_shown(2, |digits| {
-            let (lo, hi) = self.0.refined_to_digits(digits as usize).enclosure();
-            let (a, b) = (hi.recip().expect("not zero"), lo.recip().expect("not zero"));
-            (a <= b && &b - &a <= goal).then(|| Enclosure::new(a, b))
-        })
-    }
-
-    fn origin(&self) -> Origin {
-        match &self.0 {
-            Real::Transcendental(x) => x.origin(),
-            Real::Algebraic(_) => Origin::Function { function: "reciprocal".into(), details: Vec::new() },
-        }
-    }
 }

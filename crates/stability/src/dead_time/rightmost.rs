@@ -70,10 +70,10 @@ pub fn rightmost_roots(
     Ok(Some(found))
 }
 
-/// The same of a loop whose coefficients are constants that are not rational, of retarded type: each is enclosed. A multiple root, and one at 0 that no
-/// coefficient that is zero shows, stays undecided.
+/// The rightmost roots of a loop of retarded type whose coefficients are constants that are not rational. Each coefficient is enclosed, and Rouché's theorem and
+/// the count take the bounds of the errors. A multiple root stays undecided, and so does a root at 0 unless a power of `s` divides all parts.
 ///
-/// Cost: as that of [`rightmost_roots`].
+/// Cost: that of [`rightmost_roots`].
 ///
 /// # Errors
 /// As [`rightmost_roots`], and for a loop that is not of retarded type.
@@ -87,7 +87,7 @@ pub fn rightmost_roots(
 /// use jurist_algebra::poly::{Domain, MultiPoly};
 /// use jurist_algebra::symbols::{Definition, Symbols};
 /// use jurist_stability::dead_time::{ConstantParts, rightmost_roots_over};
-/// // s + pi/2 exp(-s), doubled: a pair on the axis at +- j pi/2, of which no digits tell that it is there
+/// // 2 s + pi exp(-s) has the pair +- j pi/2
 /// let mut symbols = Symbols::new();
 /// let pi = MultiPoly::variable(symbols.insert("pi", Definition::Pi) + 1);
 /// let two = MultiPoly::constant(2.into());
@@ -120,7 +120,7 @@ pub fn rightmost_roots_over(
     All { tau, relative, parts: vec![part], fixed, floor: None }.searched(wanted, budget)
 }
 
-/// So many times the bits that a disc asks for.
+/// The coefficients have this many times the bits of a disc.
 const MORE_BITS: u64 = 4;
 
 /// The disc of roots at 0.
@@ -310,7 +310,7 @@ impl Part {
     }
 }
 
-/// A part in `s/2^scale`, `s` being counted from a line, times a number that all parts of an order have.
+/// A part in `2^scale s`, `s` being counted from a line, times a positive number that depends on the order, the line and the scale alone.
 fn shifted<R: Domain>(part: &Poly<R>, order: usize, line: &Rational, scale: u64) -> Poly<R> {
     let (a, d) = (line.numerator(), line.denominator());
     // d^n P(s + a/d) = Q(d s + a) with the coefficients c_j d^(n - j).
