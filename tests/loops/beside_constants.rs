@@ -114,6 +114,18 @@ fn boxes_and_tolerances_agree_with_decisions_at_points() {
 }
 
 #[test]
+fn a_corner_frequency_may_be_the_parameter() {
+    // The filter divides by 2 pi L.
+    let transfers = ["exp(-s/50)/((s/(2*#*L) + 1)*(3*s/10 + 1)*s)", "exp(-s/50)/(s*(s/(2*#*(L - 2)) + 1))"];
+    for (transfer, domain) in transfers.into_iter().zip([["1/10", "30"], ["3", "30"]]) {
+        let [own, known] = ["pi", "3.14159265358979"].map(|pi| feedback(&transfer.replace('#', pi)));
+        let found = [&own, &known].map(|model| ends(&within(model, "L", domain)));
+        assert_eq!(found[0], found[1], "{transfer}");
+        assert!(found[0].len() == 2);
+    }
+}
+
+#[test]
 fn functions_of_a_free_name_are_refused() {
     let model = feedback("exp(-s/2)/(s + sqrt(L + 1))");
     let budget = Budget::unlimited();

@@ -274,17 +274,18 @@ fn sorted(
     Ok((parts, common))
 }
 
-/// A polynomial in the parameter (0) and in constants as what must not vanish; `None` where it does not anyway.
+/// A polynomial in the parameter (0) and in constants as what must not vanish; `None` where it does not anyway. The constants may be in a factor, as in `2 pi f`.
 ///
 /// # Errors
-/// `E-dead-time` where it depends on both, and where the constants may make it vanish.
+/// `E-dead-time` where the rest depends on constants, too, and where the factor may vanish.
 fn pole_beside(pole: &MultiPoly, constants: &Symbols) -> Result<Option<UniPoly>, Error> {
-    if pole.variables().iter().all(|v| *v == 0) {
-        return Ok(pole.to_univariate(0).filter(|p| !p.is_constant()));
+    let factor = pole.as_poly_in(0).content();
+    let rest = pole.div_exact(&factor).expect("the content divides").to_univariate(0).ok_or_else(refused_beside)?;
+    let value = || constants.enclose(&factor.map_variables(|v| v - 1), BITS_OF_POLE);
+    if !factor.is_constant() && value().contains_zero() {
+        return Err(refused_beside());
     }
-    let is_number = pole.degree_in(0) == 0;
-    let value = || constants.enclose(&pole.map_variables(|v| v - 1), BITS_OF_POLE);
-    if is_number && !value().contains_zero() { Ok(None) } else { Err(refused_beside()) }
+    Ok(Some(rest).filter(|rest| !rest.is_constant()))
 }
 
 /// Bits with which a divisor is to be seen different from 0.
