@@ -39,6 +39,7 @@ mod models {
 /// Whole loops in one parameter, beyond what the corpus says of them.
 mod loops {
     mod beside_constants;
+    mod beside_functions;
     mod circles;
     mod clocks;
     mod corridor;
@@ -75,6 +76,7 @@ mod loops {
 
 /// Loops with complex coefficients, and plants that are held in another frame.
 mod complex {
+    mod dead_time;
     mod frames;
     mod jury;
     mod laws;

@@ -74,7 +74,7 @@ impl Text for Answer<Roots> {
         let (problem, roots) = (self.problem(), self.value());
         let mut out = format!("{}\n", heading(problem));
         out.push_str(&match &roots.beyond {
-            Some(beyond) => rightmost(roots.list.len(), beyond),
+            Some(beyond) => rightmost(roots, beyond),
             None => number_of(roots),
         });
         let mut columns = Columns::new("    ");
@@ -106,8 +106,8 @@ fn number_of(roots: &Roots) -> String {
 }
 
 /// How many of infinitely many roots are listed.
-fn rightmost(listed: usize, beyond: &BeyondRoots) -> String {
-    let wanted = beyond.wanted;
+fn rightmost(roots: &Roots, beyond: &BeyondRoots) -> String {
+    let (wanted, listed) = (beyond.wanted, roots.list.len());
     let why = match listed.cmp(&wanted) {
         Ordering::Equal => String::new(),
         Ordering::Greater => format!(" ({wanted} were asked for; the next ones have nearly the same real part)"),
@@ -116,7 +116,10 @@ fn rightmost(listed: usize, beyond: &BeyondRoots) -> String {
     match listed {
         0 => format!("infinitely many roots{why}\n"),
         1 => format!("infinitely many roots, the rightmost{why}\n"),
-        n => format!("infinitely many roots, the {n} rightmost{why}; a pair counts as one\n"),
+        n if roots.list.iter().any(|root| root.disc.is_pair) => {
+            format!("infinitely many roots, the {n} rightmost{why}; a pair counts as one\n")
+        }
+        n => format!("infinitely many roots, the {n} rightmost{why}\n"),
     }
 }
 

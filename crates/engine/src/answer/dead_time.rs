@@ -2,7 +2,7 @@
 
 use super::verdict::PointVerdict;
 use crate::error::Error;
-use crate::problem::{BaseDelay, DelayedLoop, Free, Problem, refused};
+use crate::problem::{BaseDelay, DelayedFunctions, DelayedLoop, Free, Problem, refused};
 use crate::stability::dead_time::{
     FamilyLoop, GainCells, GainLoop, Line, Never, NotCounted, NotSolved, count_delayed_roots, delay_cells,
     family_cells, gain_cells,
@@ -52,6 +52,30 @@ pub(crate) fn stable_set_with_dead_time(
     match family.count(&zero, budget).map_err(not_counted)? {
         Some(count) if count.is_stable() => Ok(set.with_value(End::new(zero, Cause::Domain.into(), None))),
         _ => Ok(set),
+    }
+}
+
+/// The stable set of a free parameter that is inside of functions.
+pub(super) fn stable_set_beside_functions(
+    parameter: &Free,
+    delayed: &DelayedFunctions,
+    budget: &Budget,
+) -> Result<StableSet, Error> {
+    let Range { mut lower, mut upper } = parameter.domain.clone();
+    // A dead time is not negative, whatever the domain says.
+    match &delayed.without_dead_time {
+        Some((zero, true)) => lower = Some(lower.map_or(zero.clone(), |lower| lower.max(zero.clone()))),
+        Some((zero, false)) => upper = Some(upper.map_or(zero.clone(), |upper| upper.min(zero.clone()))),
+        None => {}
+    }
+    match delayed.family.stable_set(&Range { lower, upper }, budget) {
+        Ok(found) => Ok(found.unwrap_or_else(|_| StableSet::from_intervals(Vec::new(), Vec::new()))),
+        Err(NotSolved::Unbounded) => {
+            let name = &parameter.name;
+            let message = format!("'{name}' is inside of functions beside dead time, and its domain has no end");
+            Err(refused(message, format!("give the domain both ends: --domain {name}=LO..HI")))
+        }
+        Err(reason) => Err(not_solved(reason)),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::Answer;
 use super::rightmost::{WithDelay, rightmost};
-use super::roots_of_complex::roots_of_complex;
+use super::roots_of_complex::{rightmost_of_complex, roots_of_complex};
 use crate::error::Error;
 use crate::model::{Time, quotient_at};
 use crate::precisions::ROOTS;
@@ -245,7 +245,12 @@ impl Problem {
             Polynomial::Exact(p) => complex_roots(&p, &narrow, budget)?,
             Polynomial::Enclosed(discs) => discs,
             Polynomial::Delayed(p, tau) => {
-                let roots = rightmost(&p, &tau, wanted, &narrow, degree, budget)?;
+                let with_conjugates = |radius: &Rational| rightmost(&p, &tau, wanted, radius, degree, budget);
+                let algebra = self.algebra_over_symbols(budget)?;
+                let roots = match algebra.complex() {
+                    Some(whole) => rightmost_of_complex(whole, algebra, &narrow, budget, with_conjugates)?,
+                    None => with_conjugates(&narrow)?,
+                };
                 return Ok(Answer::new(Arc::clone(self), roots));
             }
         };

@@ -4,15 +4,14 @@
 use crate::error::Error;
 use crate::model::ComplexPolynomial;
 use crate::precisions::SIDE_OF_ROOT;
-use crate::problem::{Bound, Problem, Region, definitions_beside};
+use crate::problem::{Beside, Bound, ComplexFunction, Problem, Region};
 use crate::response::root_on_boundary;
 use crate::stability::{Cause, ComplexPair, End, Shape, Side, StableSet};
 use jurist_algebra::ball::{Ball, cos_sin};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::{MultiPoly, RationalFunction};
+use jurist_algebra::poly::RationalFunction;
 use jurist_algebra::real::Real;
-use jurist_algebra::symbols::MovingSymbols;
 
 /// Work that the polynomial may be where the set has been found without it.
 const WORK: u64 = 100_000_000;
@@ -54,11 +53,12 @@ impl Problem {
         let Some((algebra, whole)) = algebra.and_then(|algebra| Some((algebra, algebra.complex()?))) else {
             return Ok(end);
         };
-        match definitions_beside(algebra.symbols(), self.free().len()) {
-            Ok(table) => {
-                let sides = Sides::new(whole, MovingSymbols::new(table), self.region().clone());
-                budget.enter(|| sides.name(&mut end))?;
-            }
+        let sides = Beside::of(algebra.symbols(), self.free().len()).and_then(|beside| {
+            let whole = whole.try_map(|f| Some(beside.placed(f))).expect("every function has a place");
+            Sides::new(whole, beside, self.region().clone())
+        });
+        match sides {
+            Ok(sides) => budget.enter(|| sides.name(&mut end))?,
             Err(_) => {
                 end.causes.of_complex_loop();
                 end.pair = None;
@@ -90,16 +90,21 @@ impl Problem {
 }
 
 /// A complex polynomial in one parameter, by which ends are named.
-pub(crate) struct Sides<'a> {
-    whole: &'a ComplexPolynomial,
-    symbols: MovingSymbols,
+pub(crate) struct Sides {
+    whole: ComplexPolynomial,
+    function: ComplexFunction,
+    beside: Beside,
     region: Region,
 }
 
-impl<'a> Sides<'a> {
-    /// Of a polynomial over the parameter (variable 0) and these symbols, whose roots are to lie in a region.
-    pub fn new(whole: &'a ComplexPolynomial, symbols: MovingSymbols, region: Region) -> Sides<'a> {
-        Sides { whole, symbols, region }
+impl Sides {
+    /// Of a polynomial over the parameter (variable 0) and what is beside it, whose roots are to lie in a region.
+    ///
+    /// # Errors
+    /// As [`ComplexFunction::new`].
+    pub fn new(whole: ComplexPolynomial, beside: Beside, region: Region) -> Result<Sides, Error> {
+        let function = ComplexFunction::new(&whole, &beside)?;
+        Ok(Sides { whole, function, beside, region })
     }
 
     /// Names an end that a complex pair of `D conj(D)` makes.
@@ -116,7 +121,7 @@ impl<'a> Sides<'a> {
 
     /// The side that the root at an end is on: where `D` may vanish on either side, both if it is a factor with real coefficients that does.
     fn side(&self, pair: &ComplexPair, value: &Real) -> Option<Side> {
-        let vanishes_at = |whole: &ComplexPolynomial, bits: u64| {
+        let vanishes_at = |whole: &ComplexFunction, bits: u64| {
             let place = match pair.region() {
                 Shape::UnitDisc => pair.angle(bits),
                 Shape::LeftHalfPlane => pair.angular_frequency(bits),
@@ -127,21 +132,21 @@ impl<'a> Sides<'a> {
             let vanishes = |place: &Ball| self.may_vanish(place, &parameter, whole);
             place.and_then(|place| Some([vanishes(&place)?, vanishes(&place.neg())?]))
         };
-        let side = SIDE_OF_ROOT.bits().find_map(|bits| match vanishes_at(self.whole, bits) {
+        let side = SIDE_OF_ROOT.bits().find_map(|bits| match vanishes_at(&self.function, bits) {
             Some([true, false]) => Some(Side::Upper),
             Some([false, true]) => Some(Side::Lower),
             _ => None,
         });
         side.or_else(|| {
-            let others = self.whole.without_real_factor()?;
+            let others = ComplexFunction::new(&self.whole.without_real_factor()?, &self.beside).ok()?;
             let is_elsewhere = |bits: u64| vanishes_at(&others, bits) == Some([false, false]);
             SIDE_OF_ROOT.bits().any(is_elsewhere).then_some(Side::Both)
         })
     }
 
-    /// Whether a polynomial may vanish at a point of the region's boundary, given by its angle or frequency; `None` where something may be divided by
+    /// Whether a function may vanish at a point of the region's boundary, given by its angle or frequency; `None` where something may be divided by
     /// zero.
-    fn may_vanish(&self, place: &Ball, parameter: &Ball, whole: &ComplexPolynomial) -> Option<bool> {
+    fn may_vanish(&self, place: &Ball, parameter: &Ball, whole: &ComplexFunction) -> Option<bool> {
         let bits = place.bits();
         let number = |bound: &Bound| match bound {
             Bound::Number(value) => Ball::from_rational(value, bits),
@@ -154,17 +159,6 @@ impl<'a> Sides<'a> {
             }
             Region::HalfPlane(decay) => [number(decay).neg(), place.clone()],
         };
-        let [re, im] = [&whole.re, &whole.im].map(|list| {
-            let sides: Vec<MultiPoly> =
-                list.iter().flat_map(|f| [f.numerator().clone(), f.denominator().clone()]).collect();
-            let values = self.symbols.enclose(&sides, parameter)?;
-            values.chunks(2).map(|pair| pair[0].div(&pair[1])).collect::<Option<Vec<Ball>>>()
-        });
-        let mut value = [Ball::zero(bits), Ball::zero(bits)];
-        for (re, im) in re?.into_iter().zip(im?).rev() {
-            let [u, v] = &value;
-            value = [u.mul(&x).sub(&v.mul(&y)).add(&re), u.mul(&y).add(&v.mul(&x)).add(&im)];
-        }
-        Some(value.iter().all(Ball::contains_zero))
+        whole.may_vanish(parameter, [&x, &y])
     }
 }

@@ -187,6 +187,10 @@ impl Problem {
                     _ => Err(refused),
                 };
             }
+            if let Some(delayed) = self.delayed_functions(budget)? {
+                let set = super::dead_time::stable_set_beside_functions(self.parameter(), &delayed, budget)?;
+                return Ok(Answer::new(Arc::clone(self), set));
+            }
             if let Some(delayed) = self.delayed(budget)? {
                 let set = super::dead_time::stable_set_with_dead_time(self.parameter(), delayed, budget)?;
                 return Ok(Answer::new(Arc::clone(self), set));

@@ -79,6 +79,11 @@ pub(super) static ENCLOSED_CROSSINGS: Method = Method::new(
     "Roots on the axis are zeros of one complex function of the frequency and the parameter. Newton's method isolates them with bounds of the constants, which get narrower as digits are asked for; a count between two neighbours decides the gap.",
     "stability::dead_time::family_cells",
 );
+pub(super) static FUNCTION_CROSSINGS: Method = Method::new(
+    "crossings of the imaginary axis on pieces of the domain",
+    "On short pieces of the domain Taylor polynomials with bounds of their rests stand for the functions. On each piece roots on the axis are isolated as beside enclosed constants, and counts between two neighbours decide the gaps.",
+    "stability::dead_time::MovingLoop",
+);
 pub(super) static SAMPLES: Method = Method::new(
     "one order after another",
     "The domain is divided where the dead time is a whole number of samples; between two such values the order is fixed, and the loop is one with functions of the parameter.",

@@ -26,8 +26,8 @@ pub(crate) static COMPLEX_FOR_ALL: Refusal = Refusal::new(
 );
 pub(crate) static COMPLEX_WITH_DEAD_TIME: Refusal = Refusal::new(
     Code::Complex,
-    "a continuous loop with complex coefficients and dead time is not known",
-    "write it in real form, with two signals for each complex one",
+    "margins and the frequency response of a continuous loop with complex coefficients and dead time are not known",
+    "its stability is: 'intervals', 'roots', 'map', 'tolerance'; a gain margin is the limit of a gain: 'intervals --param GAIN'",
 );
 pub(crate) static DEAD_TIME: Refusal =
     Refusal::new(Code::DeadTime, "this cannot be asked of a loop with dead time", KNOWN);

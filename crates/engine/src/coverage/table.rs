@@ -67,9 +67,9 @@ const CERTIFIED: Coverage = P(&WITNESSES, &NO_CERTIFICATE);
 #[rustfmt::skip]
 static ROWS: &[Row] = &[
     at_a_point(Asked::Verdict, "verdict", [A(&COUNT), A(&ENCLOSED_COUNT), A(&ARGUMENT), A(&ENCLOSED_ARGUMENT)]).called("verdict"),
-    Row::new(Asked::Intervals, "intervals --param NAME", [A(&ZEROS), A(&ENCLOSED_ZEROS), A(&FUNCTION_ZEROS), A(&CROSSINGS), A(&ENCLOSED_CROSSINGS), BESIDE, A(&SAMPLES)])
+    Row::new(Asked::Intervals, "intervals --param NAME", [A(&ZEROS), A(&ENCLOSED_ZEROS), A(&FUNCTION_ZEROS), A(&CROSSINGS), A(&ENCLOSED_CROSSINGS), A(&FUNCTION_CROSSINGS), A(&SAMPLES)])
         .called("intervals of one parameter"),
-    Row::new(Asked::Analyze, "analyze", [A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), BESIDE, A(&SEVERAL)]).called("analyze"),
+    Row::new(Asked::Analyze, "analyze", [A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), A(&SEVERAL)]).called("analyze"),
     Row::new(Asked::Charpoly, "charpoly", [A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), NO_ORDER]).called("charpoly"),
     at_a_point(Asked::Margins, "margins", [A(&FREQUENCIES), A(&FREQUENCIES), OPEN_LOOP, OPEN_LOOP]).called("margins"),
     at_a_point(Asked::Norm, "norm", [A(&PEAKS), A(&PEAKS), A(&DELAYED_PEAKS), A(&DELAYED_PEAKS)]).called("norm"),
@@ -88,14 +88,14 @@ static ROWS: &[Row] = &[
     Row::new(Asked::ExactMap, "map -x NAME -y NAME --method exact", [A(&DECOMPOSITION), A(&DECOMPOSITION), R(&INSIDE), NO_DELAY, NO_DELAY, NO_DELAY, NO_ORDER]),
     Row::new(Asked::BoxMap, "map -x NAME -y NAME --method boxes", [B(&PLANE_BOXES), B(&PLANE_BOXES), B(&FUNCTION_BOXES), B(&DELAYED_BOXES), B(&DELAYED_FAMILY_BOXES), BESIDE, NO_ORDER]),
     Row::new(Asked::Slices, "map -x NAME -y NAME -z NAME=LO..HI:N", [A(&DECOMPOSITION), A(&DECOMPOSITION), R(&SLICES), R(&SLICES_WITH_DEAD_TIME), R(&SLICES_WITH_DEAD_TIME), NO_DELAY, NO_ORDER]),
-    Row::new(Asked::Sensitivity, "intervals --param NAME --sensitivity", [A(&DIFFERENCES), A(&DIFFERENCES), A(&DIFFERENCES), A(&DIFFERENCES), A(&DIFFERENCES), BESIDE, A(&DIFFERENCES)]),
+    Row::new(Asked::Sensitivity, "intervals --param NAME --sensitivity", [A(&DIFFERENCES), A(&DIFFERENCES), A(&DIFFERENCES), A(&DIFFERENCES), A(&DIFFERENCES), A(&DIFFERENCES), A(&DIFFERENCES)]),
     Row::new(Asked::RootLocusForm, "charpoly --root-locus-form NAME", [A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), NO_ORDER]),
     Row::new(Asked::Transfer, "charpoly --transfer INPUT OUTPUT", [A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), NO_ORDER]),
     Row::new(Asked::ToleranceLimit, "tolerance --tol NAME=10% --limit NAME", [A(&TENSOR), A(&TENSOR), A(&FUNCTION_TENSOR), A(&DELAYED_TENSOR), A(&DELAYED_TENSOR), BESIDE, NO_ORDER]),
     Row::new(Asked::ToleranceExact, "tolerance --tol NAME=10% --exact", [A(&TENSOR), A(&TENSOR), A(&FUNCTION_TENSOR), A(&DELAYED_TENSOR), A(&DELAYED_TENSOR), BESIDE, NO_ORDER]),
     Row::new(Asked::ToleranceVolume, "tolerance --tol NAME=10% --volume", [A(&TENSOR), A(&TENSOR), A(&FUNCTION_TENSOR), A(&DELAYED_TENSOR), A(&DELAYED_TENSOR), BESIDE, NO_ORDER]),
     at_a_point(Asked::VerdictInRegion, "verdict REGION", [A(&COUNT), A(&ENCLOSED_COUNT), A(&ARGUMENT), A(&ENCLOSED_ARGUMENT)]),
-    Row::new(Asked::IntervalsInRegion, "intervals --param NAME REGION", [A(&ZEROS), A(&ENCLOSED_ZEROS), A(&FUNCTION_ZEROS), A(&CROSSINGS), A(&ENCLOSED_CROSSINGS), BESIDE, A(&SAMPLES)]),
+    Row::new(Asked::IntervalsInRegion, "intervals --param NAME REGION", [A(&ZEROS), A(&ENCLOSED_ZEROS), A(&FUNCTION_ZEROS), A(&CROSSINGS), A(&ENCLOSED_CROSSINGS), A(&FUNCTION_CROSSINGS), A(&SAMPLES)]),
     at_a_point(Asked::RegionBound, "intervals --param BOUND", [A(&ZEROS), A(&ENCLOSED_ZEROS), A(&CROSSINGS), A(&ENCLOSED_CROSSINGS)]),
     Row::new(Asked::MapInRegion, "map -x NAME -y NAME REGION", [A(&DECOMPOSITION), A(&DECOMPOSITION), B(&FUNCTION_BOXES), P(&DELAYED_BOXES, &DECAY), P(&DELAYED_FAMILY_BOXES, &DECAY), BESIDE, NO_ORDER]),
     Row::new(Asked::ToleranceInRegion, "tolerance --tol NAME=10% REGION", [A(&TENSOR), A(&TENSOR), A(&FUNCTION_TENSOR), P(&DELAYED_TENSOR, &DECAY), P(&DELAYED_TENSOR, &DECAY), BESIDE, NO_ORDER]),

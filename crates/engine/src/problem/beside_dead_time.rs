@@ -1,11 +1,12 @@
 //! Constants that are not rational, beside dead time.
 
+use super::over_symbols::definition;
 use crate::coverage::refusals::BESIDE_DEAD_TIME;
 use crate::error::Error;
 use crate::model;
 use jurist_algebra::number::Rational;
-use jurist_algebra::poly::RationalFunction;
-use jurist_algebra::symbols::Symbols;
+use jurist_algebra::poly::{MultiPoly, RationalFunction};
+use jurist_algebra::symbols::{MovingSymbols, Symbols};
 
 /// Constants are enclosed with so many bits after the point.
 pub(super) const CONSTANT_BITS: u64 = 160;
@@ -70,4 +71,52 @@ impl Constants {
             (None, None) => variable,
         }
     }
+}
+
+/// What the variables beside at most one free name (0) stand for: symbols, which may be functions of it, and delays behind them.
+#[derive(Clone)]
+pub(crate) struct Beside {
+    pub symbols: MovingSymbols,
+    /// The variables that stand for delays, and the dead times in the parameter and the symbols.
+    pub delays: Vec<(usize, RationalFunction)>,
+    /// The variables of the polynomial that come first here, then second, and so on.
+    own: Vec<usize>,
+}
+
+impl Beside {
+    /// Symbols alone.
+    pub fn symbols(symbols: MovingSymbols) -> Beside {
+        Beside { own: (1..=symbols.len()).collect(), symbols, delays: Vec::new() }
+    }
+
+    /// What stands beside so many free names, one at most, of which one may be no variable of the symbols.
+    ///
+    /// # Errors
+    /// [`Error::Undefined`] for a symbol without a value.
+    pub fn of(symbols: &model::Symbols, free: usize) -> Result<Beside, Error> {
+        let (delays, room) = (symbols.delays(), free.saturating_sub(symbols.first()));
+        let is_delay = |v: &usize| delays.iter().any(|(variable, _)| variable == v);
+        let all = symbols.first()..symbols.first() + symbols.iter().count();
+        let own: Vec<usize> = all.filter(|v| !is_delay(v)).chain(delays.iter().map(|(v, _)| *v)).collect();
+        let moved = |f: &RationalFunction| f.map_variables(|v| place(&own, v)).expect("variables stay apart");
+        let table = symbols.iter().filter(|symbol| !symbol.is_delay());
+        let table = table.map(|s| Ok((s.name.clone(), definition(s, |f| Some(moved(f)))?)));
+        let symbols = MovingSymbols::new(table.collect::<Result<_, Error>>()?);
+        let delays = delays.iter().map(|(variable, time)| (place(&own, *variable), moved(time))).collect();
+        Ok(Beside { symbols, delays, own: own.iter().map(|v| v + room).collect() })
+    }
+
+    /// A function of the polynomial's variables.
+    pub fn placed(&self, f: &RationalFunction) -> RationalFunction {
+        f.map_variables(|v| place(&self.own, v)).expect("variables stay apart")
+    }
+
+    /// A polynomial in these variables, without delays.
+    pub fn placed_polynomial(&self, p: &MultiPoly) -> MultiPoly {
+        p.map_variables(|v| place(&self.own, v))
+    }
+}
+
+fn place(own: &[usize], variable: usize) -> usize {
+    own.iter().position(|v| *v == variable).map_or(variable, |i| i + 1)
 }

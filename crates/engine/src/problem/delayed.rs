@@ -8,7 +8,6 @@ use crate::error::{Code, Diagnostic, Error};
 use crate::stability::ParametricPolynomial;
 use crate::stability::dead_time::{ConstantParts, FamilyLoop, GainLoop, Line, QuasiPolynomial};
 use jurist_algebra::limits::Budget;
-use jurist_algebra::matrix::CharacteristicPolynomial;
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
 use jurist_algebra::symbols::Symbols;
@@ -69,7 +68,8 @@ impl DelayedLoop {
             Bound::Free => Line { slope: Rational::ONE, offset: Rational::ZERO },
         };
         budget.enter(|| {
-            let (parts, common) = sorted(polynomial, &constants, power_of)?;
+            let (parts, common) =
+                sorted(&polynomial.coefficients, constants.len(), |v| constants.position(v), power_of)?;
             let divisors = || polynomial.poles.iter().chain([&common]);
             if !constants.is_empty() {
                 let placed = |p: &MultiPoly| p.map_variables(|v| constants.position(v).map_or(0, |i| i + 1));
@@ -236,27 +236,28 @@ impl DelayedLoop {
     }
 }
 
-/// The coefficients of `z^k s^j` at `[k][j]` times their common denominator, in the parameter (0) and in constants behind it, and that denominator; `power_of` is
-/// the power of `z` that a variable stands for.
+/// The coefficients of `z^k s^j` at `[k][j]` times their common denominator, in the parameter (0) and in so many constants behind it, and that denominator;
+/// `position` is the number of the constant and `power_of` the power of `z` that a variable stands for.
 ///
 /// # Errors
 /// `E-dead-time` where the loop divides by a delay, and for dead times that are too large multiples of their greatest common divisor.
-fn sorted(
-    polynomial: &CharacteristicPolynomial,
-    constants: &Constants,
+pub(super) fn sorted(
+    coefficients: &[RationalFunction],
+    constants: usize,
+    position: impl Fn(usize) -> Option<usize>,
     power_of: impl Fn(usize) -> Option<usize>,
 ) -> Result<(Vec<Vec<MultiPoly>>, MultiPoly), Error> {
-    let (scaled, common) = cleared(&polynomial.coefficients, |v| power_of(v).is_some())?;
+    let (scaled, common) = cleared(coefficients, |v| power_of(v).is_some())?;
     let mut parts: Vec<Vec<MultiPoly>> = Vec::new();
     for (j, f) in scaled.iter().enumerate() {
         // Numerator over an integer: numbers are put in only now.
         let bottom = f.denominator().as_constant().expect("the common denominator is divided out");
         assert!(bottom.is_one(), "a numerator takes the integers");
         for (monomial, c) in f.numerator().terms() {
-            let mut own = vec![0u32; 1 + constants.len()];
+            let mut own = vec![0u32; 1 + constants];
             let mut k = 0usize;
             for (variable, &e) in monomial.exponents().iter().enumerate() {
-                match (power_of(variable), constants.position(variable)) {
+                match (power_of(variable), position(variable)) {
                     (Some(multiple), _) => k += multiple * e as usize,
                     (None, Some(constant)) => own[1 + constant] += e,
                     (None, None) => own[0] += e,

@@ -1,7 +1,7 @@
 //! Loops with dead time and any number of parameters.
 
 use super::beside_dead_time::{CONSTANT_BITS, Constants, refused_beside};
-use super::delayed_terms::{DelayedTerms, OverDelays};
+use super::delayed_terms::{DelayedTerms, OverDelays, add_times};
 use super::resolved::Problem;
 use crate::coverage::refusals::DECAY;
 use crate::error::Error;
@@ -62,7 +62,7 @@ impl Problem {
             let mut bounds = constants.clone();
             let mut all = usual.to_vec();
             all.extend(constants.iter().map(|[low, high]| low.midpoint(high)));
-            let mut found = DelayedTerms::of(polynomial, all.len(), time_of, add)?;
+            let mut found = DelayedTerms::of(polynomial, all.len(), time_of, add_times)?;
             for (time, part) in found.terms.iter_mut().filter(|(time, _)| !time.is_zero()) {
                 let Some(decay) = decay else { break };
                 let factor = MultiPoly::variable(all.len());
@@ -77,11 +77,6 @@ impl Problem {
             Ok(family.map(|family| (family, bounds)))
         })?
     }
-}
-
-/// Adds a dead time some times to a sum.
-fn add(sum: &mut RationalFunction, time: &RationalFunction, times: u32) {
-    *sum = &*sum + &(time * &RationalFunction::from(Rational::from(i64::from(times))));
 }
 
 /// An open loop `N/D0` with a dead time where it is cut.
@@ -174,7 +169,7 @@ impl OverDeadTime {
             monic: false,
         };
         let time_of = |variable: usize| times.iter().find(|(own, _)| *own == variable).map(|(_, time)| time);
-        let found = DelayedTerms::of(&polynomial, all.len(), time_of, add)?;
+        let found = DelayedTerms::of(&polynomial, all.len(), time_of, add_times)?;
         let times = times.iter().map(|(_, time)| time.clone()).collect();
         Ok(DelayedFunction::new(found.terms, times, found.poles, &all))
     }

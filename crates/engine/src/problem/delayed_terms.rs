@@ -109,3 +109,8 @@ impl<T: Clone + Default + PartialEq> DelayedTerms<T> {
         Ok(DelayedTerms { terms, poles })
     }
 }
+
+/// Adds a dead time some times to a sum.
+pub(super) fn add_times(sum: &mut RationalFunction, time: &RationalFunction, times: u32) {
+    *sum = &*sum + &(time * &RationalFunction::from(Rational::from(i64::from(times))));
+}

@@ -3,7 +3,6 @@
 use super::region::{Bound, Region};
 use super::resolved::Problem;
 use super::substitution::{scaled_by_radius, shifted_by_decay};
-use crate::coverage::refusals::COMPLEX_WITH_DEAD_TIME;
 use crate::error::Error;
 use crate::model::{ClosedLoop, ComplexPolynomial, Evaluated, Model, Symbols, Time};
 use crate::stability::ParametricPolynomial;
@@ -68,9 +67,6 @@ impl Algebra {
             Err(failure) => return Err(failure),
         };
         let Evaluated { mut polynomial, complex, closed_loop, sample_time, symbols, .. } = evaluated;
-        if complex.is_some() && !symbols.delays().is_empty() {
-            return Err(COMPLEX_WITH_DEAD_TIME.diagnostic(&[]).into());
-        }
         if let Some(closed_loop) = closed_loop.as_ref().filter(|_| !symbols.delays().is_empty()) {
             // The monic polynomial would divide by functions of s.
             polynomial.coefficients.iter_mut().for_each(|c| *c = &*c * &closed_loop.leading);

@@ -221,14 +221,11 @@ fn definitions(symbols: &model::Symbols) -> Result<Vec<(String, Definition)>, Er
     symbols.iter().map(|symbol| Ok((symbol.name.clone(), definition(symbol, |f| Some(f.clone()))?))).collect()
 }
 
-/// The symbols' names and definitions beside so many free names, the first variables, of which some may not be kept.
-pub(crate) fn definitions_beside(symbols: &model::Symbols, free: usize) -> Result<Vec<(String, Definition)>, Error> {
-    let place = |f: &RationalFunction| f.map_variables(|i| i + free - symbols.first());
-    symbols.iter().map(|symbol| Ok((symbol.name.clone(), definition(symbol, place)?))).collect()
-}
-
 /// The definition with its arguments' variables as the table numbers them.
-fn definition(of: &Symbol, place: impl Fn(&RationalFunction) -> Option<RationalFunction>) -> Result<Definition, Error> {
+pub(super) fn definition(
+    of: &Symbol,
+    place: impl Fn(&RationalFunction) -> Option<RationalFunction>,
+) -> Result<Definition, Error> {
     // Dead time is a function of s; a loop with it is asked otherwise.
     let placed = of.definition().and_then(|definition| definition.try_map(place));
     placed.ok_or_else(|| Error::Undefined("a function has no value there".into()))

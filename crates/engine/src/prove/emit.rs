@@ -95,6 +95,9 @@ impl Answer<StableSet> {
 fn exact_delayed<'p>(problem: &'p Problem, budget: &Budget) -> Result<Option<&'p DelayedLoop>, Error> {
     match problem.delayed(budget)? {
         Some(delayed) if !delayed.is_exact() => Err(BESIDE_DEAD_TIME.diagnostic(&[]).into()),
+        Some(_) if problem.is_complex() => {
+            Err(no_certificate("no certificate: with dead time complex coefficients are proved by boxes alone"))
+        }
         delayed => Ok(delayed),
     }
 }

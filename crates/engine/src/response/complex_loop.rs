@@ -10,7 +10,7 @@ use crate::answer::Sides;
 use crate::coverage::refusals::COMPLEX_WITH_DEAD_TIME;
 use crate::error::Error;
 use crate::model::{ComplexPolynomial, Time};
-use crate::problem::{Region, fixed_symbols};
+use crate::problem::{Beside, Region, fixed_symbols};
 use crate::stability::{ComplexPair, Range, Shape, Side, StableSet};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
@@ -92,7 +92,8 @@ impl GainMargin {
             Shape::UnitDisc => Time::Discrete,
             Shape::LeftHalfPlane => Time::Continuous,
         };
-        let sides = Sides::new(&whole, parts.ground.beside_factor(), Region::of(time));
+        let sides = Sides::new(whole, Beside::symbols(parts.ground.beside_factor()), Region::of(time));
+        let sides = sides.expect("without dead time nothing divides by a delay");
         for end in set.ends_mut() {
             budget.enter(|| sides.name(end))?;
         }

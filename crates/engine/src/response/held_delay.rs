@@ -5,7 +5,7 @@ use crate::answer::{Frequency, Sides};
 use crate::coverage::refusals::MANY_HELD_SAMPLES;
 use crate::error::Error;
 use crate::model::{MoreDeadTime, OnlyHold};
-use crate::problem::{Problem, Region, fixed_symbols, moving_symbols};
+use crate::problem::{Beside, Problem, Region, fixed_symbols, moving_symbols};
 use crate::stability::{AtPoint, ComplexPair, Range, StableSet, SymbolicPolynomial, symbolic_stable_set};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Rational};
@@ -139,7 +139,7 @@ fn stable_fractions(problem: &Problem, more: &MoreDeadTime, range: Range, budget
     };
     let mut set = symbolic_stable_set(&p, &range, problem.shape(), budget)?;
     if let Some(whole) = complex {
-        let sides = Sides::new(&whole, moving_symbols(&symbols)?, Region::of(problem.time()));
+        let sides = Sides::new(whole, Beside::symbols(moving_symbols(&symbols)?), Region::of(problem.time()))?;
         for end in set.ends_mut() {
             budget.enter(|| sides.name(end))?;
         }

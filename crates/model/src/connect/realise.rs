@@ -66,6 +66,21 @@ fn complex_ratio(
     Ok(system)
 }
 
+/// What a block's characteristic polynomial was divided by for its canonical form: where its signals stand in parts, with its conjugate.
+fn leading_of(block: &BlockValues, set: &Substitution<'_>) -> Result<RationalFunction, NotConnected> {
+    let square = |f: &RationalFunction| f * f;
+    Ok(match (&block.dynamics, &block.lift) {
+        (DynamicValues::StateSpace { .. }, _) => RationalFunction::one(),
+        (DynamicValues::Ratio(ratio), Lift::Done) => substituted(&ratio.denominator.leading(), set)?,
+        (DynamicValues::Ratio(ratio), Lift::AfterHold) => square(&substituted(&ratio.denominator.leading(), set)?),
+        (DynamicValues::ComplexRatio { denominator, .. }, _) => {
+            let n = denominator.iter().map(ZPoly::degree).max().unwrap_or(0);
+            let [re, im] = denominator.each_ref().map(|p| substituted(&p.coefficient(n), set));
+            &square(&re?) + &square(&im?)
+        }
+    })
+}
+
 fn loses_order(block: &BlockValues) -> NotConnected {
     let name = shorten(&block.name);
     let message = format!("the leading coefficient of the denominator of '{name}' is zero: the block loses its order");
@@ -140,12 +155,7 @@ pub(crate) fn realised(
     let mut systems = Vec::with_capacity(blocks.len());
     for block in blocks {
         budget.check()?;
-        if let DynamicValues::Ratio(ratio) = &block.dynamics {
-            *leading = &*leading * &substituted(&ratio.denominator.leading(), set)?;
-            if let Lift::AfterHold = block.lift {
-                *leading = &*leading * &substituted(&ratio.denominator.leading(), set)?;
-            }
-        }
+        *leading = &*leading * &leading_of(block, set)?;
         let mut system = as_written(block, set, poles)?;
         let mut of_samples: Vec<System> = Vec::new();
         match &block.discretization {

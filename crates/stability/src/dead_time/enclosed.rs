@@ -103,6 +103,13 @@ pub(super) struct Enclosed {
     at: Arc<dyn Fn(u64) -> FamilyLoop + Send + Sync>,
 }
 
+impl Enclosed {
+    /// Bounds of the errors of coefficients with so many bits, and the loops with more.
+    pub fn new(errors: Vec<Vec<UniPoly>>, bits: u64, at: Arc<dyn Fn(u64) -> FamilyLoop + Send + Sync>) -> Enclosed {
+        Enclosed { errors, bits, at }
+    }
+}
+
 impl fmt::Debug for Enclosed {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Enclosed").field("errors", &self.errors).field("bits", &self.bits).finish()

@@ -335,7 +335,7 @@ pub(super) fn piece(
         if is_real && !takes_real {
             continue;
         }
-        if !is_real && budget.enter(|| zero.enclosures(ZERO_AT_EDGE.last)[0].upper().is_negative())? {
+        if !is_real && budget.enter(|| is_below_zero(&zero))? {
             continue;
         }
         if !budget.enter(|| inside(family, &zero, lower, upper))?? {
@@ -346,8 +346,13 @@ pub(super) fn piece(
             Sign::Less => -1,
             Sign::Equal => unreachable!("a regular zero"),
         };
-        let [omega, p] = budget.enter(|| zero.enclosures(ZERO_AT_EDGE.last))?;
-        let exact = plain.iter().find(|value| is_fixed_at(family, [&omega, &p], value));
+        let exact = budget.enter(|| match plain.is_empty() {
+            true => None,
+            false => {
+                let [omega, p] = zero.enclosures(ZERO_AT_EDGE.last);
+                plain.iter().find(|value| is_fixed_at(family, [&omega, &p], value))
+            }
+        })?;
         let zero = Arc::new(zero);
         let coordinate =
             |which: Coordinate| Real::from(Transcendental::new(CoordinateOf { zero: Arc::clone(&zero), which }));
@@ -422,6 +427,15 @@ fn algebraic_points(
         points.push(GainPoint::algebraic(value, happening.clone(), budget)?);
     }
     Ok(Ok(points))
+}
+
+/// Whether the frequency of a zero that is not real is negative.
+fn is_below_zero(zero: &FamilyZero) -> bool {
+    let sign = ZERO_AT_EDGE.bits().find_map(|bits| {
+        let [omega, _] = zero.enclosures(bits);
+        (!omega.contains(&Rational::ZERO)).then(|| omega.upper().is_negative())
+    });
+    sign.unwrap_or(false)
 }
 
 /// Whether a zero is strictly inside of the range. One on an end is a root of the loop there that depends on no dead time.

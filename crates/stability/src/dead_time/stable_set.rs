@@ -106,17 +106,17 @@ impl GainCells {
 }
 
 /// What cuts the line of a loop with dead time, where the roots in each cell are counted.
-struct Counted {
+pub(super) struct Counted {
     /// What happens between the cells, ascending.
-    ends: Vec<End>,
+    pub ends: Vec<End>,
     /// True for each cell in which the loop is stable.
-    stable: Vec<bool>,
+    pub stable: Vec<bool>,
     /// What happens at the ends of the domain.
-    bounds: Vec<End>,
+    pub bounds: Vec<End>,
 }
 
 impl Counted {
-    fn stable_set(&self, range: &Range, budget: &Budget) -> Result<StableSet, Exhausted> {
+    pub fn stable_set(&self, range: &Range, budget: &Budget) -> Result<StableSet, Exhausted> {
         let zeros = self.ends.iter().map(|end| end.value.clone()).collect();
         line::Line::new(range, zeros, self, budget).stable_set()
     }
@@ -155,7 +155,7 @@ fn end_at_switch(switch: &Switch, tau: &Line) -> End {
 }
 
 /// What happens at a point.
-fn end_at_point(point: &GainPoint, budget: &Budget) -> End {
+pub(super) fn end_at_point(point: &GainPoint, budget: &Budget) -> End {
     let (mut causes, mut pair) = (Causes::default(), None);
     note(&point.happening, &mut causes, &mut pair, budget);
     End::new(point.value.clone(), causes, pair.map(ComplexPair::at_angular_frequency))
@@ -221,7 +221,7 @@ fn note_axis(end: &mut End, p: &UniPoly, budget: &Budget) -> Result<(), Exhauste
 }
 
 /// The end of the domain of a parameter, with the roots that are on the axis there.
-fn end_of_domain(family: &FamilyLoop, value: &Rational, budget: &Budget) -> Result<End, Exhausted> {
+pub(super) fn end_of_domain(family: &FamilyLoop, value: &Rational, budget: &Budget) -> Result<End, Exhausted> {
     let mut end = End::new(value.clone(), Causes::default(), None);
     let Some(p) = family.at(value).filter(|_| family.is_from_axis()) else { return Ok(end) };
     if family.dead_time(value).is_zero() {

@@ -1,0 +1,312 @@
+//! All values of a parameter that is inside of functions of a loop with dead time.
+//!
+//! The range is cut into pieces. On each of them the coefficients are Taylor polynomials in the share of the piece, with a bound of how far they may be off:
+//! the factor of the first power that is left out lies between bounds anywhere in the piece, and the derivatives of the rest are as large as those of that
+//! power with this factor (Lagrange). So a piece is a loop of enclosed coefficients.
+
+use super::enclosed::Enclosed;
+use super::family::{FamilyLoop, piece, trimmed};
+use super::family_function::Line;
+use super::gain::{GainCells, NotSolved};
+use super::stable_set::{Counted, end_at_point, end_of_domain};
+use super::windows::Never;
+use crate::{Cause, End, Range, StableSet};
+use jurist_algebra::ball::Ball;
+use jurist_algebra::limits::{Budget, checkpoint};
+use jurist_algebra::number::{Enclosure, Integer, Rational};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly, UniPoly};
+use jurist_algebra::real::{Enclosing, Origin, Real, Transcendental};
+use jurist_algebra::symbols::MovingSymbols;
+use std::sync::Arc;
+
+/// `sum P_k(s; p) z^k` as [`FamilyLoop`] has it, with coefficients that are polynomials in the parameter and in functions of it.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
+/// use jurist_algebra::symbols::{Definition, MovingSymbols};
+/// use jurist_stability::Range;
+/// use jurist_stability::dead_time::{Line, MovingLoop};
+/// // s + exp(p) exp(-s): stable for exp(p) < pi/2
+/// let symbols = MovingSymbols::new(vec![("X".into(), Definition::Exponential(RationalFunction::variable(0)))]);
+/// let parts = vec![vec![MultiPoly::zero(), MultiPoly::one()], vec![MultiPoly::variable(1)]];
+/// let family = MovingLoop::new(parts, Vec::new(), symbols, Line::constant(1.into()), Line::constant(0.into()));
+/// let range = Range::between(Some((-1).into()), Some(1.into()));
+/// let set = family.stable_set(&range, &Budget::unlimited()).unwrap().unwrap();
+/// assert_eq!(set.intervals()[0].upper.as_ref().unwrap().value.decimal(10), "0.4515827053");
+/// ```
+#[derive(Clone, Debug)]
+pub struct MovingLoop {
+    coefficients: Vec<Vec<MultiPoly>>,
+    /// Where one of them vanishes the loop is undefined.
+    poles: Vec<MultiPoly>,
+    symbols: MovingSymbols,
+    tau: Line,
+    decay: Line,
+}
+
+/// Bits of the coefficients of a piece.
+const BITS: u64 = 64;
+
+/// Bits with which a piece is looked at once more.
+const MORE_BITS: u64 = 256;
+
+/// A piece is short enough where so many terms leave out this part of each coefficient, a power of two.
+const TERMS: usize = 16;
+const LEFT_OUT: u64 = 36;
+
+/// Pieces that have been halved so often are given up: where a function has no value, and where roots touch the line.
+const MOST_HALVINGS: usize = 24;
+const MOST_HALVINGS_AT_ROOTS: usize = 6;
+
+/// Where a piece is cut; nothing is likely to happen there.
+const CUT: [i64; 2] = [509, 1024];
+
+const GUARD: u64 = 16;
+
+impl MovingLoop {
+    /// From the coefficient of `z^k s^j` at `[k][j]`, a polynomial in the parameter (0) and in symbols behind it, from what must not vanish, and from the dead
+    /// time and the decay, as [`FamilyLoop::new`] takes them.
+    ///
+    /// # Panics
+    /// When all coefficients are zero.
+    pub fn new(
+        coefficients: Vec<Vec<MultiPoly>>,
+        poles: Vec<MultiPoly>,
+        symbols: MovingSymbols,
+        tau: Line,
+        decay: Line,
+    ) -> MovingLoop {
+        MovingLoop { coefficients: trimmed(coefficients), poles, symbols, tau, decay }
+    }
+
+    /// The values of a range with both ends for which the loop is stable, or why there is none.
+    ///
+    /// Cost: that of [`family_cells`](super::family_cells) for each piece, with coefficients of degree 16 and more.
+    ///
+    /// # Errors
+    /// [`NotSolved`], as [`family_cells`](super::family_cells); [`NotSolved::Coincidence`] also where a function has no value.
+    pub fn stable_set(&self, range: &Range, budget: &Budget) -> Result<Result<StableSet, Never>, NotSolved> {
+        let (Some(lower), Some(upper)) = (&range.lower, &range.upper) else { return Err(NotSolved::Unbounded) };
+        if lower >= upper {
+            return Ok(Ok(StableSet::from_intervals(Vec::new(), Vec::new())));
+        }
+        let mut open = vec![(Share { lower: lower.clone(), length: upper - lower }, [0, 0])];
+        let (mut all, mut bounds) = (GainCells::constant(false), Vec::new());
+        all.right.clear();
+        while let Some((share, [long, rooted])) = open.pop() {
+            budget.check()?;
+            let family = budget.enter(|| self.on(&share, BITS))?;
+            let halved = if family.is_none() { [long + 1, rooted] } else { [long, rooted + 1] };
+            let found = match family {
+                Some(family) => share.cells(&family, budget)?.map(|cells| (family, cells)),
+                None => None,
+            };
+            let Some((family, cells)) = found else {
+                if halved[0] > MOST_HALVINGS || halved[1] > MOST_HALVINGS_AT_ROOTS {
+                    return Err(NotSolved::Coincidence);
+                }
+                open.extend(share.halves().map(|half| (half, halved)));
+                continue;
+            };
+            let cells = match cells {
+                Ok(cells) => cells,
+                Err(never) => return Ok(Err(never)),
+            };
+            for (at, value) in [(Rational::ZERO, lower), (Rational::ONE, upper)] {
+                if share.at(&at) == *value {
+                    let end = end_of_domain(&family, &at, budget)?;
+                    bounds.push(End { value: value.clone().into(), ..end });
+                }
+            }
+            all.points.extend(cells.points);
+            // The cell about a joint is one.
+            all.right.extend(cells.right.into_iter().skip(usize::from(!all.right.is_empty())));
+        }
+        self.cut_at_poles(&mut all, range, &mut bounds, budget)?;
+        let ends = all.points.iter().map(|point| end_at_point(point, budget)).collect();
+        let stable = all.right.iter().map(|count| *count == Some(0)).collect();
+        Ok(Ok(Counted { ends, stable, bounds }.stable_set(range, budget)?))
+    }
+
+    /// Poles that depend on the parameter alone; others vanish nowhere in a piece.
+    fn cut_at_poles(
+        &self,
+        cells: &mut GainCells,
+        range: &Range,
+        bounds: &mut [End],
+        budget: &Budget,
+    ) -> Result<(), NotSolved> {
+        let poles: Vec<UniPoly> = self.poles.iter().filter_map(|pole| pole.to_univariate(0)).collect();
+        for end in bounds {
+            let value = end.value.exact().expect("an end of the domain");
+            if poles.iter().any(|pole| pole.sign_at(&value).is_eq()) {
+                end.causes.insert(Cause::Pole);
+            }
+        }
+        cells.cut_at_poles(&poles, range, budget)?;
+        Ok(())
+    }
+
+    /// The loop in the share of a piece, its coefficients with so many bits; `None` where a function has no value, a divisor may vanish, or the piece is too long.
+    fn on(&self, share: &Share, bits: u64) -> Option<FamilyLoop> {
+        let (lo, hi) = (&share.lower, &share.at(&Rational::ONE));
+        let moving = self.poles.iter().filter(|pole| pole.to_univariate(0).is_none()).cloned().collect::<Vec<_>>();
+        let whole = self.symbols.enclose(&moving, &Ball::between(lo, hi, bits))?;
+        if whole.iter().any(Ball::contains_zero) {
+            return None;
+        }
+        let terms = self.terms(share, [TERMS, TERMS], LEFT_OUT)?;
+        Some(self.rounded(share, terms, bits))
+    }
+
+    /// The Taylor polynomials of the coefficients that are no polynomials in the parameter.
+    fn expanded(&self, share: &Share, terms: usize, bits: u64) -> Option<Vec<Vec<Ball>>> {
+        checkpoint(64 * (terms * terms) as u64);
+        let all = self.coefficients.iter().flatten().filter(|c| c.to_univariate(0).is_none());
+        let list: Vec<MultiPoly> = all.cloned().collect();
+        self.symbols.taylor_from_end(&list, &share.lower, &share.at(&Rational::ONE), terms, bits)
+    }
+
+    /// How many terms, so many at least and at most, leave out no more than such a part of each coefficient, a power of two.
+    fn terms(&self, share: &Share, [least, most]: [usize; 2], left_out: u64) -> Option<usize> {
+        let mut terms = least;
+        while terms <= most {
+            let found = self.expanded(share, terms, 2 * left_out)?;
+            let is_short = |list: &Vec<Ball>| {
+                let size = |ball: &Ball| ball.magnitude_units();
+                let (last, others) = list.split_last().expect("there is a rest");
+                size(last) << left_out <= others.iter().fold(Integer::ONE << left_out, |sum, c| sum + size(c))
+            };
+            if found.iter().all(is_short) {
+                return Some(terms);
+            }
+            terms += terms / 4;
+        }
+        None
+    }
+
+    /// The loop of enclosed coefficients, from which those with more bits are made.
+    fn rounded(&self, share: &Share, terms: usize, bits: u64) -> FamilyLoop {
+        let unit = share.lower.denominator().lcm(&share.length.denominator());
+        let plain = |c: &MultiPoly| c.to_univariate(0);
+        let degrees = self.coefficients.iter().flatten().filter_map(|c| plain(c)?.degree());
+        let unit = unit.pow(degrees.max().unwrap_or(0) as u64);
+        let working = bits + GUARD + unit.bit_length();
+        let expanded = self.expanded(share, terms, working).expect("fewer bits told as much");
+        let mut expanded = expanded.into_iter();
+        let mut one = |c: &MultiPoly| -> [UniPoly; 2] {
+            if let Some(c) = plain(c) {
+                let moved = share.moved(&c).into_iter().map(|c| (c * Rational::from(&unit)).numerator() << bits);
+                return [UniPoly::new(moved.collect()), UniPoly::zero()];
+            }
+            let number = |ball: &Ball| {
+                let ball = ball.scaled(&unit);
+                (ball.middle_units() >> (working - bits), (ball.width_units() >> (working - bits)) + Integer::from(2))
+            };
+            let (numbers, errors) = expanded.next().expect("as many").iter().map(number).unzip();
+            [UniPoly::new(numbers), UniPoly::new(errors)]
+        };
+        let both: Vec<Vec<[UniPoly; 2]>> =
+            self.coefficients.iter().map(|part| part.iter().map(&mut one).collect()).collect();
+        let [parts, errors] =
+            [0, 1].map(|i| both.iter().map(|part| part.iter().map(|c| c[i].clone()).collect()).collect());
+        let (own, of) = (self.clone(), share.clone());
+        let at = Arc::new(move |bits: u64| {
+            // As many bits for each term as at first, or at least one.
+            let [least, most] = [bits * TERMS as u64 / LEFT_OUT, bits + TERMS as u64].map(|terms| terms as usize);
+            let terms = own.terms(&of, [least.max(TERMS), most], bits).unwrap_or(most);
+            own.rounded(&of, terms, bits)
+        });
+        let [tau, decay] = [&self.tau, &self.decay].map(|line| share.line(line));
+        FamilyLoop { parts, enclosed: Some(Enclosed::new(errors, bits, at)), tau, decay, is_stretched: false }
+    }
+}
+
+/// A piece of the range.
+#[derive(Clone, Debug)]
+struct Share {
+    lower: Rational,
+    length: Rational,
+}
+
+impl Share {
+    fn at(&self, share: &Rational) -> Rational {
+        &self.lower + &(&self.length * share)
+    }
+
+    /// The upper half first.
+    fn halves(&self) -> [Share; 2] {
+        let part = Rational::new(CUT[0].into(), CUT[1].into());
+        let middle = self.at(&part);
+        let upper = Share { length: &self.length * &(Rational::ONE - &part), lower: middle };
+        [upper, Share { lower: self.lower.clone(), length: &self.length * &part }]
+    }
+
+    /// A line in the parameter as one in the share.
+    fn line(&self, line: &Line) -> Line {
+        Line { slope: &line.slope * &self.length, offset: line.at(&self.lower) }
+    }
+
+    /// A polynomial in the parameter as one in the share.
+    fn moved(&self, c: &UniPoly) -> Vec<Rational> {
+        let line = Poly::new(vec![self.lower.clone(), self.length.clone()]);
+        let zero = Poly::new(Vec::new());
+        let sum = c
+            .coeffs()
+            .iter()
+            .rev()
+            .fold(zero, |sum: Poly<Rational>, c| sum.times(&line).plus(&Poly::new(vec![Rational::from(c)])));
+        sum.into_coeffs()
+    }
+
+    /// The cells in the parameter; `None` where the piece is to be cut.
+    fn cells(&self, family: &FamilyLoop, budget: &Budget) -> Result<Option<Result<GainCells, Never>>, NotSolved> {
+        let range = Range::between(Some(Rational::ZERO), Some(Rational::ONE));
+        for bits in [BITS, MORE_BITS] {
+            match piece(&family.with_bits(bits), &range, budget) {
+                Err(NotSolved::Coincidence | NotSolved::Unbounded) => {}
+                Ok(Ok(mut cells)) => {
+                    for point in &mut cells.points {
+                        point.value = self.parameter(&point.value);
+                    }
+                    return Ok(Some(Ok(cells)));
+                }
+                found => return found.map(Some),
+            }
+        }
+        Ok(None)
+    }
+
+    /// The value of the parameter at a share.
+    fn parameter(&self, share: &Real) -> Real {
+        match share.exact() {
+            Some(share) => Real::from(self.at(&share)),
+            None => Real::from(Transcendental::new(AtShare { piece: self.clone(), share: share.clone() })),
+        }
+    }
+}
+
+/// The value of the parameter at a share of a piece.
+#[derive(Debug)]
+struct AtShare {
+    piece: Share,
+    share: Real,
+}
+
+impl Enclosing for AtShare {
+    fn enclose(&self, bits: u64, _known: Option<&Enclosure>) -> Enclosure {
+        let narrow = Rational::dyadic(&Integer::ONE, bits) / &self.piece.length;
+        let (lo, hi) = self.share.refined(&narrow).enclosure();
+        Enclosure::new(self.piece.at(&lo), self.piece.at(&hi))
+    }
+
+    fn origin(&self) -> Origin {
+        match &self.share {
+            Real::Transcendental(share) => share.origin(),
+            Real::Algebraic(_) => {
+                Origin::Function { function: "the characteristic function".into(), details: Vec::new() }
+            }
+        }
+    }
+}

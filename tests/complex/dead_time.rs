@@ -1,0 +1,115 @@
+//! Continuous loops with complex coefficients and dead time: limits, sides, roots, and what is refused.
+
+use crate::helpers::model::read;
+use crate::helpers::program::jurist_with_input;
+use jurist::Ask;
+use jurist_algebra::limits::Budget;
+use jurist_engine::error::{Code, Error};
+use jurist_engine::problem::Problem;
+use jurist_engine::stability::StableSet;
+
+/// A machine's current loop in the frame of the rotor, with the dead time of the inverter, in complex form.
+fn machine(speed: &str, turn: &str) -> String {
+    format!(
+        "time = 'continuous'\n[constants]\nR = 0.5\nL = 5e-3\nK_i = 1000\nw = {speed}\n[parameters]\n\
+         K_p = {{ nominal = 10, min = 0, max = 100 }}\nT_d = {{ nominal = 1.5e-4, min = 0, max = 1e-3 }}\n[loop]\ninputs = ['i_ref']\n\
+         outputs = ['i']\n[[block]]\ninput = 'i_ref - i'\noutput = 'u'\ntransfer = 'K_p + K_i/s'\n[[block]]\ninput = 'u'\noutput = 'i'\n\
+         transfer = '{turn}exp(-T_d*s)/(L*s + R + j*w*L)'\n"
+    )
+}
+
+/// The same with two real signals for each complex one; the turn is a rotation by minus nine hundredths of a radian.
+fn in_real_form(speed: &str, is_turned: bool) -> String {
+    let command = match is_turned {
+        true => ["cos(0.09)*v_d + sin(0.09)*v_q", "cos(0.09)*v_q - sin(0.09)*v_d"],
+        false => ["v_d", "v_q"],
+    };
+    let axis = |axis: &str| {
+        format!(
+            "[[block]]\ninput = 'r_{axis} - i_{axis}'\noutput = 'v_{axis}'\ntransfer = 'K_p + K_i/s'\n[[block]]\ninput = 'c_{axis}'\n\
+             output = 'u_{axis}'\ntransfer = 'exp(-T_d*s)'\n"
+        )
+    };
+    format!(
+        "time = 'continuous'\n[constants]\nR = 0.5\nL = 5e-3\nK_i = 1000\nw = {speed}\n[parameters]\n\
+         K_p = {{ nominal = 10, min = 0, max = 100 }}\nT_d = {{ nominal = 1.5e-4, min = 0, max = 1e-3 }}\n[loop]\ninputs = ['r_d', 'r_q']\n\
+         outputs = ['i_d', 'i_q']\n{}{}[[block]]\ninput = '{}'\noutput = 'c_d'\ngain = 1\n[[block]]\ninput = '{}'\noutput = 'c_q'\ngain = 1\n\
+         [[block]]\ninput = ['u_d', 'u_q']\noutput = ['i_d', 'i_q']\nA = [['-R/L', 'w'], ['-w', '-R/L']]\nB = [['1/L', 0], [0, '1/L']]\n",
+        axis("d"),
+        axis("q"),
+        command[0],
+        command[1]
+    )
+}
+
+fn set(text: &str, name: &str) -> (StableSet, std::sync::Arc<Problem>) {
+    let answer = read(text).ask().free(name).stable_set(&Budget::unlimited()).unwrap_or_else(|e| panic!("{e}\n{text}"));
+    (answer.value().clone(), answer.problem().clone())
+}
+
+fn limits(text: &str, name: &str) -> Vec<String> {
+    let (set, _) = set(text, name);
+    assert!(set.undecided().is_empty(), "{text}");
+    set.intervals().iter().flat_map(|i| [&i.lower, &i.upper]).flatten().map(|end| end.value.decimal(25)).collect()
+}
+
+#[test]
+fn limits_of_the_real_form() {
+    for (speed, turn) in [("600", ""), ("-2500", ""), ("600", "exp(-0.09*j)*")] {
+        let complex = limits(&machine(speed, turn), "K_p");
+        assert_eq!(complex.len(), 2, "{speed} {turn}");
+        assert_eq!(complex, limits(&in_real_form(speed, !turn.is_empty()), "K_p"), "{speed} {turn}");
+    }
+    assert_eq!(limits(&machine("600", ""), "T_d"), limits(&in_real_form("600", false), "T_d"));
+}
+
+/// Against the turn of the frame, and of the mirrored loop on the other side.
+#[test]
+fn the_side_of_a_root_with_dead_time() {
+    let frequency = |speed: &str, turn: &str| {
+        let (set, problem) = set(&machine(speed, turn), "K_p");
+        let end = set.intervals()[0].upper.as_ref().unwrap();
+        let place = problem.frequency(end, 60).unwrap().radians_per_second.unwrap();
+        (end.causes.to_string(), place.decimal(7).unwrap())
+    };
+    assert_eq!(frequency("600", ""), ("complex root".into(), "-10526.37".into()));
+    assert_eq!(frequency("-600", ""), ("complex root".into(), "10526.37".into()));
+    assert_eq!(frequency("600", "exp(-0.09*j)*"), ("complex root".into(), "9922.560".into()));
+}
+
+/// Newton's method in floating point, from other places: the rightmost roots, one by one.
+#[test]
+fn the_rightmost_roots_of_a_complex_loop() {
+    let mut printed = jurist_with_input(&["roots", "-"], machine("600", "").as_bytes()).stdout;
+    for root in
+        ["-91.0072988589 + 28.1071518868 j", "-3176.21257167 - 1187.73099402 j", "-22074.9074766 + 49597.7547495 j"]
+    {
+        assert!(printed.contains(root), "{root}\n{printed}");
+    }
+    assert!(!printed.contains("+-") && !printed.contains("a pair"), "{printed}");
+    printed = jurist_with_input(&["roots", "-"], machine("600", "exp(-0.09*j)*").as_bytes()).stdout;
+    for root in
+        ["-93.2580421271 + 29.6200605739 j", "-3269.74070401 - 635.674951218 j", "-22001.6803706 + 48975.1881104 j"]
+    {
+        assert!(printed.contains(root), "{root}\n{printed}");
+    }
+    // A factor with real coefficients has pairs, each of them once.
+    let factors = "time = 'continuous'\n[loop]\ncharacteristic = '(s + 1/2*exp(-s))*(s + 1 + j + exp(-s)/4)'\n";
+    let real = "time = 'continuous'\n[loop]\ncharacteristic = 's + 1/2*exp(-s)'\n";
+    let [both, real] = [factors, real].map(|text| jurist_with_input(&["roots", "-"], text.as_bytes()).stdout);
+    let pair = real.lines().find(|line| line.contains("+-")).unwrap().trim();
+    let pair: Vec<&str> = pair.split("  ").collect();
+    assert_eq!(both.matches(pair[0]).count(), 1, "{both}\n{real}");
+    assert!(!both.contains("twice") && !both.contains("2 times"), "{both}");
+}
+
+/// Both checkers prove intervals, tolerances and maps by boxes; a verdict has no certificate.
+#[test]
+fn a_verdict_with_dead_time_has_no_certificate() {
+    let budget = Budget::unlimited();
+    let verdict = read(&machine("600", "")).ask().verdict(&budget).unwrap();
+    match verdict.certificate(&budget) {
+        Err(Error::Refused(found)) => assert_eq!(found.diagnostics()[0].code, Code::NoCertificate),
+        other => panic!("{other:?}"),
+    }
+}
