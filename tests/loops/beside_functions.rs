@@ -92,7 +92,7 @@ fn agree(function: &str, inner: &Inner) {
 #[test]
 fn the_set_is_that_of_the_values_of_the_function() {
     let mut random = Random::new(20_261_129);
-    for i in 0..count(4, 120) {
+    for i in 0..count(4, 40) {
         let function = random_function(&mut random);
         agree(&function, &INNER[i as usize % INNER.len()]);
     }
