@@ -106,7 +106,7 @@ impl Pair {
     /// The disc of those roots of `D` that are roots of `D conj(D)` in it; `None` where it does not show which.
     fn of_product(self) -> Option<RootDisc> {
         match (self.may_hold, self.disc.count) {
-            ([false, false], count) => (count % 2 == 0).then(|| RootDisc { count: count / 2, ..self.disc }),
+            ([false, false], count) => (count % 2 == 0).then_some(RootDisc { count: count / 2, ..self.disc }),
             // No root of `g` is there, too: it would be counted twice.
             (_, 1) => self.one(),
             _ => None,
