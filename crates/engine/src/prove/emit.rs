@@ -93,9 +93,9 @@ impl Answer<StableSet> {
 /// The characteristic function of a loop with dead time, where its coefficients are rational.
 fn exact_delayed<'p>(problem: &'p Problem, budget: &Budget) -> Result<Option<&'p DelayedLoop>, Error> {
     match problem.delayed(budget)? {
-        Some(delayed) if !delayed.is_exact() => {
-            Err(no_certificate("no certificate: beside dead time constants that are not rational are proved by boxes alone"))
-        }
+        Some(delayed) if !delayed.is_exact() => Err(no_certificate(
+            "no certificate: beside dead time constants that are not rational are proved by boxes alone",
+        )),
         delayed => Ok(delayed),
     }
 }
