@@ -3003,7 +3003,7 @@ class OverBoxes:
                 e, first = e >> FIELD, first + 1
             return out
 
-        powers = [product(e, 0) or tables[0][0] for e in self.powers]
+        powers = [product(e, 0) or models.units(models.one) for e in self.powers]
         monomials = [product(e, models.names) for e in self.monomials]
         found = []
         for row in self.rows:
