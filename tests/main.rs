@@ -133,6 +133,7 @@ mod tolerances {
 /// Certificates: true ones are accepted by both checkers, wrong ones by none.
 mod certificates {
     mod attacks;
+    mod beside_constants;
     mod blocks;
     mod boxes;
     mod boxes_held;

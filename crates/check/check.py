@@ -2902,6 +2902,9 @@ class Moving:
             if name == "prewarp":
                 known.append(self.factor(f, *others, models))
                 continue
+            if name == "delay":  # no number: polynomials are sorted by it before they have values
+                known.append(models.units(0))
+                continue
             if name == "pi":
                 known.append(models.pi())
             elif name == "sqrt":
@@ -3000,7 +3003,7 @@ class OverBoxes:
                 e, first = e >> FIELD, first + 1
             return out
 
-        powers = [product(e, 0) or tables[0][0] for e in self.powers]
+        powers = [product(e, 0) or models.units(models.one) for e in self.powers]
         monomials = [product(e, models.names) for e in self.monomials]
         found = []
         for row in self.rows:
@@ -3524,19 +3527,24 @@ class JudgeOfDelays:
     """Whether boxes are stable everywhere, or nowhere. What is known of one is the way along the axis."""
 
     def __init__(self, own, divisors, positive, sources, sides, models):
-        need(all(name == "delay" for name, *_ in sources.sources), "beside dead time the loop has other functions")
-        n, self.models, names, behind_names = len(own) - 1, models, models.names, (2 + models.names) * FIELD
-        self.times = [self.time(*f, names) for _, f in sources.sources]
+        need(all(name in ("delay", "pi", *sources.functions) for name, *_ in sources.sources), "beside dead time the loop has other functions")
+        n, self.models, names = len(own) - 1, models, models.names
+        delays = [(v, *of) for v, (name, *of) in enumerate(sources.sources, 2 + names) if name == "delay"]
+        self.times, places = [self.time(*f, names) for _, f in delays], [v for v, _ in delays]
+        is_delayed = lambda p: any(p.degree(v) for v in places)
+        inside = (p for _, f, *_ in sources.sources for p in f or ())
+        need(not any(map(is_delayed, inside)), "a function of the loop's variable")
         self.n, self.turns = n, Turns(models.bits)
         divisors = divisors[:-1] if sources.has_lead_last else divisors  # it is looked at where the highest power is to outweigh the rest
-        need(not any(e >> behind_names for ways in divisors for p in ways for e in p), "a divisor depends on the dead time")
+        need(not any(is_delayed(p) for ways in divisors for p in ways), "a divisor depends on the dead time")
         parts = {}
         for j, p in enumerate(cleared(own)):
             for e, c in p.items():
-                total, behind = (Fraction(0),) * (names + 1), e >> behind_names
-                for time in self.times:
-                    total, behind = tuple(x + (behind & MASK) * y for x, y in zip(total, time)), behind >> FIELD
-                part, e = parts.setdefault(total, [P() for _ in own]), e & (1 << behind_names) - 1
+                total = (Fraction(0),) * (names + 1)
+                for v, time in zip(places, self.times):
+                    k = e >> FIELD * v & MASK
+                    total, e = tuple(x + k * y for x, y in zip(total, time)), e - (k << FIELD * v)
+                part = parts.setdefault(total, [P() for _ in own])
                 part[j] = part[j] + P({e: c})
         parts = sorted((time, part) for time, part in parts.items() if any(part))
         leads = [k for k, (_, part) in enumerate(parts) if part[n]]
@@ -3558,7 +3566,7 @@ class JudgeOfDelays:
         for ways in self.separated:
             self.divisors.append(range(len(functions), len(functions) + len(ways)))
             functions += ways
-        self.functions = OverBoxes(functions, Moving(), models)
+        self.functions = OverBoxes(functions, sources, models)
 
     @staticmethod
     def time(top, bottom, names):
@@ -3599,6 +3607,8 @@ class JudgeOfDelays:
         if any(least < 0 for least, _ in times + delays):
             return None, None
         n, functions = self.n, self.functions.at(sides)
+        if functions is None:
+            return None, None
         parts = [functions[k * (n + 1):(k + 1) * (n + 1)] for k in range(len(delays))]
         top, sign = parts[0][n], sign_of(parts[0][n])
         if not sign:
@@ -4000,7 +4010,7 @@ def check_for_all(model, document, statement, values, discrete, extent):
     axes, for_all, require = ranges_of(axes), ranges_of(for_all), items(require, lambda item: Cut(item, discrete))
     need(len(axes) <= 2 and all(low < high for low, high in axes.values()), "the window is empty, or has more than two axes")
     need(not set(axes) & set(for_all), "a name has two ranges")
-    need(len(require) <= 9 and (axes or for_all or require), "there is nothing that has a range, or more than nine requirements")
+    need(len(require) <= 9, "there are more than nine requirements")
     need(len(axes) + len(for_all) + max((cut.names for cut in require), default=0) <= 8, "there are too many names")
     need(not require or extent == (1 if discrete else 0), "a region of its own has no requirements beside")
     several = has_several_rates(model)

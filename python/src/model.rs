@@ -239,7 +239,7 @@ impl Answered {
             Kind::Stable(answer) => {
                 jurist::certified::certify_intervals(answer, budget).map(|certified| certified.text)
             }
-            Kind::Verdict(answer) => answer.certificate(budget),
+            Kind::Verdict(answer) => jurist::certified::certify_verdict(answer, budget),
         })
     }
 

@@ -4,6 +4,7 @@ use super::search::{Judge, Search};
 use jurist_algebra::limits::{Budget, checkpoint};
 use jurist_algebra::number::Rational;
 use jurist_check::{ForAllJudge, JudgedBox, Limits, Part};
+use jurist_engine::answer::{Answer, PointVerdict, Verdict};
 use jurist_engine::error::{Code, Diagnostic, Error};
 use jurist_engine::problem::Problem;
 use jurist_engine::prove::ForAllClaim;
@@ -324,6 +325,36 @@ pub fn certify_requirements(
         ForAllClaim::new(Vec::new(), Vec::new()).with_requirements(requirements.to_vec(), at.map(str::to_owned));
     let (tree, precision) = leaf(problem, &claim, met, budget)?;
     problem.for_all_certificate(&claim, &tree, precision, budget)
+}
+
+/// A certificate of a verdict: an exact one, or that of a box of one point.
+///
+/// Cost: that of [`Answer::certificate`], else that of one box.
+///
+/// ```standalone_crate
+/// use jurist::certified::certify_verdict;
+/// use jurist::{Ask, Budget, Limits, Model, Source, check};
+/// let text = "time = 'continuous'\nloop.characteristic = 's + pi/4 + sqrt(2)*exp(-s)'\n";
+/// let (model, _) = Model::from_toml(&Source::new("loop.toml", text))?;
+/// let certificate = certify_verdict(&model.ask().verdict(&Budget::unlimited())?, &Budget::unlimited())?;
+/// assert_eq!(check(text, &certificate, &Limits::default()).unwrap().statement, "The loop is stable.");
+/// # Ok::<(), jurist::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Stopped`] when the budget runs out; [`Error::Refused`] (`E-no-certificate`) where there is neither.
+pub fn certify_verdict(answer: &Answer<PointVerdict>, budget: &Budget) -> Result<String, Error> {
+    let (problem, verdict) = (answer.problem(), answer.value().verdict);
+    let is_told = matches!(verdict, Verdict::Stable | Verdict::Unstable) && problem.model().is_read_by_boxes();
+    match answer.certificate(budget) {
+        Err(Error::Refused(why)) if why.code() == Code::NoCertificate && is_told => {
+            match certify_requirements(problem, &[], None, verdict == Verdict::Stable, budget) {
+                Err(Error::Refused(_)) => Err(Error::Refused(why)),
+                found => found,
+            }
+        }
+        found => found,
+    }
 }
 
 /// Boxes of one or two axes as an answer decides them.

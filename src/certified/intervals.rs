@@ -113,7 +113,12 @@ fn by_boxes(answer: &Answer<StableSet>, budget: &Budget) -> Result<Option<Certif
     };
     let Some((plane, window, judge)) = others(problem).into_iter().take(MOST_OTHERS).find_map(beside).transpose()?
     else {
-        return Ok(None);
+        // The parameter is the only name that has a value.
+        return match by_pieces(problem, (&set, ends), ForAllClaim::new(Vec::new(), Vec::new()), LEFT_BITS, budget) {
+            Ok(found) => Ok(Some(found).filter(|found| !found.proved.is_zero())),
+            Err(Error::Refused(_)) => Ok(None),
+            Err(other) => Err(other),
+        };
     };
     let pieces = set.pieces(&ends);
     let goal = Rational::dyadic(&1.into(), LEFT_BITS);
@@ -164,12 +169,24 @@ pub fn certify_required_intervals(
         _ if answer.value().for_all.is_empty() => window(problem, &set),
         _ => looked_at(problem, &set),
     };
-    let axis = AllOf::new(&problem.parameter().name, ends[0].clone(), ends[1].clone()).expect("a window is not empty");
-    let claim = ForAllClaim::new(vec![axis], answer.value().for_all.clone())
+    let claim = ForAllClaim::new(Vec::new(), answer.value().for_all.clone())
         .with_requirements(requirements.to_vec(), at.map(str::to_owned));
-    let (boxes, whole) = (set.pieces(&ends), over(ends.clone()));
-    let goal = Rational::dyadic(&1.into(), LEFT_BITS_OF_REQUIREMENTS);
-    let asked = Asked { problem, claim: &claim, boxes: &boxes, window: &whole, goal, most_work: MOST_WORK };
+    by_pieces(problem, (&set, ends), claim, LEFT_BITS_OF_REQUIREMENTS, budget)
+}
+
+/// That a claim holds, or does not, for the parameter in pieces of a window.
+fn by_pieces(
+    problem: &Problem,
+    (set, ends): (&LineSet<'_>, [Rational; 2]),
+    mut claim: ForAllClaim,
+    left: u64,
+    budget: &Budget,
+) -> Result<CertifiedIntervals, Error> {
+    let axis = AllOf::new(&problem.parameter().name, ends[0].clone(), ends[1].clone());
+    claim.axes = vec![axis.expect("a window is not empty")];
+    let (boxes, window) = (set.pieces(&ends), over(ends.clone()));
+    let goal = Rational::dyadic(&1.into(), left);
+    let asked = Asked { problem, claim: &claim, boxes: &boxes, window: &window, goal, most_work: MOST_WORK };
     let (text, [good, not]) = asked.certified(budget)?;
     Ok(CertifiedIntervals { text, window: Some(ends), proved: good + not })
 }

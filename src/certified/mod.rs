@@ -13,7 +13,7 @@ mod tuned;
 pub use boxes::{CertifiedBoxes, certify_boxes};
 #[cfg(feature = "commands")]
 pub(crate) use boxes::{judge, refuse_required};
-pub use for_all::certify_requirements;
+pub use for_all::{certify_requirements, certify_verdict};
 pub use intervals::{CertifiedIntervals, certify_intervals, certify_required_intervals};
 pub use tolerance::{CertifiedTolerance, certify_tolerance};
 #[cfg(feature = "commands")]

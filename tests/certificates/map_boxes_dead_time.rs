@@ -148,7 +148,9 @@ fn another_statement_or_model_is_rejected() {
         (Step::Model, "s + a*exp(-b*s)*exp(s)"),
         (Step::Model, "s + a*exp(-b*s^2)"),
         (Step::Model, "s + a*exp(1 - b*s)"),
-        (Step::Model, "s + sqrt(a)*exp(-b*s)"),
+        (Step::Model, "s + sqrt(a)*exp(-sqrt(b)*s)"),
+        (Step::Model, "s + a*exp(-b*s)*sqrt(2 + exp(-b*s))"),
+        (Step::Stable, "s + sqrt(a - 1)*exp(-b*s)"),
         (Step::Model, "s + a*exp(-b*s)/(2 + exp(-b*s))"),
         // The highest power is delayed alone; or there is none.
         (Step::Stable, "s*exp(-b*s) + a"),

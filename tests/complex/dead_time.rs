@@ -2,9 +2,9 @@
 
 use crate::helpers::model::read;
 use crate::helpers::program::jurist_with_input;
-use jurist::Ask;
+use jurist::certified::certify_verdict;
+use jurist::{Ask, Limits, check};
 use jurist_algebra::limits::Budget;
-use jurist_engine::error::{Code, Error};
 use jurist_engine::problem::Problem;
 use jurist_engine::stability::StableSet;
 
@@ -103,13 +103,14 @@ fn the_rightmost_roots_of_a_complex_loop() {
     assert!(!both.contains("twice") && !both.contains("2 times"), "{both}");
 }
 
-/// Both checkers prove intervals, tolerances and maps by boxes; a verdict has no certificate.
+/// By boxes: a verdict is a box of one point.
 #[test]
-fn a_verdict_with_dead_time_has_no_certificate() {
-    let budget = Budget::unlimited();
-    let verdict = read(&machine("600", "")).ask().verdict(&budget).unwrap();
-    match verdict.certificate(&budget) {
-        Err(Error::Refused(found)) => assert_eq!(found.diagnostics()[0].code, Code::NoCertificate),
-        other => panic!("{other:?}"),
-    }
+fn complex_loops_with_dead_time_are_certified() {
+    let (text, budget) = (machine("600", ""), Budget::unlimited());
+    let model = read(&text);
+    let verdict = certify_verdict(&model.ask().verdict(&budget).unwrap(), &budget).unwrap();
+    assert_eq!(check(&text, &verdict, &Limits::default()).unwrap().statement, "The loop is stable.");
+    // Another dead time is another loop.
+    let other = text.replace("1.5e-4", "9.5e-4");
+    assert!(check(&other, &verdict, &Limits::default()).is_err());
 }

@@ -233,13 +233,25 @@ impl Sources {
         self.functions.iter().any(|source| matches!(source, Source::Delay(_)))
     }
 
-    /// The dead times that the variables stand for, as numerators and denominators.
-    pub fn dead_times(&self) -> Result<Vec<(&Multi, &Multi)>, String> {
-        let time = |source| match source {
-            &Source::Delay(Quotient(ref top, ref below)) => Ok((top, below)),
-            _ => Err("beside dead time the loop has other functions".to_owned()),
+    /// The dead times that variables stand for: the place of each among all variables, numerator and denominator. What else there is depends on none.
+    pub fn dead_times(&self) -> Result<Vec<(usize, &Multi, &Multi)>, String> {
+        let is_single = |source| matches!(source, &Source::Pi | &Source::Of(..) | &Source::Delay(_));
+        if !self.numbers.is_empty() || !self.functions.iter().all(is_single) {
+            return Err("beside dead time the loop has several rates, or a hold".to_owned());
+        }
+        let time = |(place, source)| match source {
+            &Source::Delay(Quotient(ref top, ref below)) => Some((place, top, below)),
+            _ => None,
         };
-        self.functions.iter().map(time).collect()
+        Ok(self.functions.iter().enumerate().filter_map(time).collect())
+    }
+
+    /// Whether a function is one of what has these variables in it.
+    pub fn are_inside(&self, variables: &[usize]) -> bool {
+        self.functions.iter().any(|source| match source {
+            Source::Of(_, Quotient(top, below)) => variables.iter().any(|&v| top.degree(v) + below.degree(v) > 0),
+            _ => false,
+        })
     }
 
     /// The parameters and all the other variables over a box.
@@ -249,7 +261,8 @@ impl Sources {
             let new = match source {
                 Source::Pi => vec![pi(p)],
                 Source::Of(function, f) => vec![function.at(f.over(&known, p, clock)?, p, clock)?],
-                Source::Delay(_) => return Err("internal: a dead time is no number".into()),
+                // No number: polynomials are sorted by it before they have values.
+                Source::Delay(_) => vec![Taylor::zero()],
                 Source::Prewarp { frequency, time } => {
                     let (w, time) = (frequency.over(&known, p, clock)?, time.over(&known, p, clock)?);
                     vec![prewarped(&w, &time, p, clock)?]

@@ -2,7 +2,7 @@
 
 use super::map::ranges;
 use super::{Context, Runs};
-use crate::certified::certify_intervals;
+use crate::certified::{certify_intervals, certify_verdict};
 use crate::cli::arguments::{DEFAULT_DIGITS, ModelOptions, RegionOptions, RunOptions};
 use crate::cli::destinations::Files;
 use crate::cli::input::{load, question};
@@ -70,6 +70,7 @@ impl Runs for Options {
             file: name.as_deref(),
             at: self.at.as_deref(),
             certify: Some(&certifier),
+            certify_verdict: Some(&certify_verdict),
             check: Some(&checker),
             for_all: &for_all,
             best: model.tuning().is_some().then_some(&best),

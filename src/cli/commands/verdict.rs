@@ -1,7 +1,7 @@
 //! `jurist verdict`: one point.
 
 use super::{Context, Runs, decided};
-use crate::certified::certify_requirements;
+use crate::certified::{certify_requirements, certify_verdict};
 use crate::cli::arguments::DecisionOptions;
 use crate::cli::destinations::Files;
 use crate::cli::input::decision;
@@ -78,7 +78,7 @@ impl Runs for Options {
         let model = &problem.model().source().text;
         let good = found.iter().all(|r| r.met) && answer.value().verdict == Verdict::Stable;
         certify(context, &output.run, model, &self.certificate, || match asked.list.as_slice() {
-            [] => answer.certificate(&context.budget),
+            [] => certify_verdict(&answer, &context.budget),
             list => certify_requirements(&problem, list, asked.at.as_deref(), good, &context.budget),
         })?;
         Ok(if good { Status::Holds } else { Status::DoesNotHold })

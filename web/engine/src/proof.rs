@@ -3,7 +3,7 @@
 use crate::model::problem;
 use crate::reply::Reply;
 use crate::told::budget;
-use jurist::certified::certify_intervals;
+use jurist::certified::{certify_intervals, certify_verdict};
 use jurist::{Error, Limits};
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -26,7 +26,7 @@ pub(crate) fn certificate(request: &CertificateRequest) -> Result<Value, Error> 
             let answer = problem(&request.model, &request.set, &[name])?.stable_set(&budget)?;
             certify_intervals(&answer, &budget)?.text
         }
-        None => problem(&request.model, &request.set, &[])?.verdict(&budget)?.certificate(&budget)?,
+        None => certify_verdict(&problem(&request.model, &request.set, &[])?.verdict(&budget)?, &budget)?,
     };
     Ok(json!({ "certificate": certificate }))
 }

@@ -72,9 +72,6 @@ impl Loops {
             return Err("there are more than two axes, or more than nine requirements".into());
         }
         let count = axes.len() + for_all.len();
-        if count == 0 && require.is_empty() {
-            return Err("nothing is asked for all values".into());
-        }
         if count + require.iter().map(Requirement::names).max().unwrap_or(0) > MAX_NAMES {
             return Err(format!("there are more than {MAX_NAMES} names"));
         }

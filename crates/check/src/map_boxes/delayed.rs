@@ -50,6 +50,7 @@ pub(super) struct Delayed {
     scale: i64,
     order: usize,
     times: Vec<Time>,
+    sources: Sources,
     /// The coefficients of all parts, then lists of divisors.
     functions: Functions,
     divisors: Vec<Range<usize>>,
@@ -102,7 +103,7 @@ impl Known {
 }
 
 impl Delayed {
-    pub fn new(own: OverBox, sources: &Sources, of: &Question, parts: &Parts, clock: &Clock) -> Result<Self, String> {
+    pub fn new(own: OverBox, sources: Sources, of: &Question, parts: &Parts, clock: &Clock) -> Result<Self, String> {
         if own.discrete || of.extent != Extent::Number(Q::zero()) {
             return Err("a loop with dead time is not continuous, or its boundary is not the imaginary axis".into());
         }
@@ -112,7 +113,7 @@ impl Delayed {
         let parameters = of.window.len();
         let own = own.doubled(clock)?;
         let positive = own.positive.clone();
-        let terms = Terms::new(own, sources, parameters, clock)?;
+        let terms = Terms::new(own, &sources, parameters, clock)?;
         let farthest: Vec<Q> = of.window.iter().map(|[low, high]| low.abs().max(high.abs())).collect();
         let scale = terms.scale(&farthest);
         if scale.abs() > MOST_SCALE {
@@ -139,6 +140,7 @@ impl Delayed {
             scale,
             order,
             times: terms.times,
+            sources,
             functions: Functions::new(&all, parameters),
             divisors,
             divides_by_factor,
@@ -174,9 +176,11 @@ impl Delayed {
         }
         clock.tick()?;
         let p = &self.precision;
-        let parameters: Vec<Taylor> =
-            sides.iter().enumerate().map(|(i, side)| Taylor::coordinate(side, i, p)).collect();
-        let functions = self.functions.at(&parameters, p, clock)?;
+        let parameters = sides.iter().enumerate().map(|(i, side)| Taylor::coordinate(side, i, p)).collect();
+        let functions = self.sources.values(parameters, p, clock).and_then(|v| self.functions.at(&v, p, clock));
+        clock.tick()?;
+        // A box may be too wide for a series; then it is not shown.
+        let Ok(functions) = functions else { return Ok(None) };
         let count = (self.order + 1) * self.delays.len();
         let coefficients: Vec<&[Taylor]> = functions[..count].chunks(self.order + 1).collect();
         let top = &coefficients[0][self.order];

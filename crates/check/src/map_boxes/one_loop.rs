@@ -88,7 +88,7 @@ impl OneLoop {
         };
         let is_complex = own.is_complex;
         let kind = if sources.have_dead_time() {
-            Delayed::new(own, &sources, of, parts, clock).map(Kind::Delayed)
+            Delayed::new(own, sources, of, parts, clock).map(Kind::Delayed)
         } else {
             Polynomial::new(own, sources, of, parts, clock).map(Kind::Polynomial)
         };

@@ -69,8 +69,11 @@ pub(super) fn section(
     }
     let mut listed = Listed::new(commands, request);
     if let Ok(answer) = verdict {
-        let text = parts
-            .part("certificate of the verdict", Work::Units(WORK), |budget| Ok((answer.certificate(budget)?, None)));
+        let text =
+            parts.part("certificate of the verdict", Work::Units(WORK), |budget| match request.certify_verdict {
+                Some(certify) => Ok((certify(answer, budget)?, None)),
+                None => Ok((answer.certificate(budget)?, None)),
+            });
         let file = "verdict.json".to_owned();
         let line = commands.line("verdict", &[alone(is_required), &["--certificate", &file]].concat());
         listed.add("the verdict".to_owned(), file, line, text);

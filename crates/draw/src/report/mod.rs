@@ -25,7 +25,7 @@ pub use model::{comment_at, entries};
 use crate::page::{Section, math, paragraph, report_page};
 use certificates::Commands;
 use jurist_algebra::limits::{Budget, Exhausted, join, parallel_map};
-use jurist_engine::answer::Answer;
+use jurist_engine::answer::{Answer, PointVerdict};
 use jurist_engine::error::Error;
 use jurist_engine::problem::Question;
 use jurist_engine::response::AllOf;
@@ -38,6 +38,9 @@ pub type Checker<'a> = &'a (dyn Fn(&str) -> Result<(), String> + Sync);
 
 /// Writes the certificate of the limits of one parameter, and how much it says where that is not everything.
 pub type Certifier<'a> = &'a (dyn Fn(&Answer<StableSet>, &Budget) -> Result<(String, Option<String>), Error> + Sync);
+
+/// Writes the certificate of the verdict.
+pub type VerdictCertifier<'a> = &'a (dyn Fn(&Answer<PointVerdict>, &Budget) -> Result<String, Error> + Sync);
 
 /// The best gains of the model's section `[tune]` in words.
 pub type BestGains<'a> = &'a (dyn Fn(&Budget) -> Result<String, Error> + Sync);
@@ -57,6 +60,8 @@ pub struct ReportRequest<'a> {
     pub at: Option<&'a str>,
     /// Writes the certificates of limits; `None` for [`Answer::certificate`].
     pub certify: Option<Certifier<'a>>,
+    /// Writes the certificate of the verdict; `None` for [`Answer::certificate`].
+    pub certify_verdict: Option<VerdictCertifier<'a>>,
     /// The independent check of certificates.
     pub check: Option<Checker<'a>>,
     /// Names with ranges: what holds for all of these values has a section of its own.

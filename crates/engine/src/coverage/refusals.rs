@@ -137,11 +137,6 @@ pub(crate) static WIDE_DISK: Refusal = Refusal::new(
     "no certificate of '{asked}': the checkers know disk margins below 2, whose factors fill a disc; from 2 on they fill a half plane",
     "the answer is printed without '--certificate'",
 );
-pub(crate) static CERTIFIED_BESIDE: Refusal = Refusal::new(
-    Code::NoCertificate,
-    "no certificate of this map by boxes: {why}",
-    "the checkers read the model themselves; the answer is printed without '--certificate'",
-);
 pub(crate) static MAP_OF_CONSTANTS: Refusal = Refusal::new(
     Code::NoCertificate,
     "no certificate of a map: the loop has constants that are not rational",

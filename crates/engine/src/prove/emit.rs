@@ -8,7 +8,6 @@ use super::text::to_text;
 use super::{dead_time, enclosed, gain, held};
 use super::{no_certificate, refuse_transcendental};
 use crate::answer::{Answer, PointVerdict};
-use crate::coverage::refusals::BESIDE_DEAD_TIME;
 use crate::error::Error;
 use crate::problem::{DelayedLoop, Problem};
 use crate::stability::{ParametricPolynomial, Shape, StableSet};
@@ -94,7 +93,9 @@ impl Answer<StableSet> {
 /// The characteristic function of a loop with dead time, where its coefficients are rational.
 fn exact_delayed<'p>(problem: &'p Problem, budget: &Budget) -> Result<Option<&'p DelayedLoop>, Error> {
     match problem.delayed(budget)? {
-        Some(delayed) if !delayed.is_exact() => Err(BESIDE_DEAD_TIME.diagnostic(&[]).into()),
+        Some(delayed) if !delayed.is_exact() => Err(no_certificate(
+            "no certificate: beside dead time constants that are not rational are proved by boxes alone",
+        )),
         Some(_) if problem.is_complex() => {
             Err(no_certificate("no certificate: with dead time complex coefficients are proved by boxes alone"))
         }

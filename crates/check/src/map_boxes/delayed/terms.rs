@@ -86,7 +86,7 @@ pub(crate) fn is_long(q: &Q) -> bool {
     q.numer().bits().max(q.denom().bits()) > MAX_BITS
 }
 
-/// `sum P_k(s) exp(-tau_k s)` with polynomials in `s` and the parameters, `tau_0 = 0`.
+/// `sum P_k(s) exp(-tau_k s)` with polynomials in `s`, the parameters and the functions of them, `tau_0 = 0`.
 pub(super) struct Terms {
     /// The coefficients of `s^0, ..., s^n` for each dead time, that of zero first.
     pub terms: Vec<(Time, Vec<Multi>)>,
@@ -99,10 +99,18 @@ pub(super) struct Terms {
 impl Terms {
     /// Of a box of so many parameters.
     pub fn new(own: OverBox, sources: &Sources, parameters: usize, clock: &Clock) -> Result<Self, String> {
-        let times = sources.dead_times()?.into_iter();
-        let times = times.map(|time| Time::of(time, parameters)).collect::<Result<Vec<_>, _>>()?;
+        let first = FIRST + parameters;
+        let mut places = Vec::new();
+        let mut times = Vec::new();
+        for (place, top, below) in sources.dead_times()? {
+            times.push(Time::of((top, below), parameters)?);
+            places.push(first + place);
+        }
+        if sources.are_inside(&places) {
+            return Err("a function of the loop's variable".into());
+        }
         let n = own.coefficients.len() - 1;
-        let is_delayed = |p: &Multi| p.0.keys().any(|e| e.len() > FIRST + parameters);
+        let is_delayed = |p: &Multi| places.iter().any(|place| p.degree(*place) > 0);
         let mut divisors = own.divisors;
         if own.has_lead_last {
             // It is looked at where the highest power is to outweigh the rest.
@@ -113,13 +121,14 @@ impl Terms {
         }
         let mut sorted: BTreeMap<Time, Vec<Multi>> = BTreeMap::new();
         for (j, coefficient) in primitive(own.coefficients, clock)?.into_iter().enumerate() {
-            for (e, c) in coefficient.0 {
+            for (mut own, c) in coefficient.0 {
                 clock.tick()?;
                 let mut total = Time::zero(parameters);
-                for (time, &k) in times.iter().zip(e.iter().skip(FIRST + parameters)) {
-                    total = total.plus(time, i64::from(k));
+                for (time, &place) in times.iter().zip(&places) {
+                    if let Some(k) = own.get_mut(place) {
+                        total = total.plus(time, i64::from(std::mem::take(k)));
+                    }
                 }
-                let mut own: Vec<u32> = e.into_iter().take(FIRST + parameters).collect();
                 while own.last() == Some(&0) {
                     own.pop();
                 }
