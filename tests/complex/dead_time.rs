@@ -109,7 +109,10 @@ fn complex_loops_with_dead_time_are_certified() {
     let (text, budget) = (machine("600", ""), Budget::unlimited());
     let model = read(&text);
     let verdict = certify_verdict(&model.ask().verdict(&budget).unwrap(), &budget).unwrap();
-    assert_eq!(check(&text, &verdict, &Limits::default()).unwrap().statement, "The loop is stable.");
+    assert_eq!(
+        check(&text, &verdict, &Limits::default()).unwrap().statement,
+        "At K_p = 10, T_d = 3/20000, the loop is stable."
+    );
     // Another dead time is another loop.
     let other = text.replace("1.5e-4", "9.5e-4");
     assert!(check(&other, &verdict, &Limits::default()).is_err());

@@ -371,7 +371,7 @@ pub(super) fn piece(
 
 impl FamilyLoop {
     /// A frequency beyond which no root is on the line for any value of a closed range; `None` where none is known.
-    fn beyond_crossings(
+    pub(super) fn beyond_crossings(
         &self,
         weights: &[Rational],
         range: &Range,

@@ -10,13 +10,13 @@ use super::family_function::Line;
 use super::gain::{GainCells, NotSolved};
 use super::stable_set::{Counted, end_at_point, end_of_domain};
 use super::windows::Never;
-use crate::{Cause, End, Range, StableSet};
+use crate::{Cause, End, Range, StableSet, UndecidedBracket};
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, checkpoint};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, UniPoly};
 use jurist_algebra::real::{Enclosing, Origin, Real, Transcendental};
-use jurist_algebra::symbols::MovingSymbols;
+use jurist_algebra::symbols::{DefinedParts, MovingSymbols};
 use std::sync::Arc;
 
 /// `sum P_k(s; p) z^k` as [`FamilyLoop`] has it, with coefficients that are polynomials in the parameter and in functions of it.
@@ -56,8 +56,14 @@ const TERMS: usize = 16;
 const LEFT_OUT: u64 = 36;
 
 /// Pieces that have been halved so often are given up: where a function has no value, and where roots touch the line.
-const MOST_HALVINGS: usize = 24;
-const MOST_HALVINGS_AT_ROOTS: usize = 6;
+const MOST_HALVINGS: usize = 32;
+const MOST_HALVINGS_AT_ROOTS: usize = 10;
+
+/// A piece in which `z` turns by more radians below the frequency beyond which no root is on the line is given up: next to a pole crossings have no end.
+const MOST_TURNS: i64 = 256;
+
+const WHY_VALUES: &str = "a function has no value there, or no series";
+const WHY_ROOTS: &str = "roots stay on the boundary, meet there, or only touch it";
 
 /// Where a piece is cut; nothing is likely to happen there.
 const CUT: [i64; 2] = [509, 1024];
@@ -85,48 +91,75 @@ impl MovingLoop {
     /// Cost: that of [`family_cells`](super::family_cells) for each piece, with coefficients of degree 16 and more.
     ///
     /// # Errors
-    /// [`NotSolved`], as [`family_cells`](super::family_cells); [`NotSolved::Coincidence`] also where a function has no value.
+    /// [`NotSolved`], as [`family_cells`](super::family_cells). Where roots meet on the line, and where a function has no value, short brackets stay undecided.
     pub fn stable_set(&self, range: &Range, budget: &Budget) -> Result<Result<StableSet, Never>, NotSolved> {
         let (Some(lower), Some(upper)) = (&range.lower, &range.upper) else { return Err(NotSolved::Unbounded) };
+        let mut all = StableSet::from_intervals(Vec::new(), Vec::new());
         if lower >= upper {
-            return Ok(Ok(StableSet::from_intervals(Vec::new(), Vec::new())));
+            return Ok(Ok(all));
         }
+        let DefinedParts { parts, gaps } = self.symbols.defined_parts(lower, upper, budget)?;
+        for (lower, upper) in &parts {
+            match self.stable_set_between(lower, upper, budget)? {
+                Ok(set) => all = all.followed_by(set, None),
+                Err(never) => return Ok(Err(never)),
+            }
+        }
+        // Where an argument of a square root changes its sign.
+        let gap = |(lower, upper): (Rational, Rational)| UndecidedBracket::new(Some(lower), Some(upper), WHY_VALUES);
+        let mut open: Vec<UndecidedBracket> = gaps.into_iter().map(gap).chain(all.undecided().to_vec()).collect();
+        open.sort_by(|a, b| a.lower.cmp(&b.lower));
+        Ok(Ok(StableSet::from_intervals(all.intervals().to_vec(), open)))
+    }
+
+    fn stable_set_between(
+        &self,
+        lower: &Rational,
+        upper: &Rational,
+        budget: &Budget,
+    ) -> Result<Result<StableSet, Never>, NotSolved> {
         let mut open = vec![(Share { lower: lower.clone(), length: upper - lower }, [0, 0])];
-        let (mut all, mut bounds) = (GainCells::constant(false), Vec::new());
-        all.right.clear();
+        let mut run = Run::from(lower);
+        let mut found = StableSet::from_intervals(Vec::new(), Vec::new());
+        let mut open_brackets: Vec<UndecidedBracket> = Vec::new();
         while let Some((share, [long, rooted])) = open.pop() {
             budget.check()?;
             let family = budget.enter(|| self.on(&share, BITS))?;
             let halved = if family.is_none() { [long + 1, rooted] } else { [long, rooted + 1] };
-            let found = match family {
+            let cells = match family {
                 Some(family) => share.cells(&family, budget)?.map(|cells| (family, cells)),
                 None => None,
             };
-            let Some((family, cells)) = found else {
-                if halved[0] > MOST_HALVINGS || halved[1] > MOST_HALVINGS_AT_ROOTS {
-                    return Err(NotSolved::Coincidence);
+            match cells {
+                Some((family, Ok(cells))) => run.take(&share, &family, cells, budget)?,
+                Some((_, Err(never))) => return Ok(Err(never)),
+                None if halved[0] > MOST_HALVINGS || halved[1] > MOST_HALVINGS_AT_ROOTS => {
+                    let end = share.at(&Rational::ONE);
+                    let run = std::mem::replace(&mut run, Run::from(&end));
+                    found = found.followed_by(self.set_of(run, budget)?, None);
+                    let why = if long < MOST_HALVINGS { WHY_ROOTS } else { WHY_VALUES };
+                    match open_brackets.last_mut() {
+                        Some(last) if last.upper.as_ref() == Some(&share.lower) => last.upper = Some(end),
+                        _ => open_brackets.push(UndecidedBracket::new(Some(share.lower), Some(end), why)),
+                    }
                 }
-                open.extend(share.halves().map(|half| (half, halved)));
-                continue;
-            };
-            let cells = match cells {
-                Ok(cells) => cells,
-                Err(never) => return Ok(Err(never)),
-            };
-            for (at, value) in [(Rational::ZERO, lower), (Rational::ONE, upper)] {
-                if share.at(&at) == *value {
-                    let end = end_of_domain(&family, &at, budget)?;
-                    bounds.push(End { value: value.clone().into(), ..end });
-                }
+                None => open.extend(share.halves().map(|half| (half, halved))),
             }
-            all.points.extend(cells.points);
-            // The cell about a joint is one.
-            all.right.extend(cells.right.into_iter().skip(usize::from(!all.right.is_empty())));
         }
-        self.cut_at_poles(&mut all, range, &mut bounds, budget)?;
-        let ends = all.points.iter().map(|point| end_at_point(point, budget)).collect();
-        let stable = all.right.iter().map(|count| *count == Some(0)).collect();
-        Ok(Ok(Counted { ends, stable, bounds }.stable_set(range, budget)?))
+        let found = found.followed_by(self.set_of(run, budget)?, None);
+        Ok(Ok(StableSet::from_intervals(found.intervals().to_vec(), open_brackets)))
+    }
+
+    /// The stable set of a run of pieces.
+    fn set_of(&self, mut run: Run, budget: &Budget) -> Result<StableSet, NotSolved> {
+        let range = Range::between(Some(run.lower.clone()), Some(run.upper.clone()));
+        if run.all.right.is_empty() {
+            return Ok(StableSet::from_intervals(Vec::new(), Vec::new()));
+        }
+        self.cut_at_poles(&mut run.all, &range, &mut run.bounds, budget)?;
+        let ends = run.all.points.iter().map(|point| end_at_point(point, budget)).collect();
+        let stable = run.all.right.iter().map(|count| *count == Some(0)).collect();
+        Ok(Counted { ends, stable, bounds: run.bounds }.stable_set(&range, budget)?)
     }
 
     /// Poles that depend on the parameter alone; others vanish nowhere in a piece.
@@ -204,7 +237,13 @@ impl MovingLoop {
                 let ball = ball.scaled(&unit);
                 (ball.middle_units() >> (working - bits), (ball.width_units() >> (working - bits)) + Integer::from(2))
             };
-            let (numbers, errors) = expanded.next().expect("as many").iter().map(number).unzip();
+            let balls = expanded.next().expect("as many");
+            let (mut numbers, mut errors): (Vec<Integer>, Vec<Integer>) = balls.iter().map(number).unzip();
+            // A root may be at s = 0 where the domain begins.
+            let vanishes = || self.symbols.vanishes_at(&c.clone().into(), &share.lower, &Budget::unlimited());
+            if balls[0].contains_zero() && vanishes().unwrap_or(false) {
+                (numbers[0], errors[0]) = (Integer::ZERO, Integer::ZERO);
+            }
             [UniPoly::new(numbers), UniPoly::new(errors)]
         };
         let both: Vec<Vec<[UniPoly; 2]>> =
@@ -220,6 +259,39 @@ impl MovingLoop {
         });
         let [tau, decay] = [&self.tau, &self.decay].map(|line| share.line(line));
         FamilyLoop { parts, enclosed: Some(Enclosed::new(errors, bits, at)), tau, decay, is_stretched: false }
+    }
+}
+
+/// Neighbouring pieces that are decided.
+struct Run {
+    lower: Rational,
+    upper: Rational,
+    all: GainCells,
+    bounds: Vec<End>,
+}
+
+impl Run {
+    fn from(value: &Rational) -> Run {
+        let mut all = GainCells::constant(false);
+        all.right.clear();
+        Run { lower: value.clone(), upper: value.clone(), all, bounds: Vec::new() }
+    }
+
+    /// Takes the piece above.
+    fn take(&mut self, share: &Share, family: &FamilyLoop, cells: GainCells, budget: &Budget) -> Result<(), NotSolved> {
+        let end = |at: Rational| -> Result<End, NotSolved> {
+            let end = end_of_domain(family, &at, budget)?;
+            Ok(End { value: share.at(&at).into(), ..end })
+        };
+        match self.bounds.is_empty() {
+            true => self.bounds = vec![end(Rational::ZERO)?, end(Rational::ONE)?],
+            false => self.bounds[1] = end(Rational::ONE)?,
+        }
+        self.upper = share.at(&Rational::ONE);
+        self.all.points.extend(cells.points);
+        // The cell about a joint is one.
+        self.all.right.extend(cells.right.into_iter().skip(usize::from(!self.all.right.is_empty())));
+        Ok(())
     }
 }
 
@@ -262,7 +334,14 @@ impl Share {
 
     /// The cells in the parameter; `None` where the piece is to be cut.
     fn cells(&self, family: &FamilyLoop, budget: &Budget) -> Result<Option<Result<GainCells, Never>>, NotSolved> {
+        let ends = [Rational::ZERO, Rational::ONE];
         let range = Range::between(Some(Rational::ZERO), Some(Rational::ONE));
+        let weights = budget.enter(|| family.weights(ends.each_ref()))?;
+        let most = ends.iter().map(|end| family.dead_time(end)).max().expect("two ends");
+        let turns = family.beyond_crossings(&weights, &range, budget)?.map(|frequency| frequency * most);
+        if turns.is_some_and(|turns| turns > Rational::from(MOST_TURNS)) {
+            return Ok(None);
+        }
         for bits in [BITS, MORE_BITS] {
             match piece(&family.with_bits(bits), &range, budget) {
                 Err(NotSolved::Coincidence | NotSolved::Unbounded) => {}
