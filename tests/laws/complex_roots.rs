@@ -1,6 +1,7 @@
 //! Complex roots in discs, against polynomials with known roots and against Sturm's theorem.
 
 use crate::helpers::polynomial::{mignotte, product};
+use crate::helpers::thorough::count;
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};
@@ -91,6 +92,8 @@ fn enclosed_coefficients_of_a_double_root_share_a_disc() {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig::with_cases(count(64, 256) as u32))]
+
     #[test]
     fn known_roots_are_found_with_their_multiplicity(known in prop::collection::vec((-9i64..10, 0i64..5), 1..9)) {
         let p = product(known.iter().map(|(a, b)| of_root(*a, *b)));

@@ -26,7 +26,7 @@ fn encloses(root: &RealAlgebraic, chosen: &ChosenRoot) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(count(80, 200) as u32))]
+    #![proptest_config(ProptestConfig::with_cases(count(40, 200) as u32))]
 
     #[test]
     fn chosen_roots_are_found(known in polynomial_with_known_roots()) {

@@ -176,7 +176,7 @@ fn margins_and_peaks_are_those_of_numbers_beside_the_constants() {
     let is_near =
         |a: &Enclosure, b: &Enclosure| (a.lower() - b.lower()).abs() < &near * &(Rational::ONE + a.lower().abs());
     let mut seen = 0;
-    for _ in 0..count(8, 80) {
+    for _ in 0..count(4, 80) {
         let (transfers, _) = random_transfer(&mut random);
         let models = transfers.each_ref().map(|transfer| feedback(transfer));
         let gain = ["1/10", "1/3", "1"][random.below(3)];
@@ -214,10 +214,11 @@ fn margins_and_peaks_are_those_of_numbers_beside_the_constants() {
             }
         }
     }
-    assert!(seen > count(8, 80) / 4, "{seen}");
+    assert!(seen > count(4, 80) / 4, "{seen}");
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn sets_with_requirements_are_those_of_numbers_beside_the_constants() {
     let transfers = ["2*sqrt(3)*exp(-s/5)/(s*(s/sqrt(3) + 1))", "2*1.73205080757*exp(-s/5)/(s*(s/1.73205080757 + 1))"];
     let models = transfers.map(feedback);
@@ -226,7 +227,7 @@ fn sets_with_requirements_are_those_of_numbers_beside_the_constants() {
         Requirement::phase_margin(&Rational::from(40)).unwrap(),
         Requirement::delay_margin(ratio(1, 10)).unwrap(),
     ];
-    for requirement in &required[..count(1, 3)] {
+    for requirement in &required {
         let found = models.each_ref().map(|model| {
             let problem = keeping(model, &["K"]).problem().unwrap();
             let set = problem.required_set(std::slice::from_ref(requirement), None, &Budget::unlimited()).unwrap();

@@ -74,6 +74,7 @@ fn a_lag_whose_delay_has_no_bound() {
 
 /// `K (s + 2)/(s + 1)` goes to `K` at high frequencies: from 1 on no delay is borne at all, and of less any up to one that goes to 0.
 #[test]
+#[ignore = "long: CI runs it"]
 fn an_open_loop_that_does_not_fall() {
     let found = set(&continuous("(s + 2)/(s + 1)"), "1/10");
     let end = number(&upper(&found).0);

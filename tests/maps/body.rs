@@ -110,7 +110,7 @@ fn coefficient() -> impl Strategy<Value = String> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(16))]
+    #![proptest_config(ProptestConfig::with_cases(count(5, 16) as u32))]
 
     #[test]
     fn points_of_random_bodies_have_their_verdict(

@@ -208,7 +208,7 @@ fn windows_are_bounded() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
+    #![proptest_config(ProptestConfig::with_cases(count(16, 48) as u32))]
 
     /// Boxes of random loops: exact counts in them agree, and so do the cells of the exact decomposition.
     #[test]

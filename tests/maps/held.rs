@@ -320,7 +320,7 @@ fn singular_maps_are_those_of_the_scaled_loops() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(count(4, 12) as u32))]
+    #![proptest_config(ProptestConfig::with_cases(count(2, 12) as u32))]
 
     #[test]
     fn maps_over_symbols_are_those_of_the_scaled_loops(low in vec(coefficient(), 1..=3), is_disc in any::<bool>()) {

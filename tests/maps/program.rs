@@ -68,7 +68,7 @@ fn over_decades(from: i64, to: i64) -> impl Strategy<Value = Rational> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(count(4, 12) as u32))]
+    #![proptest_config(ProptestConfig::with_cases(count(2, 12) as u32))]
 
     #[test]
     fn every_point_of_the_drive_has_the_root_count_of_its_cell(
@@ -315,7 +315,7 @@ fn windows_are_those_asked_for() {
     assert!(linear.contains("root at z = 1"));
     let logarithmic = svg("T=1e-4..0.1", &["--log-x"]);
     assert!(logarithmic.contains(">100 µs<") && logarithmic.contains(">1 ms<"));
-    assert!(svg("T=..inf", &[]).contains("T ("));
+    assert!(!is_thorough() || svg("T=..inf", &[]).contains("T ("));
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use crate::helpers::model::{example, keeping, read};
 use crate::helpers::number::number;
+use crate::helpers::thorough::tried;
 use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
@@ -70,7 +71,8 @@ fn one_name_behind_a_hold_has_the_factor_of_its_required_set() {
              transfer = 'K*a/((s + a)*(s + b))'\ndiscretize = {{ method = 'zoh', T = '7/20' }}\n"
         ))
     };
-    for (model, name, least) in [(line("14/5", "3", "3/5"), "a", "103/200"), (line("5/2", "3", "19/10"), "K", "1/5")] {
+    let lines = [(line("14/5", "3", "3/5"), "a", "103/200"), (line("5/2", "3", "19/10"), "K", "1/5")];
+    for (model, name, least) in tried(lines, 2) {
         let requirement = Requirement::modulus_margin(number(least)).unwrap();
         let set = keeping(&model, &[name]).problem().unwrap();
         let set =

@@ -3,6 +3,7 @@
 use crate::helpers::model::load;
 use crate::helpers::number::ratio;
 use crate::helpers::random::Random;
+use crate::helpers::thorough::count;
 use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
@@ -141,7 +142,7 @@ fn holds(family: &FamilyOfNames, gap: &Rational, random: &mut Random) -> Toleran
 #[test]
 fn brackets_of_random_families_are_closed_and_hold() {
     let mut random = Random::new(0xfa11);
-    for _ in 0..40 {
+    for _ in 0..count(12, 40) {
         let family = FamilyOfNames::random(&mut random);
         holds(&family, &ratio(1, 1_000_000), &mut random);
     }

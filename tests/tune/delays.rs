@@ -46,6 +46,7 @@ fn beside_dead_time() {
 
 /// The gain of `K/(s + 1)` is 1 at `w = sqrt(K^2 - 1)`, where its phase is `-atan w`.
 #[test]
+#[ignore = "long: CI runs it"]
 fn of_a_lag() {
     let (_, found) = tune(&[&["K/(s+1)", "--free", "K", "--bound", "K=2..10"], &OBJECTIVE[..]].concat());
     let w = 3_f64.sqrt();

@@ -4,7 +4,7 @@ use crate::helpers::folder::Folder;
 use crate::helpers::model::read;
 use crate::helpers::number::{number, ratio};
 use crate::helpers::schema::fits;
-use crate::helpers::thorough::{count, tried};
+use crate::helpers::thorough::count;
 use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
@@ -108,13 +108,14 @@ fn a_peak_at_the_steady_state_is_enclosed() {
 
 /// A disturbance is suppressed within a modulus margin, in continuous time and behind a hold: no sampled gains that have it are better than what is proved.
 #[test]
+#[ignore = "long: CI runs it"]
 fn a_disturbance_under_a_margin() {
     let held = "discretize = 'zoh'\n";
     let loops = [
         ("continuous", "(k*s + ki)/s", "1/(s + 1)^3", ""),
         ("discrete", "k + ki/10/(z - 1)", "2/(s^2 + s + 1/5)", held),
     ];
-    for (time, controller, plant, more) in tried(loops, 2) {
+    for (time, controller, plant, more) in loops {
         let model = diagram(time, controller, plant, more);
         let gains = || boxed([("k", "1/10", "2"), ("ki", "1/10", "1")]);
         let margin = || Requirement::modulus_margin(ratio(1, 2)).unwrap();

@@ -19,8 +19,8 @@ use std::time::Duration;
 /// No test may fail because the machine is busy.
 const LIMITS: Limits = Limits::within(Duration::MAX);
 
-/// So many pairs of texts in an ordinary run.
-const USUAL: u64 = 150;
+/// So many pairs of texts in an ordinary run, and with `JURIST_THOROUGH`, as in CI.
+const USUAL: [u64; 2] = [50, 150];
 
 fn folder() -> &'static str {
     concat!(env!("CARGO_MANIFEST_DIR"), "/tests/agreement")
@@ -85,7 +85,8 @@ fn both_checkers_have_one_version() {
 fn changed_texts_get_the_same_word() {
     let Some(mut python) = Python::start() else { return };
     let number = |name: &str, usual: u64| std::env::var(name).ok().and_then(|n| n.parse().ok()).unwrap_or(usual);
-    let (count, seed) = (number("JURIST_AGREEMENT", USUAL), number("JURIST_AGREEMENT_SEED", 20_020_326));
+    let usual = USUAL[usize::from(std::env::var_os("JURIST_THOROUGH").is_some())];
+    let (count, seed) = (number("JURIST_AGREEMENT", usual), number("JURIST_AGREEMENT_SEED", 20_020_326));
     let (corpus, mut draw) = (corpus(), Draw::new(seed));
     let (mut words, mut wrong) = (BTreeMap::new(), Vec::new());
     for _ in 0..count {

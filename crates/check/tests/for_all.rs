@@ -220,6 +220,9 @@ fn axes_have_parts_of_both_kinds() {
     let words = "For K from 1/4 to 4, for all a from 1 to 2, the loop is stable, with a phase margin of at least 45 degrees at the input of 'plant', \
                  for 1/4 <= K <= 349/256, and not so for any value in 91/64 <= K <= 4. Nothing is said of the rest.";
     assert_eq!(statement, words);
+    if !is_thorough() {
+        return;
+    }
     let two = Asked {
         axes: r#"{"name": "K", "between": ["1/4", "4"]}, {"name": "a", "between": ["1", "2"]}"#,
         for_all: "",
@@ -333,7 +336,7 @@ fn texts_that_break_a_rule_are_rejected_where_they_do() {
 /// Names of the model and those of a requirement do not meet.
 #[test]
 fn names_of_the_model_may_be_any() {
-    for [k, a, y] in [["r", "t", "k"], ["t", "r", "d"], ["f", "g", "t"]] {
+    for (case, [k, a, y]) in [["r", "t", "k"], ["t", "r", "d"], ["f", "g", "t"]].into_iter().enumerate() {
         let model = loop_of("continuous", "K/(s*(s + A))", &format!("parameters = {{ {k} = {{}}, {a} = {{}} }}"));
         let model =
             model.replace("'r'", "'ref'").replace("r - y", &format!("ref - {y}")).replace("'y'", &format!("'{y}'"));
@@ -341,7 +344,9 @@ fn names_of_the_model_may_be_any() {
         let set = format!(r#""{k}": "1", "{a}": "1""#);
         let asked = Asked { set: set.leak(), ..Asked::of("continuous") };
         told(&model, &asked, phases(&format!(r#"{{"parameter": "{k}"}}"#), [51.7, 52.0]));
-        told(&model, &asked, both("disk_margin", &format!(r#"{{"signal": "{y}"}}"#), ["80/100", "110/100"]));
+        if case == 0 || is_thorough() {
+            told(&model, &asked, both("disk_margin", &format!(r#"{{"signal": "{y}"}}"#), ["80/100", "110/100"]));
+        }
     }
 }
 

@@ -247,7 +247,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(24))]
+        #![proptest_config(ProptestConfig::with_cases(if std::env::var_os("JURIST_THOROUGH").is_some() { 24 } else { 6 }))]
 
         /// `exp(R u)`, `u = c + b y`, holds the exponentials at numbers, also where `u` is wide or wrong by something, and is that of a matrix of functions.
         #[test]

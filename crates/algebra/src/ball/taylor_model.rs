@@ -360,7 +360,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(48))]
+        #![proptest_config(ProptestConfig::with_cases(if std::env::var_os("JURIST_THOROUGH").is_some() { 48 } else { 12 }))]
 
         #[test]
         fn models_hold_the_values_of_what_they_stand_for(m in -40i64..40, r in 1i64..12, a in -9i64..9, b in 1i64..9) {

@@ -180,6 +180,7 @@ fn what_is_accepted_of_changed_certificates_is_true() {
     let (mut draw, mut told) = (Draw(7), 0);
     let all: Vec<(Plant, String)> = asked()
         .into_iter()
+        .step_by(if is_thorough() { 1 } else { 3 })
         .map(|(plant, asked)| {
             let (certificate, tree) = written(&plant.model, &asked, 3, 90);
             let proved = check(&plant.model, &certificate, &LIMITS).unwrap_or_else(|e| panic!("{e}\n{certificate}"));
@@ -188,7 +189,7 @@ fn what_is_accepted_of_changed_certificates_is_true() {
             (plant, certificate)
         })
         .collect();
-    assert!(told >= 20, "{told} of {}", all.len());
+    assert!(told * 5 >= all.len() * 3, "{told} of {}", all.len());
     let mut accepted = 0;
     for _ in 0..count {
         let (plant, certificate) = &all[draw.below(all.len())];

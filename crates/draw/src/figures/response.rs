@@ -230,7 +230,9 @@ mod tests {
     /// At each sample, however far it is from the last.
     #[test]
     fn the_phase_of_a_loop_with_dead_time_is_exact() {
-        for gain in ["1", "2", "1/1000", "20"] {
+        // Some of the gains by default, all in CI.
+        let every = if std::env::var_os("JURIST_THOROUGH").is_some() { 1 } else { 2 };
+        for gain in ["1", "2", "1/1000", "20"].into_iter().step_by(every) {
             let answer = delayed(gain);
             let response = frequency_response(answer.value(), &Budget::unlimited()).unwrap();
             for p in &response.points {

@@ -158,7 +158,7 @@ fn transfer() -> impl Strategy<Value = [UniPoly; 2]> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(ProptestConfig::with_cases(if std::env::var_os("JURIST_THOROUGH").is_some() { 64 } else { 20 }))]
 
     #[test]
     fn a_single_pole_has_the_sum_of_a_geometric_series(c in -50i64..51, p in -39i64..40) {

@@ -46,7 +46,7 @@ fn holds(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(32))]
+    #![proptest_config(ProptestConfig::with_cases(if std::env::var_os("JURIST_THOROUGH").is_some() { 32 } else { 8 }))]
 
     #[test]
     fn models_hold_the_values_of_what_they_stand_for(m in prop::array::uniform2(-40i64..40), r in prop::array::uniform2(0i64..10), a in -9i64..9) {

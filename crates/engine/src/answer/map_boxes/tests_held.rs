@@ -98,7 +98,9 @@ fn points_of_boxes_have_their_root_count() {
         let axes = names.map(|name| (name, ends(name).0, ends(name).1));
         let map = boxes(&model, axes, "0.1");
         let mut seen = [0, 0];
-        for (k, b) in map.boxes.iter().enumerate() {
+        // Some of the boxes by default, all in CI.
+        let (every, least) = if std::env::var_os("JURIST_THOROUGH").is_some() { (1, 6) } else { (4, 1) };
+        for (k, b) in map.boxes.iter().enumerate().step_by(every) {
             let inner = |[low, high]: &[Rational; 2], share: usize| {
                 low + &(&(high - low) * &Rational::new((share as i64).into(), 101.into()))
             };
@@ -112,6 +114,6 @@ fn points_of_boxes_have_their_root_count() {
             }
             seen[usize::from(b.verdict == BoxVerdict::Stable)] += 1;
         }
-        assert!(seen.iter().all(|n| *n > 5), "{names:?} {seen:?}");
+        assert!(seen.iter().all(|n| *n >= least), "{names:?} {seen:?}");
     }
 }

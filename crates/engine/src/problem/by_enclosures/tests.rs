@@ -191,9 +191,13 @@ fn several_modes_have_their_limits() {
         "1/((s+1)*(s^2+0.4*s+4)*(s^2+0.66*s+11)*(s^2+s+26))",
         "1/(s*(s+1)*(s^2+0.4*s+4)*(s^2+0.66*s+11)*(s^2+s+26)*(s^2+1.3*s+40)*(s^2+2*s+71))",
     ];
-    for plant in plants {
-        for domain in ["", ", min = 0"] {
-            limits_are_right(&problem("K", plant, "0.1", domain), plant.contains("s*(s"), domain.is_empty());
+    let domains = ["", ", min = 0"];
+    for (i, plant) in plants.into_iter().enumerate() {
+        for (j, domain) in domains.into_iter().enumerate() {
+            // One domain of each by default, both in CI.
+            if i == j || std::env::var_os("JURIST_THOROUGH").is_some() {
+                limits_are_right(&problem("K", plant, "0.1", domain), plant.contains("s*(s"), domain.is_empty());
+            }
         }
     }
 }
