@@ -103,6 +103,21 @@ fn the_rightmost_roots_of_a_complex_loop() {
     assert!(!both.contains("twice") && !both.contains("2 times"), "{both}");
 }
 
+/// Of `D conj(D)` the root at `s = 0` is double where the gain begins.
+#[test]
+fn a_gain_that_begins_at_zero() {
+    let loop_of = |gain: &str| {
+        format!(
+            "time = 'continuous'\n[parameters]\nK = {{ nominal = 1, min = 0, max = 6 }}\n[loop]\ncharacteristic = 's*(s + 1) + K*{gain}*exp(-s)'\n"
+        )
+    };
+    let (found, _) = set(&loop_of("exp(j/10)"), "K");
+    let [open] = found.undecided() else { panic!("{:?}", found.undecided()) };
+    assert_eq!(open.lower, Some(0.into()));
+    // The modulus of s (s + 1) at s = -0.7975507 j.
+    assert_eq!(found.intervals()[0].upper.as_ref().unwrap().value.decimal(11), "1.0201440191");
+}
+
 /// By boxes: a verdict is a box of one point.
 #[test]
 fn complex_loops_with_dead_time_are_certified() {
@@ -113,7 +128,7 @@ fn complex_loops_with_dead_time_are_certified() {
         check(&text, &verdict, &Limits::default()).unwrap().statement,
         "At K_p = 10, T_d = 3/20000, the loop is stable."
     );
-    // Another dead time is another loop.
-    let other = text.replace("1.5e-4", "9.5e-4");
+    // With another gain of the integrator it is another loop.
+    let other = text.replace("K_i = 1000", "K_i = 1e7");
     assert!(check(&other, &verdict, &Limits::default()).is_err());
 }

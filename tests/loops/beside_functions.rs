@@ -106,6 +106,35 @@ fn a_gain_that_is_an_exponential_has_its_limit_at_a_logarithm() {
     assert_eq!((value.decimal(30).as_str(), causes.as_str()), ("0.451582705289454864726195229895", "complex pair"));
 }
 
+/// Where a gain begins at 0 a root is at `s = 0`.
+#[test]
+fn gains_that_begin_at_zero() {
+    let all = [number("0"), number("6")];
+    let range = all.each_ref();
+    for (function, value) in [("s + sin(p)*exp(-s)", "3.141592654"), ("s + p*exp(-p/100)*exp(-s)", "1.596068455")] {
+        let set = within(&of(function), range);
+        let last = ends(&set).last().unwrap().0.clone();
+        assert_eq!(
+            (set.intervals()[0].lower.as_ref().unwrap().value.decimal(3), last.decimal(10)),
+            ("0".into(), value.into())
+        );
+    }
+}
+
+#[test]
+#[ignore = "long: CI runs it"]
+fn square_roots_have_no_series_at_zero() {
+    let all = [number("0"), number("6")];
+    let range = all.each_ref();
+    let set = within(&of("s + sqrt(p)*exp(-s)"), range);
+    let [open] = set.undecided() else { panic!("{:?}", set.undecided()) };
+    assert!(open.lower == Some(number("0")) && open.upper.clone().unwrap() < number("1e-7"));
+    // (pi/2)^2
+    assert_eq!(set.intervals()[0].upper.as_ref().unwrap().value.decimal(12), "2.46740110027");
+    let set = within(&of("s + 1 + exp(-s)*sqrt(p - 2)"), range);
+    assert!(set.contains(&number("2.001")) && !set.contains(&number("1")) && set.undecided().len() == 1);
+}
+
 /// Two functions of one parameter, in coefficients and beside the parameter itself: points are decided one by one.
 #[test]
 fn sets_beside_functions_agree_with_decisions_at_points() {

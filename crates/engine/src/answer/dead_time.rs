@@ -7,7 +7,7 @@ use crate::stability::dead_time::{
     FamilyLoop, GainCells, GainLoop, Line, Never, NotCounted, NotSolved, count_delayed_roots, delay_cells,
     family_cells, gain_cells,
 };
-use crate::stability::{Cause, End, Range, Shape, StableSet};
+use crate::stability::{Cause, End, Range, Shape, StableSet, UndecidedBracket};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 
@@ -113,8 +113,17 @@ fn anywhere(name: &str, delayed: &DelayedLoop, domain: &Range, budget: &Budget) 
     let Some(family) = delayed.family().filter(|_| !domain.is_empty()) else {
         return Ok(StableSet::from_intervals(Vec::new(), Vec::new()));
     };
-    match family_cells(&family, domain, budget) {
-        Ok(Ok(cells)) => Ok(cells.stable_set(&family, delayed.poles(), domain, budget)?),
+    let (domain, open) = family.apart_from_multiple_zeros(domain);
+    match family_cells(&family, &domain, budget) {
+        Ok(Ok(cells)) => {
+            let set = cells.stable_set(&family, delayed.poles(), &domain, budget)?;
+            let why = "a multiple root is at s = 0 at the end of the domain";
+            let open = open.into_iter().map(|[lower, upper]| UndecidedBracket::new(Some(lower), Some(upper), why));
+            match open.collect::<Vec<_>>() {
+                none if none.is_empty() => Ok(set),
+                open => Ok(StableSet::from_intervals(set.intervals().to_vec(), open)),
+            }
+        }
         Ok(Err(_)) => Ok(StableSet::from_intervals(Vec::new(), Vec::new())),
         Err(NotSolved::Unbounded) => {
             let message = format!("roots can be on the boundary at frequencies without end in the domain of '{name}'");

@@ -181,7 +181,8 @@ impl MovingLoop {
         Ok(())
     }
 
-    /// The loop in the share of a piece, its coefficients with so many bits; `None` where a function has no value, a divisor may vanish, or the piece is too long.
+    /// The loop in the share of a piece, its coefficients with so many bits; `None` where a function has no value, a divisor may vanish, a multiple
+    /// root is at `s = 0` at an end, or the piece is too long.
     fn on(&self, share: &Share, bits: u64) -> Option<FamilyLoop> {
         let (lo, hi) = (&share.lower, &share.at(&Rational::ONE));
         let moving = self.poles.iter().filter(|pole| pole.to_univariate(0).is_none()).cloned().collect::<Vec<_>>();
@@ -190,7 +191,9 @@ impl MovingLoop {
             return None;
         }
         let terms = self.terms(share, [TERMS, TERMS], LEFT_OUT)?;
-        Some(self.rounded(share, terms, bits))
+        let family = self.rounded(share, terms, bits);
+        let is_regular = [Rational::ZERO, Rational::ONE].iter().all(|end| !family.has_multiple_zero_at(end));
+        is_regular.then_some(family)
     }
 
     /// The Taylor polynomials of the coefficients that are no polynomials in the parameter.
