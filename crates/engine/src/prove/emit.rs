@@ -8,6 +8,7 @@ use super::text::to_text;
 use super::{dead_time, enclosed, gain, held};
 use super::{no_certificate, refuse_transcendental};
 use crate::answer::{Answer, PointVerdict};
+use crate::coverage::CoefficientRing;
 use crate::error::Error;
 use crate::problem::{DelayedLoop, Problem};
 use crate::stability::{ParametricPolynomial, Shape, StableSet};
@@ -92,6 +93,10 @@ impl Answer<StableSet> {
 
 /// The characteristic function of a loop with dead time, where its coefficients are rational.
 fn exact_delayed<'p>(problem: &'p Problem, budget: &Budget) -> Result<Option<&'p DelayedLoop>, Error> {
+    let ring = CoefficientRing::of(problem.algebra_over_symbols(budget)?.symbols());
+    if ring == CoefficientRing::DeadTimeBesideFunctions {
+        return Err(no_certificate("no certificate: beside dead time functions are proved by boxes alone"));
+    }
     match problem.delayed(budget)? {
         Some(delayed) if !delayed.is_exact() => Err(no_certificate(
             "no certificate: beside dead time constants that are not rational are proved by boxes alone",
