@@ -94,7 +94,7 @@ fn the_set_is_that_of_the_values_of_the_function() {
     let mut random = Random::new(20_261_129);
     for i in 0..count(4, 40) {
         let function = random_function(&mut random);
-        agree(&function, &INNER[i as usize % INNER.len()]);
+        agree(&function, &INNER[i % INNER.len()]);
     }
 }
 
