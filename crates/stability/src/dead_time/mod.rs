@@ -26,6 +26,7 @@ mod gain_points;
 mod headings;
 mod mikhailov;
 mod moving;
+mod multiple_zero;
 mod over_root;
 mod plane;
 mod plane_function;
