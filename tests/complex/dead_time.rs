@@ -93,6 +93,10 @@ fn the_rightmost_roots_of_a_complex_loop() {
     {
         assert!(printed.contains(root), "{root}\n{printed}");
     }
+    // No factor has s = 0 as a root, and the loop has.
+    let at_zero = "time = 'continuous'\n[loop]\ncharacteristic = '(s + 1)*(s + 2) - 2 + j*(1 - exp(-s))'\n";
+    let printed = jurist_with_input(&["roots", "-"], at_zero.as_bytes()).stdout;
+    assert_eq!(printed.lines().filter(|line| line.trim_start().starts_with("0 ")).count(), 1, "{printed}");
     // A factor with real coefficients has pairs, each of them once.
     let factors = "time = 'continuous'\n[loop]\ncharacteristic = '(s + 1/2*exp(-s))*(s + 1 + j + exp(-s)/4)'\n";
     let real = "time = 'continuous'\n[loop]\ncharacteristic = 's + 1/2*exp(-s)'\n";

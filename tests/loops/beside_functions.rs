@@ -106,6 +106,15 @@ fn a_gain_that_is_an_exponential_has_its_limit_at_a_logarithm() {
     assert_eq!((value.decimal(30).as_str(), causes.as_str()), ("0.451582705289454864726195229895", "complex pair"));
 }
 
+/// The first piece, with too long a series for `exp(-3p)`, is cut just where the root is at `s = 0`.
+#[test]
+fn a_root_at_zero_where_two_pieces_meet() {
+    let set = within(&of("s + p - 509/1024 + exp(-3*p)*s*exp(-s)/4"), [&number("0"), &number("1")]);
+    let [(value, causes)] = ends(&set).try_into().unwrap();
+    assert_eq!((value.exact(), causes.as_str()), (Some(ratio(509, 1024)), "s=0"));
+    assert!(set.contains(&number("3/4")) && !set.contains(&number("1/4")));
+}
+
 /// Where a gain begins at 0 a root is at `s = 0`.
 #[test]
 fn gains_that_begin_at_zero() {

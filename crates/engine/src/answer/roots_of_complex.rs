@@ -1,6 +1,6 @@
-//! The roots of a loop with complex coefficients, with dead time or without. `D = g h` with the greatest factor `g` that has real coefficients. The roots of `g` are real or
-//! conjugate pairs. No root of `h` is real, and no two roots of `h` are conjugate. So each conjugate pair of roots of `h conj(h)` contains exactly one
-//! root of `h`.
+//! The roots of a loop with complex coefficients, with dead time or without. `D = g h` with the greatest factor `g` that has real coefficients. The roots of
+//! `g` are real or conjugate pairs. No root of `h` is real, but with dead time `s = 0` may be one, and no two roots of `h` are conjugate. So each conjugate pair of
+//! roots of `h conj(h)` contains exactly one root of `h`, and a real root of `D` is one of `D conj(D)` twice as often.
 
 use super::roots::{Roots, discs};
 use crate::error::Error;
@@ -38,7 +38,7 @@ pub(super) fn roots_of_complex(
     Ok(found)
 }
 
-/// The rightmost roots of a complex loop with dead time, from those of `D conj(D)` with so narrow discs. Those of `g` are double there.
+/// The rightmost roots of a complex loop with dead time, from those of `D conj(D)`: `with_conjugates` finds them in discs that are so narrow.
 pub(super) fn rightmost_of_complex(
     whole: &ComplexPolynomial,
     algebra: &Algebra,
@@ -105,7 +105,9 @@ impl Pair {
 
     /// The disc of those roots of `D` that are roots of `D conj(D)` in it; `None` where it does not show which.
     fn of_product(self) -> Option<RootDisc> {
+        let is_real = !self.disc.is_pair && self.disc.im.is_zero();
         match (self.may_hold, self.disc.count) {
+            (_, count) if is_real => (count % 2 == 0).then_some(RootDisc { count: count / 2, ..self.disc }),
             ([false, false], count) => (count % 2 == 0).then_some(RootDisc { count: count / 2, ..self.disc }),
             // No root of `g` is there, too: it would be counted twice.
             (_, 1) => self.one(),

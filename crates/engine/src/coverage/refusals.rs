@@ -34,7 +34,7 @@ pub(crate) static DEAD_TIME: Refusal =
 pub(crate) static BESIDE_DEAD_TIME: Refusal = Refusal::new(
     Code::DeadTime,
     "beside dead time the loop contains functions or constants that are not rational: this cannot be asked of it",
-    "write the values of exp, sqrt, sin, cos, tan and pi as numbers",
+    "'intervals' is known of one parameter; else write the values of exp, sqrt, sin, cos, tan and pi as numbers",
 );
 pub(crate) static ADVANCED: Refusal = Refusal::new(
     Code::DeadTime,

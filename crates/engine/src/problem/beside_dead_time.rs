@@ -89,7 +89,10 @@ impl Beside {
         Beside { own: (1..=symbols.len()).collect(), symbols, delays: Vec::new() }
     }
 
-    /// What stands beside so many free names, one at most, of which one may be no variable of the symbols.
+    /// The symbols of a problem with so many free names, one at most. Where the bound of the region is free, the polynomial has a variable for it before the
+    /// symbols.
+    ///
+    /// Cost: none but that of the names.
     ///
     /// # Errors
     /// [`Error::Undefined`] for a symbol without a value.

@@ -2,7 +2,8 @@
 //!
 //! The range is cut into pieces. On each of them the coefficients are Taylor polynomials in the share of the piece, with a bound of how far they may be off:
 //! the factor of the first power that is left out lies between bounds anywhere in the piece, and the derivatives of the rest are as large as those of that
-//! power with this factor (Lagrange). So a piece is a loop of enclosed coefficients.
+//! power with this factor (Lagrange). So a piece is a loop of enclosed coefficients. Next to its ends it stands for any smooth continuation of the coefficients
+//! within the same bounds; zeros that are not strictly inside of the piece are left out.
 
 use super::enclosed::Enclosed;
 use super::family::{FamilyLoop, piece, trimmed};
@@ -112,6 +113,7 @@ impl MovingLoop {
         Ok(Ok(StableSet::from_intervals(all.intervals().to_vec(), open)))
     }
 
+    /// The same of a range in which no argument of a square root changes its sign.
     fn stable_set_between(
         &self,
         lower: &Rational,
@@ -121,7 +123,7 @@ impl MovingLoop {
         let mut open = vec![(Share { lower: lower.clone(), length: upper - lower }, [0, 0])];
         let mut run = Run::from(lower);
         let mut found = StableSet::from_intervals(Vec::new(), Vec::new());
-        let mut open_brackets: Vec<UndecidedBracket> = Vec::new();
+        let (mut open_brackets, mut joints): (Vec<UndecidedBracket>, Vec<Rational>) = (Vec::new(), Vec::new());
         while let Some((share, [long, rooted])) = open.pop() {
             budget.check()?;
             let family = budget.enter(|| self.on(&share, BITS))?;
@@ -131,7 +133,16 @@ impl MovingLoop {
                 None => None,
             };
             match cells {
-                Some((family, Ok(cells))) => run.take(&share, &family, cells, budget)?,
+                Some((family, Ok(cells))) => {
+                    let joint = end_of_domain(&family, &Rational::ZERO, budget)?;
+                    if !run.is_empty() && joint.causes.iter().next().is_some() {
+                        // A root is at s = 0 just where two pieces meet.
+                        let run = std::mem::replace(&mut run, Run::from(&share.lower));
+                        found = found.followed_by(self.set_of(run, budget)?, None);
+                        joints.push(share.lower.clone());
+                    }
+                    run.take(&share, &family, cells, budget)?;
+                }
                 Some((_, Err(never))) => return Ok(Err(never)),
                 None if halved[0] > MOST_HALVINGS || halved[1] > MOST_HALVINGS_AT_ROOTS => {
                     let end = share.at(&Rational::ONE);
@@ -146,14 +157,16 @@ impl MovingLoop {
                 None => open.extend(share.halves().map(|half| (half, halved))),
             }
         }
-        let found = found.followed_by(self.set_of(run, budget)?, None);
+        let mut found = found.followed_by(self.set_of(run, budget)?, None);
+        let is_joint = |end: &&mut End| end.value.exact().is_some_and(|value| joints.contains(&value));
+        found.ends_mut().filter(is_joint).for_each(|end| end.causes.remove(Cause::Domain));
         Ok(Ok(StableSet::from_intervals(found.intervals().to_vec(), open_brackets)))
     }
 
     /// The stable set of a run of pieces.
     fn set_of(&self, mut run: Run, budget: &Budget) -> Result<StableSet, NotSolved> {
         let range = Range::between(Some(run.lower.clone()), Some(run.upper.clone()));
-        if run.all.right.is_empty() {
+        if run.is_empty() {
             return Ok(StableSet::from_intervals(Vec::new(), Vec::new()));
         }
         self.cut_at_poles(&mut run.all, &range, &mut run.bounds, budget)?;
@@ -278,6 +291,10 @@ impl Run {
         let mut all = GainCells::constant(false);
         all.right.clear();
         Run { lower: value.clone(), upper: value.clone(), all, bounds: Vec::new() }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.all.right.is_empty()
     }
 
     /// Takes the piece above.

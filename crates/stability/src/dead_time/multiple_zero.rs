@@ -20,7 +20,22 @@ impl FamilyLoop {
         is_exact && p.without_delay().coeff(0).is_zero() && slope.fold(Rational::ZERO, |sum, x| sum + x).is_zero()
     }
 
-    /// A range without the shortest parts at its ends where those have a multiple root at `s = 0`, and these parts.
+    /// A range of the parameter, without the parts next to those of its ends that have a multiple root at `s = 0`; and these parts, each with its lower and its
+    /// upper end. A part is `2^-24` of the range. A range without both ends stays as it is.
+    ///
+    /// Cost: the coefficients at both ends.
+    ///
+    /// ```
+    /// use jurist_algebra::poly::UniPoly;
+    /// use jurist_stability::Range;
+    /// use jurist_stability::dead_time::{FamilyLoop, Line};
+    /// // s^2 + p^2 exp(-s): twice s = 0 at p = 0
+    /// let c = |c: &[i64]| UniPoly::from_i64(c);
+    /// let parts = vec![vec![c(&[]), c(&[]), c(&[1])], vec![c(&[0, 0, 1])]];
+    /// let family = FamilyLoop::new(parts, Line::constant(1.into()), Line::constant(0.into()));
+    /// let (rest, parts) = family.apart_from_multiple_zeros(&Range::between(Some(0.into()), Some(1.into())));
+    /// assert_eq!((rest.lower, parts.len()), (Some(parts[0][1].clone()), 1));
+    /// ```
     pub fn apart_from_multiple_zeros(&self, range: &Range) -> (Range, Vec<[Rational; 2]>) {
         let (Some(lower), Some(upper)) = (&range.lower, &range.upper) else { return (range.clone(), Vec::new()) };
         let part = (upper - lower) * Rational::dyadic(&Integer::ONE, BITS_OF_LEFT_OUT);
