@@ -279,3 +279,26 @@ fn a_root_at_zero_beside_constants_is_told_exactly() {
     assert!(roots[0].disc.re.is_zero() && roots[0].disc.im.is_zero() && roots[0].disc.radius.is_zero());
     assert!(roots.len() > 2 && roots[1].disc.re.is_negative());
 }
+
+/// The roots of a factor with rational coefficients are told exactly, those on the axis, too.
+#[test]
+fn a_factor_without_constants_is_judged_exactly() {
+    let loop_of = |factor: &str| {
+        let function = format!("({factor})*(s + K*pi*exp(-s))");
+        read(&format!("time = 'continuous'\n[parameters]\nK = '1/4'\n[loop]\ncharacteristic = '{function}'\n"))
+    };
+    for (factor, [on, outside]) in
+        [("1", [0, 0]), ("s^2 + 4", [2, 0]), ("(s - 1)*(s + 1)*s^2", [2, 1]), ("s + 1", [0, 0])]
+    {
+        let model = loop_of(factor);
+        let roots = model.ask().verdict(&Budget::unlimited()).unwrap().into_value().delayed.unwrap();
+        assert_eq!((roots.on, roots.right), (on, Some(outside)), "{factor}");
+        let set = within(&model, "K", ["1/100", "1"]);
+        assert!(set.undecided().is_empty(), "{factor}");
+        assert_eq!(set.contains(&number("1/4")), on + outside == 0, "{factor}");
+        assert!(!set.contains(&number("3/4")), "{factor}");
+    }
+    let roots = loop_of("s^2 + 4").ask().problem().unwrap().rightmost_roots(2, 12, &Budget::unlimited()).unwrap();
+    let first = &roots.into_value().list[0].disc;
+    assert!(first.is_pair && first.re.abs() < number("1e-20") && (&first.im - &number("2")).abs() < number("1e-20"));
+}

@@ -178,3 +178,29 @@ fn a_domain_without_an_end_is_asked_for_both() {
         _ => panic!("the domain has no end"),
     }
 }
+
+#[test]
+fn a_root_at_zero_for_all_values_is_stable_nowhere() {
+    let all = [number("1"), number("2")];
+    for function in ["(s - 1/2)*(s + 2*sqrt(p)) + sqrt(p)*exp(-s/10)", "s*(s + exp(p)*exp(-s))"] {
+        assert!(ends(&within(&of(function), all.each_ref())).is_empty(), "{function}");
+        assert!(within(&of(function), all.each_ref()).intervals().is_empty(), "{function}");
+    }
+    // Beside constants, too.
+    let set = within(&of("(s - sqrt(2)/2)*(s + 2*p) + sqrt(2)*p*exp(-s/10)"), all.each_ref());
+    assert!(set.intervals().is_empty() && set.undecided().is_empty());
+}
+
+/// The roots of a factor depend neither on the parameter nor on the dead time.
+#[test]
+fn a_factor_without_the_parameter_is_judged_exactly() {
+    let all = [number("0"), number("1")];
+    let whole = |factor: &str| within(&of(&format!("({factor})*(s + exp(p)*exp(-s))")), all.each_ref());
+    for factor in ["s^2 + 4", "s", "s - 1/1000000", "s + 1/1000000"] {
+        let set = whole(factor);
+        assert_eq!(set.intervals().is_empty(), factor != "s + 1/1000000", "{factor}");
+        assert!(set.undecided().is_empty(), "{factor}");
+    }
+    let [stable, with_another] = ["1", "s^2 + s/1000000 + 4"].map(|factor| ends(&whole(factor)));
+    assert_eq!(stable[0].0.decimal(30), with_another[0].0.decimal(30));
+}

@@ -5,6 +5,7 @@
 use super::family::{FamilyLoop, piece, trimmed};
 use super::family_function::{Function, Line};
 use super::family_zeros::zeros;
+use super::fixed_factor::{Known, without_fixed_factor};
 use super::gain::{GainCells, GainLoop, NotSolved, gain_cells};
 use super::quasi_polynomial::QuasiPolynomial;
 use super::windows::Never;
@@ -52,11 +53,10 @@ impl ConstantParts {
         ConstantParts { coefficients: trimmed(all.collect()), symbols: self.symbols.clone() }
     }
 
-    /// Divided by the power of `s` that all parts have, and that power.
-    pub(super) fn without_zeros(&self) -> (usize, ConstantParts) {
-        let lowest = |part: &Vec<MultiPoly>| part.iter().position(|c| !c.is_zero());
-        let zeros = self.coefficients.iter().filter_map(lowest).min().unwrap_or(0);
-        (zeros, self.map_parts(|part| Poly::new(part.coeffs().iter().skip(zeros).cloned().collect())))
+    /// Without the factor whose roots do not depend on the dead time, and this factor.
+    pub(super) fn without_fixed_factor(self) -> (UniPoly, ConstantParts) {
+        let (factor, coefficients) = without_fixed_factor(self.coefficients);
+        (factor, ConstantParts { coefficients, symbols: self.symbols })
     }
 
     /// The function beside it with so many bits, where no coefficient depends on the parameter, and how far the coefficients may be off at most. A common
@@ -99,6 +99,8 @@ const GUARD: u64 = 16;
 #[derive(Clone)]
 pub(super) struct Enclosed {
     pub errors: Vec<Vec<UniPoly>>,
+    /// What is known beside the enclosures.
+    pub known: Known,
     bits: u64,
     at: Arc<dyn Fn(u64) -> FamilyLoop + Send + Sync>,
 }
@@ -106,7 +108,7 @@ pub(super) struct Enclosed {
 impl Enclosed {
     /// Bounds of the errors of coefficients with so many bits, and the loops with more.
     pub fn new(errors: Vec<Vec<UniPoly>>, bits: u64, at: Arc<dyn Fn(u64) -> FamilyLoop + Send + Sync>) -> Enclosed {
-        Enclosed { errors, bits, at }
+        Enclosed { errors, known: Known::default(), bits, at }
     }
 }
 
@@ -130,8 +132,9 @@ impl FamilyLoop {
     /// # Panics
     /// When all coefficients are zero.
     pub fn enclosed(parts: ConstantParts, tau: Line, decay: Line) -> FamilyLoop {
-        let parts = ConstantParts { coefficients: trimmed(parts.coefficients), ..parts };
-        rounded_loop(&Arc::new(parts), &tau, &decay, CONSTANTS_BESIDE_DEAD_TIME.first)
+        let (factor, parts) = parts.without_fixed_factor();
+        let known = Known::new(&parts.coefficients, &factor);
+        rounded_loop(&Arc::new(parts), known, [&tau, &decay], CONSTANTS_BESIDE_DEAD_TIME.first)
     }
 
     /// The same loop with so many bits of its coefficients.
@@ -156,7 +159,8 @@ impl FamilyLoop {
         errors.iter_mut().flatten().for_each(|p| *p = with_sizes(p));
         let (at, own, time) = (Arc::clone(&enclosed.at), change.clone(), tau.clone());
         let at = Arc::new(move |bits| at(bits).mapped(own.clone(), time.clone()));
-        FamilyLoop { parts, enclosed: Some(Enclosed { errors, bits: enclosed.bits, at }), tau, ..self.clone() }
+        let enclosed = Some(Enclosed { errors, at, ..enclosed.clone() });
+        FamilyLoop { parts, enclosed, tau, ..self.clone() }
     }
 
     /// How far the coefficients may be off; none where they are exact.
@@ -254,12 +258,13 @@ impl FamilyLoop {
 /// Zeros are looked for at so many bits around a value.
 const BITS_OF_VALUE: u64 = 24;
 
-fn rounded_loop(parts: &Arc<ConstantParts>, tau: &Line, decay: &Line, bits: u64) -> FamilyLoop {
+fn rounded_loop(parts: &Arc<ConstantParts>, known: Known, lines: [&Line; 2], bits: u64) -> FamilyLoop {
     let [numbers, errors] = parts.rounded(bits);
-    let (of, tau_of, decay_of) = (Arc::clone(parts), tau.clone(), decay.clone());
-    let at = Arc::new(move |bits| rounded_loop(&of, &tau_of, &decay_of, bits));
-    let enclosed = Some(Enclosed { errors, bits, at });
-    FamilyLoop { parts: numbers, enclosed, tau: tau.clone(), decay: decay.clone(), is_stretched: false }
+    let (of, own) = (Arc::clone(parts), lines.map(Clone::clone));
+    let at = Arc::new(move |bits| rounded_loop(&of, known, own.each_ref(), bits));
+    let enclosed = Some(Enclosed { errors, known, bits, at });
+    let [tau, decay] = lines.map(Clone::clone);
+    FamilyLoop { parts: numbers, enclosed, tau, decay, is_stretched: false }
 }
 
 /// A value beyond which nothing happens is looked for so many times, each twice as large.

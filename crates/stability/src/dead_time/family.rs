@@ -13,7 +13,7 @@ use super::strip::frequency_bound_over;
 use super::windows::Never;
 use crate::interval_set::zeros_in;
 use crate::precisions::{CONSTANTS_BESIDE_DEAD_TIME, ZERO_AT_EDGE};
-use crate::{Range, Shape, count_roots};
+use crate::{Range, RootCount, Shape, count_roots};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
 use jurist_algebra::poly::{Domain, RealAlgebraic, UniPoly};
@@ -107,7 +107,9 @@ impl FamilyLoop {
             None => self.at(value),
         };
         let Some(p) = p else { return Ok(None) };
-        count_from_line(&p, &self.tau.at(value), &self.growth(value), budget).map(Some)
+        let DelayCount { on, right } = count_from_line(&p, &self.tau.at(value), &self.growth(value), budget)?;
+        let fixed = self.enclosed.as_ref().map_or(RootCount::default(), |enclosed| enclosed.known.fixed);
+        Ok(Some(DelayCount { on: on + fixed.on, right: right.map(|right| right + fixed.outside) }))
     }
 
     /// The roots to the right where none is on the line; `None` where there are infinitely many, or the function vanishes.
@@ -175,8 +177,9 @@ pub fn family_cells(
         }
         range.upper = Some(upper);
     }
-    if family.enclosed.is_none() {
-        return cells_of(family, &range, budget);
+    let Some(enclosed) = &family.enclosed else { return cells_of(family, &range, budget) };
+    if let Some(never) = enclosed.known.never(family.is_from_axis()) {
+        return Ok(Err(never));
     }
     let found = CONSTANTS_BESIDE_DEAD_TIME.find(|bits| match cells_of(&family.with_bits(bits), &range, budget) {
         Err(NotSolved::Coincidence) => Ok(None),

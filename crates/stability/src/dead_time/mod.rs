@@ -18,6 +18,7 @@ mod enclosed;
 mod family;
 mod family_function;
 mod family_zeros;
+mod fixed_factor;
 mod gain;
 mod gain_axis;
 mod gain_bounds;
@@ -36,6 +37,7 @@ mod rightmost;
 mod rightmost_cut;
 mod rightmost_disc;
 mod rightmost_search;
+mod share;
 mod stable_set;
 mod strip;
 #[cfg(test)]

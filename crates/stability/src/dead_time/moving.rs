@@ -6,17 +6,18 @@
 //! within the same bounds; zeros that are not strictly inside of the piece are left out.
 
 use super::enclosed::Enclosed;
-use super::family::{FamilyLoop, piece, trimmed};
+use super::family::FamilyLoop;
 use super::family_function::Line;
+use super::fixed_factor::{Known, without_fixed_factor};
 use super::gain::{GainCells, NotSolved};
+use super::share::Share;
 use super::stable_set::{Counted, end_at_point, end_of_domain};
 use super::windows::Never;
 use crate::{Cause, End, Range, StableSet, UndecidedBracket};
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, checkpoint};
-use jurist_algebra::number::{Enclosure, Integer, Rational};
-use jurist_algebra::poly::{Domain, MultiPoly, Poly, UniPoly};
-use jurist_algebra::real::{Enclosing, Origin, Real, Transcendental};
+use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::{Domain, MultiPoly, UniPoly};
 use jurist_algebra::symbols::{DefinedParts, MovingSymbols};
 use std::sync::Arc;
 
@@ -38,6 +39,7 @@ use std::sync::Arc;
 /// ```
 #[derive(Clone, Debug)]
 pub struct MovingLoop {
+    known: Known,
     coefficients: Vec<Vec<MultiPoly>>,
     /// Where one of them vanishes the loop is undefined.
     poles: Vec<MultiPoly>,
@@ -47,10 +49,10 @@ pub struct MovingLoop {
 }
 
 /// Bits of the coefficients of a piece.
-const BITS: u64 = 64;
+pub(super) const BITS: u64 = 64;
 
 /// Bits with which a piece is looked at once more.
-const MORE_BITS: u64 = 256;
+pub(super) const MORE_BITS: u64 = 256;
 
 /// A piece is short enough where so many terms leave out this part of each coefficient, a power of two.
 const TERMS: usize = 16;
@@ -60,14 +62,12 @@ const LEFT_OUT: u64 = 36;
 const MOST_HALVINGS: usize = 32;
 const MOST_HALVINGS_AT_ROOTS: usize = 10;
 
-/// A piece in which `z` turns by more radians below the frequency beyond which no root is on the line is given up: next to a pole crossings have no end.
-const MOST_TURNS: i64 = 256;
+/// After so many pieces with roots that touch the line, further ones are halved less often: roots may be on the line everywhere.
+const MANY_AT_ROOTS: usize = 16;
+const FEWER_HALVINGS_AT_ROOTS: usize = 3;
 
 const WHY_VALUES: &str = "a function has no value there, or no series";
 const WHY_ROOTS: &str = "roots stay on the boundary, meet there, or only touch it";
-
-/// Where a piece is cut; nothing is likely to happen there.
-const CUT: [i64; 2] = [509, 1024];
 
 const GUARD: u64 = 16;
 
@@ -84,7 +84,8 @@ impl MovingLoop {
         tau: Line,
         decay: Line,
     ) -> MovingLoop {
-        MovingLoop { coefficients: trimmed(coefficients), poles, symbols, tau, decay }
+        let (factor, coefficients) = without_fixed_factor(coefficients);
+        MovingLoop { known: Known::new(&coefficients, &factor), coefficients, poles, symbols, tau, decay }
     }
 
     /// The values of a range with both ends for which the loop is stable, or why there is none.
@@ -98,6 +99,9 @@ impl MovingLoop {
         let mut all = StableSet::from_intervals(Vec::new(), Vec::new());
         if lower >= upper {
             return Ok(Ok(all));
+        }
+        if let Some(never) = self.known.never(self.decay.is_zero()) {
+            return Ok(Err(never));
         }
         let DefinedParts { parts, gaps } = self.symbols.defined_parts(lower, upper, budget)?;
         for (lower, upper) in &parts {
@@ -124,6 +128,7 @@ impl MovingLoop {
         let mut run = Run::from(lower);
         let mut found = StableSet::from_intervals(Vec::new(), Vec::new());
         let (mut open_brackets, mut joints): (Vec<UndecidedBracket>, Vec<Rational>) = (Vec::new(), Vec::new());
+        let mut at_roots = 0;
         while let Some((share, [long, rooted])) = open.pop() {
             budget.check()?;
             let family = budget.enter(|| self.on(&share, BITS))?;
@@ -144,7 +149,8 @@ impl MovingLoop {
                     run.take(&share, &family, cells, budget)?;
                 }
                 Some((_, Err(never))) => return Ok(Err(never)),
-                None if halved[0] > MOST_HALVINGS || halved[1] > MOST_HALVINGS_AT_ROOTS => {
+                None if halved[0] > MOST_HALVINGS || halved[1] > halvings_at_roots(at_roots) => {
+                    at_roots += usize::from(halved[1] > rooted);
                     let end = share.at(&Rational::ONE);
                     let run = std::mem::replace(&mut run, Run::from(&end));
                     found = found.followed_by(self.set_of(run, budget)?, None);
@@ -278,6 +284,11 @@ impl MovingLoop {
     }
 }
 
+/// How often a piece with roots that touch the line is halved, where so many of them were given up.
+fn halvings_at_roots(given_up: usize) -> usize {
+    if given_up < MANY_AT_ROOTS { MOST_HALVINGS_AT_ROOTS } else { FEWER_HALVINGS_AT_ROOTS }
+}
+
 /// Neighbouring pieces that are decided.
 struct Run {
     lower: Rational,
@@ -312,100 +323,5 @@ impl Run {
         // The cell about a joint is one.
         self.all.right.extend(cells.right.into_iter().skip(usize::from(!self.all.right.is_empty())));
         Ok(())
-    }
-}
-
-/// A piece of the range.
-#[derive(Clone, Debug)]
-struct Share {
-    lower: Rational,
-    length: Rational,
-}
-
-impl Share {
-    fn at(&self, share: &Rational) -> Rational {
-        &self.lower + &(&self.length * share)
-    }
-
-    /// The upper half first.
-    fn halves(&self) -> [Share; 2] {
-        let part = Rational::new(CUT[0].into(), CUT[1].into());
-        let middle = self.at(&part);
-        let upper = Share { length: &self.length * &(Rational::ONE - &part), lower: middle };
-        [upper, Share { lower: self.lower.clone(), length: &self.length * &part }]
-    }
-
-    /// A line in the parameter as one in the share.
-    fn line(&self, line: &Line) -> Line {
-        Line { slope: &line.slope * &self.length, offset: line.at(&self.lower) }
-    }
-
-    /// A polynomial in the parameter as one in the share.
-    fn moved(&self, c: &UniPoly) -> Vec<Rational> {
-        let line = Poly::new(vec![self.lower.clone(), self.length.clone()]);
-        let zero = Poly::new(Vec::new());
-        let sum = c
-            .coeffs()
-            .iter()
-            .rev()
-            .fold(zero, |sum: Poly<Rational>, c| sum.times(&line).plus(&Poly::new(vec![Rational::from(c)])));
-        sum.into_coeffs()
-    }
-
-    /// The cells in the parameter; `None` where the piece is to be cut.
-    fn cells(&self, family: &FamilyLoop, budget: &Budget) -> Result<Option<Result<GainCells, Never>>, NotSolved> {
-        let ends = [Rational::ZERO, Rational::ONE];
-        let range = Range::between(Some(Rational::ZERO), Some(Rational::ONE));
-        let weights = budget.enter(|| family.weights(ends.each_ref()))?;
-        let most = ends.iter().map(|end| family.dead_time(end)).max().expect("two ends");
-        let turns = family.beyond_crossings(&weights, &range, budget)?.map(|frequency| frequency * most);
-        if turns.is_some_and(|turns| turns > Rational::from(MOST_TURNS)) {
-            return Ok(None);
-        }
-        for bits in [BITS, MORE_BITS] {
-            match piece(&family.with_bits(bits), &range, budget) {
-                Err(NotSolved::Coincidence | NotSolved::Unbounded) => {}
-                Ok(Ok(mut cells)) => {
-                    for point in &mut cells.points {
-                        point.value = self.parameter(&point.value);
-                    }
-                    return Ok(Some(Ok(cells)));
-                }
-                found => return found.map(Some),
-            }
-        }
-        Ok(None)
-    }
-
-    /// The value of the parameter at a share.
-    fn parameter(&self, share: &Real) -> Real {
-        match share.exact() {
-            Some(share) => Real::from(self.at(&share)),
-            None => Real::from(Transcendental::new(AtShare { piece: self.clone(), share: share.clone() })),
-        }
-    }
-}
-
-/// The value of the parameter at a share of a piece.
-#[derive(Debug)]
-struct AtShare {
-    piece: Share,
-    share: Real,
-}
-
-impl Enclosing for AtShare {
-    fn enclose(&self, bits: u64, _known: Option<&Enclosure>) -> Enclosure {
-        let narrow = Rational::dyadic(&Integer::ONE, bits) / &self.piece.length;
-        let (lo, hi) = self.share.refined(&narrow).enclosure();
-        Enclosure::new(self.piece.at(&lo), self.piece.at(&hi))
-    }
-
-    fn origin(&self) -> Origin {
-        match &self.share {
-            Real::Transcendental(share) => share.origin(),
-            Real::Algebraic(_) => {
-                Origin::Function { function: "the characteristic function".into(), details: Vec::new() }
-            }
-        }
     }
 }

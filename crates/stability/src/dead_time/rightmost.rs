@@ -71,7 +71,8 @@ pub fn rightmost_roots(
 }
 
 /// The rightmost roots of a loop of retarded type whose coefficients are constants that are not rational. Each coefficient is enclosed, and Rouché's theorem and
-/// the count take the bounds of the errors. A multiple root stays undecided, and so does a root at 0 unless a power of `s` divides all parts.
+/// the count take the bounds of the errors. A multiple root stays undecided, and so does a root at 0
+/// unless a power of `s` divides all parts.
 ///
 /// Cost: that of [`rightmost_roots`].
 ///
@@ -106,7 +107,7 @@ pub fn rightmost_roots_over(
     assert!(tau.sign().is_gt(), "there is dead time");
     budget.step("searching roots");
     let narrow = relative.denominator().bit_length().saturating_sub(relative.numerator().bit_length());
-    let (zeros, constants) = constants.without_zeros();
+    let (factor, constants) = constants.clone().without_fixed_factor();
     let (p, errors) = budget.enter(|| constants.at_a_point(MORE_BITS * (narrow + 64)))?;
     let is_retarded = p.kind() == Kind::Retarded && errors.iter().skip(1).all(|e| e.coeff(p.order()).is_zero());
     if !is_retarded {
@@ -116,7 +117,7 @@ pub fn rightmost_roots_over(
     let search = Search::new(&p, tau, 0, budget)?;
     let source = Some((errors, constants));
     let part = Part { p, source, multiplicity: 1, at_zero: 0, search, known: Vec::new() };
-    let fixed = if zeros > 0 { vec![at_zero(zeros)] } else { Vec::new() };
+    let fixed = complex_roots(&factor, relative, budget)?;
     All { tau, relative, parts: vec![part], fixed, floor: None }.searched(wanted, budget)
 }
 
