@@ -6,10 +6,11 @@
 //! which the modulus of the open loop tells that there is nothing to find.
 
 use super::complex_poly::ComplexPoly;
+use super::crossings::COMPARED_BITS;
 use super::crossings::{Crossings, PhaseCrossing};
 use super::delayed_axis::DelayedAxis;
 use super::delayed_peak::DelayedQuotient;
-use super::enclosed::enclosed;
+use super::enclosed::{enclosed, within};
 use super::ground::Ground;
 use super::margins::{GainMargin, PhaseMargin, StableMargins};
 use super::met::{has_gain_margin, has_phase_margin};
@@ -21,7 +22,7 @@ use super::{DelayMargin, DiskMargin, Extreme, OneSided, Place, Value};
 use crate::error::Error;
 use crate::problem::refused;
 use jurist_algebra::ball::{Ball, tan};
-use jurist_algebra::limits::{Budget, Exhausted, try_until_shown};
+use jurist_algebra::limits::{Budget, Exhausted, Stop, try_until_shown};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly};
 use jurist_algebra::real::Real;
@@ -35,7 +36,7 @@ pub(super) struct DeadTime<'a, G: Ground> {
 }
 
 /// Phase crossings are listed where the open loop's modulus is above one over this.
-pub(super) const LISTED: i64 = 100;
+const LISTED: i64 = 100;
 
 impl<'a, G: Ground> DeadTime<'a, G> {
     pub fn new(parts: &'a Parts<G>, tau: &'a Rational) -> DeadTime<'a, G> {
@@ -51,14 +52,16 @@ impl<'a, G: Ground> DeadTime<'a, G> {
     }
 
     /// Twice its imaginary part, without what both parts of `N conj(D0)` have in common. At a zero of the open loop on the axis both parts vanish: no factor
-    /// makes it -1 there.
-    fn twice_imaginary(&self, budget: &Budget) -> Result<MultiPoly, Exhausted> {
+    /// makes it -1 there. And what they have in common.
+    fn twice_imaginary(&self, budget: &Budget) -> Result<(MultiPoly, Poly<G::Number>), Exhausted> {
         let r = &self.parts.reduced;
         let common = budget.enter(|| r.twice_real.gcd(&r.imaginary))?;
         let [along, across] =
             [&r.twice_real, &r.imaginary].map(|p| p.div_exact(&common).expect("a gcd divides both parts"));
         let turned = self.axis.odd(&across).scaled_by(&Integer::from(2));
-        Ok(turned.times(&MultiPoly::variable(1)).minus(&self.axis.even(&along).times(&MultiPoly::variable(2))))
+        let imaginary =
+            turned.times(&MultiPoly::variable(1)).minus(&self.axis.even(&along).times(&MultiPoly::variable(2)));
+        Ok((imaginary, common))
     }
 
     /// An angular frequency beyond which the modulus of the open loop is below one over a number, or where it does not fall as far, below a number between its
@@ -139,10 +142,28 @@ impl<'a, G: Ground> DeadTime<'a, G> {
 
     /// The frequencies other than 0 and up to a size at which the open loop is real, ascending, with the factors that make it -1 there.
     pub(super) fn factors(&self, end: &Rational, budget: &Budget) -> Result<Vec<(Real, Real)>, Error> {
-        let (imaginary, real) = (self.twice_imaginary(budget)?, self.twice_real());
+        let ((imaginary, common), real) = (self.twice_imaginary(budget)?, self.twice_real());
         let below = self.axis.even(&self.parts.reduced.denominator_squared).scaled_by(&Integer::from(-2));
         let zeros = self.axis.zeros(&imaginary, end, budget)?;
+        self.keep_clear(&zeros, &common, budget)?;
         Ok(zeros.into_iter().map(|omega| (omega.clone(), self.axis.quotient(&below, &real, &omega))).collect())
+    }
+
+    /// Whether the open loop has a pole or a zero where it would be real: then a root stays near the axis as the factor falls to 0, or grows.
+    fn keep_clear(&self, zeros: &[Real], common: &Poly<G::Number>, budget: &Budget) -> Result<(), Exhausted> {
+        let frequencies = self.parts.frequencies();
+        for pole in self.parts.ground.zeros(common, &frequencies.inner(), budget)? {
+            let pole = budget.enter(|| within(&pole, COMPARED_BITS))?;
+            let is_near = |omega: &Real| {
+                let omega = within(omega, COMPARED_BITS);
+                let x = if frequencies.are_signed() { omega } else { omega.mul(&omega, COMPARED_BITS).neg() };
+                x.lower() <= pole.upper() && x.upper() >= pole.lower()
+            };
+            if budget.enter(|| zeros.iter().any(is_near))? {
+                return Err(Exhausted::new(Stop::Separation, "the open loop at its pole on the axis"));
+            }
+        }
+        Ok(())
     }
 
     /// The margins of a stable loop.
@@ -267,7 +288,7 @@ fn inverse(extreme: Extreme, number: &Rational, budget: &Budget) -> Result<Extre
         }
         let factor = Enclosure::from_rational(number.clone());
         Ok(Value::Number(enclosed("a number over an extreme", move |bits| {
-            Some(super::enclosed::within(&inverse, bits).mul(&factor, bits))
+            Some(within(&inverse, bits).mul(&factor, bits))
         })))
     };
     Ok(match extreme {

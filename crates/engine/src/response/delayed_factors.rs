@@ -7,7 +7,7 @@
 use super::Value;
 use super::complex_loop::lowest_root;
 use super::complex_poly::ComplexPoly;
-use super::dead_time::{DeadTime, LISTED};
+use super::dead_time::DeadTime;
 use super::enclosed::{greater, within};
 use super::ground::Ground;
 use crate::answer::not_counted;
@@ -24,7 +24,7 @@ use std::cmp::Ordering;
 /// Bits with which factors are told apart.
 const BITS: u64 = 256;
 
-/// How often ten times as many factors are looked at. Where the modulus of the open loop goes to a limit that is not 0, they come near to one without end.
+/// Factors up to so many powers of ten are looked at. Where the modulus of the open loop goes to a limit that is not 0, they come near to one without end.
 const ATTEMPTS: u32 = 16;
 const ATTEMPTS_AT_A_LIMIT: u32 = 3;
 
@@ -35,6 +35,14 @@ struct Crossing {
     /// 0 for a root at `s = 0`.
     omega: Real,
     enclosure: Enclosure,
+}
+
+impl Crossing {
+    /// Bounds of the size of the factor.
+    fn sizes(&self) -> [Rational; 2] {
+        let [low, high] = [self.enclosure.lower().abs(), self.enclosure.upper().abs()];
+        if low < high { [low, high] } else { [high, low] }
+    }
 }
 
 impl<G: Ground> DeadTime<'_, G> {
@@ -49,28 +57,22 @@ impl<G: Ground> DeadTime<'_, G> {
             true => ATTEMPTS_AT_A_LIMIT,
             false => ATTEMPTS,
         };
-        for attempt in 0..attempts {
-            let listed = Integer::from(LISTED) * Integer::from(10).pow(attempt.into());
-            let [end, square] = self.beyond(&listed, budget)?;
+        let is_stable = |value: &Rational| is_stable(&family, value, budget);
+        for attempt in 1..=attempts {
+            let [end, square] = self.beyond(&Integer::from(10).pow(attempt.into()), budget)?;
             // Of a frequency beyond the end the factor is greater.
             let reach = Enclosure::from_rational(square).sqrt(BITS).upper().recip().expect("a modulus is not 0");
-            let crossings = self.all_crossings(&end.max(outward.clone()), budget)?;
-            let size = |c: &Crossing| c.enclosure.lower().abs().max(c.enclosure.upper().abs());
+            let all = self.all_crossings(&end.max(outward.clone()), budget)?;
             let is_within = |c: &&Crossing| {
                 let (low, high) = c.omega.refined_to_digits(2).enclosure();
                 low.abs().min(high.abs()) <= outward
             };
-            let inner = crossings.iter().filter(is_within).map(size).max().unwrap_or(Rational::ZERO);
-            let listed: Vec<Crossing> = crossings.into_iter().filter(|c| size(c) < reach).collect();
-            let least = listed.iter().map(size).max().unwrap_or(Rational::ZERO).max(inner);
-            if least >= reach {
-                continue;
-            }
-            let last = least.midpoint(&reach);
-            let is_stable = |value: &Rational| is_stable(&family, value, budget);
-            if !is_stable(&last)? && !is_stable(&-&last)? {
-                return self.set_of(listed, &is_stable, budget);
-            }
+            let inner = all.iter().filter(is_within).map(|c| c.sizes()[1].clone()).max().unwrap_or(Rational::ZERO);
+            let last = |sign: i64| unstable_from([&inner, &reach], &all, sign, &is_stable, budget);
+            let (Some(least), Some(greatest)) = (last(-1)?, last(1)?) else { continue };
+            let is_kept = |c: &Crossing| *c.enclosure.lower() > least && *c.enclosure.upper() < greatest;
+            let kept = all.into_iter().filter(is_kept).collect();
+            return self.set_of(kept, &is_stable, budget);
         }
         Err(COMPLEX_FACTORS.diagnostic(&[]).into())
     }
@@ -117,7 +119,7 @@ impl<G: Ground> DeadTime<'_, G> {
         product(&below, &above).scaled(&up).plus(&own.scaled(&down))
     }
 
-    /// The stable set of all crossings but those of factors that are too large for a stable loop.
+    /// The stable set of the crossings between two factors, beyond which nothing is stable.
     fn set_of(
         &self,
         mut crossings: Vec<Crossing>,
@@ -144,8 +146,7 @@ impl<G: Ground> DeadTime<'_, G> {
         for (below, above) in groups.iter().zip(groups.iter().skip(1)) {
             let greatest = below.iter().map(|c| c.enclosure.upper()).max().expect("not empty");
             let least = above.iter().map(|c| c.enclosure.lower()).min().expect("not empty");
-            let between = rational_between(&Real::from(greatest.clone()), &Real::from(least.clone()), budget)?;
-            if is_stable(&between.expect("they are apart"))? {
+            if is_stable(&between(greatest, least, budget)?)? {
                 let ends = [self.end(below, Ordering::Greater, budget)?, self.end(above, Ordering::Less, budget)?];
                 let [lower, upper] = ends.map(Some);
                 intervals.push(StableInterval::new(lower, upper));
@@ -203,6 +204,36 @@ fn one_of(a: Real, b: Real, wanted: Ordering) -> Real {
         Ordering::Less => greater(a.negated(), b.negated()).negated(),
         _ => greater(a, b),
     }
+}
+
+/// A factor of this sign, whose size is between two numbers, at which the loop is not stable; the least that is found between two crossings.
+fn unstable_from(
+    [from, to]: [&Rational; 2],
+    all: &[Crossing],
+    sign: i64,
+    is_stable: &dyn Fn(&Rational) -> Result<bool, Error>,
+    budget: &Budget,
+) -> Result<Option<Rational>, Error> {
+    let is_own = |c: &&Crossing| (sign > 0) == c.enclosure.lower().sign().is_gt();
+    let mut sizes: Vec<[Rational; 2]> = all.iter().filter(is_own).map(Crossing::sizes).collect();
+    sizes.sort();
+    let mut from = from.clone();
+    for [low, high] in sizes.into_iter().chain([[to.clone(), to.clone()]]).take_while(|[low, _]| low <= to) {
+        if low > from {
+            let value = between(&from, &low, budget)? * Rational::from(sign);
+            if !is_stable(&value)? {
+                return Ok(Some(value));
+            }
+        }
+        from = from.max(high);
+    }
+    Ok(None)
+}
+
+/// A short rational number between two others.
+fn between(low: &Rational, high: &Rational, budget: &Budget) -> Result<Rational, Exhausted> {
+    let found = rational_between(&Real::from(low.clone()), &Real::from(high.clone()), budget)?;
+    Ok(found.expect("they are apart"))
 }
 
 fn is_stable(family: &FamilyLoop, value: &Rational, budget: &Budget) -> Result<bool, Error> {

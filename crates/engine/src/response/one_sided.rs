@@ -14,7 +14,7 @@ use super::parts::{Parts, with_parts};
 use super::value::reciprocal;
 use super::{PhaseMargin, Place, Value};
 use jurist_algebra::ball::{Ball, cos_sin};
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, Stop};
 use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
 use jurist_algebra::poly::{Domain, Poly};
 use jurist_algebra::real::Real;
@@ -77,6 +77,9 @@ impl OneSided {
     pub(super) fn smaller(&self, budget: &Budget) -> Result<PhaseMargin, Exhausted> {
         let (Some(lag), Some(lead)) = (&self.lag, &self.lead) else { return Ok(PhaseMargin::Unbounded) };
         if let Some(both) = budget.enter(|| lag.nearly_as(lead))? {
+            if budget.enter(|| within(&both, COMPARED_BITS))?.contains(&Rational::ZERO) {
+                return Err(Exhausted::new(Stop::Separation, "a phase margin of 180 degrees"));
+            }
             return Ok(PhaseMargin::Angle { tangent: Some(Box::new(both.recip())), place: lag.place.clone() });
         }
         let is_lead = match lead.cotangent.compare(&lag.cotangent, budget) {
@@ -177,15 +180,26 @@ impl Rotation {
         if let Some(degrees) = self.known_degrees() {
             return Enclosure::from_rational(Rational::from(degrees));
         }
+        degrees(&self.half(working).mul(&Enclosure::from_rational(Rational::from(2)), working), bits)
+    }
+
+    /// Half the angle in radians.
+    fn half(&self, working: u64) -> Enclosure {
+        let near = within(&self.cotangent, working);
+        if near.lower().abs() < Rational::ONE && near.upper().abs() < Rational::ONE {
+            // It may be 0, which enclosures do not tell.
+            let quarter =
+                Enclosure::pi(working).mul(&Enclosure::from_rational(Rational::new(1.into(), 2.into())), working);
+            return quarter.sub(&near.atan(working), working);
+        }
         let cotangent = Value::Number(self.cotangent.clone()).enclosure(working);
         let one = Enclosure::from_rational(Rational::ONE);
         let tangent = one.div(&cotangent, working).expect("digits tell a number from zero");
         let half = tangent.atan(working);
-        let half = match half.upper().sign() {
+        match half.upper().sign() {
             Ordering::Less => Enclosure::pi(working).add(&half, working),
             _ => half,
-        };
-        degrees(&half.mul(&Enclosure::from_rational(Rational::from(2)), working), bits)
+        }
     }
 
     /// The angle where its cosine is rational.
