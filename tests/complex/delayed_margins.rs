@@ -247,7 +247,7 @@ fn check_crossings(of: &Delayed, found: &Margins) {
 #[test]
 fn margins_of_random_loops_agree_with_grids_and_verdicts() {
     let count = std::env::var("JURIST_COMPLEX_LOOPS").ok().and_then(|n| n.parse().ok());
-    let count = count.unwrap_or(thorough::count(2, 12));
+    let count = count.unwrap_or(thorough::count(2, 8));
     let (mut checked, mut below, mut random) = (0, 0, Random::new(1958));
     while checked < count {
         let of = Delayed::random(&mut random);
@@ -277,7 +277,7 @@ fn margins_of_random_loops_agree_with_grids_and_verdicts() {
             below += usize::from(rate(&found, &found.crossings.gain[i].place) < 0.0);
         }
     }
-    assert!(count < 12 || below > 0, "{below} delay margins at negative frequencies");
+    assert!(count < 8 || below > 0, "{below} delay margins at negative frequencies");
 }
 
 /// The peak gain of the closed loop, whose denominator has the dead time, and that of the sensitivity's other way.
@@ -301,6 +301,26 @@ fn norms_are_peaks_of_the_loop() {
     let sum =
         [&norm, &mirrored].map(|n| n.frequency(60).unwrap().radians_per_second.unwrap().lower().to_f64_approximate());
     assert!((sum[0] + sum[1]).abs() < 1e-9, "{sum:?}");
+}
+
+/// Two dead times in the denominator: no peak of a fine grid is above the norm, and the nearest is close to it.
+#[test]
+fn a_norm_with_two_dead_times_is_that_of_a_grid() {
+    let text = "time = 'continuous'\n[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\ninput = 'r - v'\noutput = 'y'\n\
+                transfer = '(1 + j)*exp(-s/2)/(s + 1 - j)'\n[[block]]\ninput = 'y'\noutput = 'v'\n\
+                transfer = 'exp(-s/4)/2 + exp(-s/2)*j/4'\n";
+    let norm = read(text).ask().norm("r", "y", &Budget::unlimited()).unwrap().into_value();
+    let peak = value(&norm.peak.as_ref().unwrap().value);
+    let gain = |omega: f64| {
+        let s = C::new(0.0, omega);
+        let open = C::new(1.0, 1.0) * (-s / 2.0).exp() / (s + 1.0 - C::i());
+        let back = (-s / 4.0).exp() / 2.0 + (-s / 2.0).exp() * C::i() / 4.0;
+        (open / (open * back + 1.0)).norm()
+    };
+    let greatest = (-40_000..=40_000).map(|k| gain(f64::from(k) / 1000.0)).fold(0.0, f64::max);
+    assert!(greatest <= peak * (1.0 + 1e-9) && greatest > peak * (1.0 - 1e-6), "{greatest} {peak}");
+    let place = norm.frequency(60).unwrap().radians_per_second.unwrap().lower().to_f64_approximate();
+    assert!((gain(place) - peak).abs() < 1e-9, "{place}");
 }
 
 /// A curve of both signs has the values of the open loop.
