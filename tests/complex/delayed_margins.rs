@@ -5,7 +5,8 @@ use crate::helpers::model::read;
 use crate::helpers::program::jurist_with_input;
 use crate::helpers::random::Random;
 use crate::helpers::thorough;
-use jurist::Ask;
+use jurist::certified::certify_requirements;
+use jurist::{Ask, Limits, Requirement, check};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::real::Real;
@@ -359,5 +360,28 @@ fn requirements_at_a_point() {
         ("--disk-margin", "0.24896", "0.24897"),
     ] {
         assert!(asked(option, met) && !asked(option, unmet), "{option}");
+    }
+}
+
+/// The checkers count roots for all turns, factors or dead times at the cut: another way to the same margins.
+#[test]
+fn margins_are_certified() {
+    let (text, budget) = (loop_of("3/2*exp(-s/2)/(s - j)"), Budget::unlimited());
+    let problem = read(&text).ask().set("K", 1).set("x", 0).problem().unwrap();
+    let number = |x: &str| x.parse::<Rational>().unwrap();
+    for (requirement, met) in [
+        (Requirement::phase_margin(&number("15")), true),
+        (Requirement::phase_margin(&number("20")), false),
+        (Requirement::delay_margin(number("1/8")), true),
+        (Requirement::modulus_margin(number("1/4")), false),
+    ]
+    .into_iter()
+    .step_by(if thorough::is_thorough() { 1 } else { 3 })
+    {
+        let one = [requirement.unwrap()];
+        assert_eq!(problem.requirements_met(&one, None, &budget).unwrap()[0].met, met);
+        let certificate = certify_requirements(&problem, &one, None, met, &budget).unwrap();
+        check(&text, &certificate, &Limits::default()).unwrap();
+        assert!(certify_requirements(&problem, &one, None, !met, &budget).is_err());
     }
 }
