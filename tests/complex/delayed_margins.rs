@@ -156,6 +156,24 @@ fn coincidences_with_constants_end_by_precision() {
     }
 }
 
+/// The modulus goes to a limit: a quarter is far enough from one for a factor that is not stable to be found, and more is not.
+#[test]
+fn open_loops_that_do_not_fall_to_zero() {
+    let found = margins(&loop_of("j*(s + 1)*exp(-s/2)/(s - j + 2)/4"));
+    let upper = stable(&found).gain.upper.as_ref().unwrap();
+    let near = |more: &str| {
+        let factor = upper.value.refined_to_digits(12).enclosure().0 + more.parse::<Rational>().unwrap();
+        let model = read(&loop_of("j*(s + 1)*exp(-s/2)/(s - j + 2)/4"));
+        model.ask().set("K", factor).verdict(&Budget::unlimited()).unwrap().value().verdict
+    };
+    assert_eq!([near("-1/1000000"), near("1/1000000")].map(|v| v == Verdict::Stable), [true, false]);
+    let answer = read(&loop_of("(1 + j)*(s + 1)*exp(-s/2)/(s - j + 2)/4")).ask();
+    let Err(Error::Refused(refused)) = answer.margins(None, &Rational::ZERO, &Budget::unlimited()) else {
+        panic!("its greatest factor is found")
+    };
+    assert!(refused.to_string().contains("the greatest stable factor"), "{refused}");
+}
+
 /// An open loop with dead time, in a form that can be computed with.
 struct Delayed {
     of: Open,

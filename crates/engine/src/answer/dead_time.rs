@@ -19,7 +19,7 @@ pub(super) fn verdict(problem: &Problem, delayed: &DelayedLoop, budget: &Budget)
     Ok(PointVerdict::with_dead_time(degree, count.on, count.right))
 }
 
-pub(crate) fn not_counted(reason: NotCounted) -> Error {
+pub(super) fn not_counted(reason: NotCounted) -> Error {
     match reason {
         NotCounted::Stopped(exhausted) => exhausted.into(),
         NotCounted::Neutral => undecided("its difference operator is too large for the bounds known"),

@@ -23,7 +23,7 @@ mod verdict;
 
 pub use analysis::Analysis;
 pub use body::{Body, BodySlice, Extreme, Extremes, SliceValues, Stretch, StretchEnd};
-pub(crate) use dead_time::{not_counted, stable_factors, stable_set_with_dead_time};
+pub(crate) use dead_time::{stable_factors, stable_set_with_dead_time};
 pub use frequency::Frequency;
 pub use map::Map;
 pub use map_boxes::{BoxRequest, MapBoxes, MapMethod, MapOrBoxes};

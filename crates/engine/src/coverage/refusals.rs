@@ -27,7 +27,7 @@ pub(crate) static COMPLEX_FOR_ALL: Refusal = Refusal::new(
 pub(crate) static COMPLEX_FACTORS: Refusal = Refusal::new(
     Code::Complex,
     "the greatest stable factor of this loop with complex coefficients and dead time is not found: the modulus of its open loop does not go to 0",
-    "ask 'verdict' with further values of a gain, or 'norm', 'bode' and 'nyquist'",
+    "ask 'verdict' with further values of a gain; the peak of the complementary sensitivity is a 'norm'",
 );
 pub(crate) static DEAD_TIME: Refusal =
     Refusal::new(Code::DeadTime, "this cannot be asked of a loop with dead time", KNOWN);

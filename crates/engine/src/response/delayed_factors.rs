@@ -10,10 +10,9 @@ use super::complex_poly::ComplexPoly;
 use super::dead_time::DeadTime;
 use super::enclosed::{greater, within};
 use super::ground::Ground;
-use crate::answer::not_counted;
 use crate::coverage::refusals::COMPLEX_FACTORS;
 use crate::error::Error;
-use crate::stability::dead_time::FamilyLoop;
+use crate::stability::dead_time::{FamilyLoop, NotCounted};
 use crate::stability::{Cause, ComplexPair, End, Side, StableInterval, StableSet};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
@@ -237,6 +236,9 @@ fn between(low: &Rational, high: &Rational, budget: &Budget) -> Result<Rational,
 }
 
 fn is_stable(family: &FamilyLoop, value: &Rational, budget: &Budget) -> Result<bool, Error> {
-    let count = family.count(value, budget).map_err(not_counted)?;
-    Ok(count.is_some_and(|count| count.is_stable()))
+    match family.count(value, budget) {
+        Ok(count) => Ok(count.is_some_and(|count| count.is_stable())),
+        Err(NotCounted::Neutral) => Err(COMPLEX_FACTORS.diagnostic(&[]).into()),
+        Err(NotCounted::Stopped(stopped)) => Err(stopped.into()),
+    }
 }
