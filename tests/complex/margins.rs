@@ -73,7 +73,7 @@ impl Open {
         !is_lost && if self.is_discrete { is_schur(&polynomial) } else { is_hurwitz(&polynomial) }
     }
 
-    fn at(&self, place: f64) -> C {
+    pub fn at(&self, place: f64) -> C {
         let x = if self.is_discrete { C::from_polar(1.0, place) } else { C::new(0.0, place) };
         let value =
             |p: &[[i64; 2]]| p.iter().rev().fold(C::default(), |sum, c| sum * x + C::new(c[0] as f64, c[1] as f64));

@@ -182,6 +182,8 @@ fn complex_loops() -> Vec<Loop> {
         of_blocks(Rational, "(3 + 4*j)/5/((s + L)*(s + 1)*(s + 2))", ""),
         of_blocks(Constants, "L/(s + 1 + j)", zoh),
         of_blocks(Functions, "L/(s + 1)", frame),
+        of_blocks(DeadTime, "L*(3 + 4*j)/5*exp(-s/2)/(s + 1)", ""),
+        of_blocks(DeadTimeBesideConstants, "L*exp(j/3)*exp(-s/2)/(s + 1)", ""),
     ]
 }
 

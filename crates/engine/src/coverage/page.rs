@@ -19,8 +19,7 @@ const COMPLEX_LOOPS: &str = "
 
 A loop with the imaginary unit in it, or with a plant that is held in another frame, has a characteristic polynomial `D` with complex coefficients. Its
 real and imaginary parts are over one of the rings above, and so is `D conj(D)`, whose roots are those of `D` and their conjugates. That is asked
-in the same way, roots are counted once, and `D` tells on which side of the real axis the one is that limits the loop. With dead time in continuous time
-margins, norms and frequency responses are not known. These questions are answered:
+in the same way, roots are counted once, and `D` tells on which side of the real axis the one is that limits the loop. These questions are answered:
 
 ";
 

@@ -24,10 +24,10 @@ pub(crate) static COMPLEX_FOR_ALL: Refusal = Refusal::new(
     "a map for all values of other names is not known of loops with complex coefficients",
     "'tolerance' proves a box around one point; in real form, with two signals for each complex one, the loop has such a map",
 );
-pub(crate) static COMPLEX_WITH_DEAD_TIME: Refusal = Refusal::new(
+pub(crate) static COMPLEX_FACTORS: Refusal = Refusal::new(
     Code::Complex,
-    "margins and the frequency response of a continuous loop with complex coefficients and dead time are not known",
-    "its stability is: 'intervals', 'roots', 'map', 'tolerance'; a gain margin is the limit of a gain: 'intervals --param GAIN'",
+    "the greatest stable factor of this loop with complex coefficients and dead time is not found: the modulus of its open loop does not go to 0",
+    "ask 'verdict' with further values of a gain; the peak of the complementary sensitivity is a 'norm'",
 );
 pub(crate) static DEAD_TIME: Refusal =
     Refusal::new(Code::DeadTime, "this cannot be asked of a loop with dead time", KNOWN);

@@ -3,11 +3,10 @@
 use super::complex_poly::ComplexPoly;
 use super::enclosed::{enclosed, within};
 use super::ground::{Constants, Ground, Integers};
-use super::open_loop::Over;
+use super::open_loop::{Over, constants_of, without_delay};
 use super::parts::{Parts, Reduced, without_denominators};
 use super::{Frequencies, GainMargin};
 use crate::answer::Sides;
-use crate::coverage::refusals::COMPLEX_WITH_DEAD_TIME;
 use crate::error::Error;
 use crate::model::{ComplexPolynomial, Time};
 use crate::problem::{Beside, Region, fixed_symbols};
@@ -32,20 +31,20 @@ impl Over {
             let [denominator, _, numerator, _] = lists;
             return Over::new(denominator, numerator, poles, symbols, shape);
         }
-        if !symbols.delays().is_empty() {
-            return Err(COMPLEX_WITH_DEAD_TIME.diagnostic(&[]).into());
-        }
-        let lists = without_denominators(lists);
+        let [re, im, numerator_re, numerator_im] = without_denominators(lists);
+        let (numerator, dead_time) = without_delay([&re, &im], [numerator_re, numerator_im], symbols)?;
+        let [numerator_re, numerator_im] = numerator;
+        let lists = [re, im, numerator_re, numerator_im];
         let is_rational = |p: &Poly<MultiPoly>| p.coeffs().iter().all(MultiPoly::is_constant);
         let over = if lists.iter().chain(&poles).all(is_rational) {
             let plain = |p: &Poly<MultiPoly>| p.map(|c| c.as_constant().expect("every parameter has a value"));
             let poles = poles.iter().map(plain).collect();
             Over::Integers(Parts::complex(Integers, lists.each_ref().map(plain), poles, shape))
         } else {
-            let ground = Constants(Arc::new(fixed_symbols(symbols)?));
+            let ground = constants_of(&poles, symbols)?;
             Over::Constants(Parts::complex(ground, lists, poles, shape))
         };
-        Ok((over, None))
+        Ok((over, dead_time))
     }
 }
 
@@ -139,7 +138,7 @@ pub(crate) fn root_on_boundary(
     Ok(Some(pair.on_side(side)))
 }
 
-fn lowest_root<G: Ground>(
+pub(super) fn lowest_root<G: Ground>(
     ground: &G,
     p: ComplexPoly<G::Number>,
     shape: Shape,

@@ -112,8 +112,23 @@ impl<R: Domain> ComplexPoly<R> {
         }
     }
 
+    /// The coefficient of a power.
+    pub fn coeff(&self, power: usize) -> Self {
+        ComplexPoly { re: Poly::constant(self.re.coeff(power)), im: Poly::constant(self.im.coeff(power)) }
+    }
+
+    /// The coefficient of the highest power; `None` of zero.
+    pub fn leading(&self) -> Option<Self> {
+        Some(self.coeff(self.len().checked_sub(1)?))
+    }
+
+    /// Times a real number.
+    pub fn scaled(&self, by: &R) -> Self {
+        ComplexPoly { re: self.re.scaled(by), im: self.im.scaled(by) }
+    }
+
     /// `p q`.
-    fn times(&self, other: &Self) -> Self {
+    pub fn times(&self, other: &Self) -> Self {
         let conjugate = ComplexPoly { re: other.re.clone(), im: Poly::zero().minus(&other.im) };
         let [re, im] = self.times_conjugate(&conjugate);
         ComplexPoly { re, im }

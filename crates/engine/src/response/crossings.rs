@@ -38,6 +38,8 @@ pub struct GainCrossing {
     pub direction: Direction,
     /// Dead time of the open loop, which turns it further; the tangent and the side are those without it.
     pub dead_time: Option<Rational>,
+    /// The frequencies that were looked at.
+    pub(super) frequencies: Frequencies,
 }
 
 /// A frequency at which the open loop is real and negative: with the factor `k = -1/L` it is -1.
@@ -65,6 +67,22 @@ pub struct Crossings {
 }
 
 impl Crossings {
+    /// The one of modulus one with the least angle, the first of those that enclosures do not tell apart.
+    pub(super) fn least(
+        &self,
+        angle: impl Fn(&GainCrossing, u64) -> Enclosure,
+        budget: &Budget,
+    ) -> Result<Option<&GainCrossing>, Exhausted> {
+        let mut least: Option<(&GainCrossing, Enclosure)> = None;
+        for crossing in &self.gain {
+            let own = budget.enter(|| angle(crossing, COMPARED_BITS))?;
+            if least.as_ref().is_none_or(|(_, known)| own.upper() < known.lower()) {
+                least = Some((crossing, own));
+            }
+        }
+        Ok(least.map(|(crossing, _)| crossing))
+    }
+
     pub(super) fn of(open_loop: &OpenLoop, budget: &Budget) -> Result<Crossings, Exhausted> {
         with_parts!(open_loop, parts => Crossings::over(parts, budget))
     }
@@ -78,6 +96,9 @@ impl Crossings {
         Ok(Crossings { gain, gain_everywhere, phase, phase_everywhere })
     }
 }
+
+/// Bits with which angles, and delays, of crossings are compared, which may be equal.
+pub(super) const COMPARED_BITS: u64 = 256;
 
 fn gain_crossings<G: Ground>(
     parts: &Parts<G>,
@@ -119,7 +140,7 @@ fn gain_crossings<G: Ground>(
             }
             _ => Ordering::Equal,
         };
-        found.push(GainCrossing { place, tangent_squared, side, direction, dead_time: None });
+        found.push(GainCrossing { place, tangent_squared, side, direction, dead_time: None, frequencies });
     }
     Ok(found)
 }
@@ -193,7 +214,7 @@ impl GainCrossing {
     pub fn phase(&self, bits: u64) -> Enclosure {
         let working = bits + 64;
         let turned = self.dead_time.as_ref().and_then(|tau| {
-            let rate = self.place.frequency(Shape::LeftHalfPlane, None, working)?.radians_per_second?;
+            let rate = self.place.frequency(self.frequencies, None, working)?.radians_per_second?;
             Some(rate.mul(&Enclosure::from_rational(tau.clone()), working))
         });
         let own = self.phase_without_dead_time(working);
@@ -253,6 +274,11 @@ impl GainCrossing {
             Ordering::Greater => Some([self.lag(bits), rate]),
             Ordering::Equal => None,
         }
+    }
+
+    /// Whether it is at the frequency 0, which dead time does not turn.
+    pub(super) fn is_at_rest(&self) -> bool {
+        self.place.is_at_rest(self.frequencies)
     }
 
     /// How the modulus goes through one where the size of the frequency grows.

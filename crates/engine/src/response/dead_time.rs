@@ -5,10 +5,12 @@
 //! `cos(tau omega)` and `sin(tau omega)`: isolated with enclosures ([`MovingSymbols::zeros_in`]) up to a frequency beyond
 //! which the modulus of the open loop tells that there is nothing to find.
 
+use super::complex_poly::ComplexPoly;
+use super::crossings::COMPARED_BITS;
 use super::crossings::{Crossings, PhaseCrossing};
-use super::delayed_axis::{DelayedAxis, place_of};
+use super::delayed_axis::DelayedAxis;
 use super::delayed_peak::DelayedQuotient;
-use super::enclosed::enclosed;
+use super::enclosed::{enclosed, within};
 use super::ground::Ground;
 use super::margins::{GainMargin, PhaseMargin, StableMargins};
 use super::met::{has_gain_margin, has_phase_margin};
@@ -16,21 +18,21 @@ use super::open_loop::OpenLoop;
 use super::parts::Parts;
 use super::requirement::{Requirement, Rule};
 use super::value::reciprocal;
-use super::{DelayMargin, DiskMargin, Extreme, Place, Value};
+use super::{DelayMargin, DiskMargin, Extreme, OneSided, Place, Value};
 use crate::error::Error;
 use crate::problem::refused;
-use crate::stability::Range;
 use jurist_algebra::ball::{Ball, tan};
-use jurist_algebra::limits::{Budget, Exhausted, try_until_shown};
+use jurist_algebra::limits::{Budget, Exhausted, Stop, try_until_shown};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly};
+use jurist_algebra::real::Real;
 use std::cmp::Ordering;
 
 /// The rational factor of the open loop and its dead time.
 pub(super) struct DeadTime<'a, G: Ground> {
-    parts: &'a Parts<G>,
-    tau: &'a Rational,
-    axis: DelayedAxis<G>,
+    pub(super) parts: &'a Parts<G>,
+    pub(super) tau: &'a Rational,
+    pub(super) axis: DelayedAxis<G>,
 }
 
 /// Phase crossings are listed where the open loop's modulus is above one over this.
@@ -38,27 +40,34 @@ const LISTED: i64 = 100;
 
 impl<'a, G: Ground> DeadTime<'a, G> {
     pub fn new(parts: &'a Parts<G>, tau: &'a Rational) -> DeadTime<'a, G> {
-        DeadTime { parts, tau, axis: DelayedAxis::new(&parts.ground, tau.clone()) }
+        DeadTime { parts, tau, axis: DelayedAxis::new(&parts.ground, tau.clone(), parts.frequencies()) }
     }
 
     /// Twice the real part of `N conj(D0) exp(-j omega tau)`.
     fn twice_real(&self) -> MultiPoly {
         let r = &self.parts.reduced;
-        let turned = self.axis.of_square(&r.imaginary).times(&MultiPoly::variable(0)).scaled_by(&Integer::from(2));
-        let along = self.axis.of_square(&r.twice_real).times(&MultiPoly::variable(1));
+        let turned = self.axis.odd(&r.imaginary).scaled_by(&Integer::from(2));
+        let along = self.axis.even(&r.twice_real).times(&MultiPoly::variable(1));
         along.plus(&turned.times(&MultiPoly::variable(2)))
     }
 
-    /// Twice its imaginary part, from twice the real part of `N conj(D0)` and from the imaginary part over `omega`.
-    fn twice_imaginary(&self, along: &Poly<G::Number>, across: &Poly<G::Number>) -> MultiPoly {
-        let turned = self.axis.of_square(across).times(&MultiPoly::variable(0)).scaled_by(&Integer::from(2));
-        turned.times(&MultiPoly::variable(1)).minus(&self.axis.of_square(along).times(&MultiPoly::variable(2)))
+    /// Twice its imaginary part, without what both parts of `N conj(D0)` have in common. At a zero of the open loop on the axis both parts vanish: no factor
+    /// makes it -1 there. And what they have in common.
+    fn twice_imaginary(&self, budget: &Budget) -> Result<(MultiPoly, Poly<G::Number>), Exhausted> {
+        let r = &self.parts.reduced;
+        let common = budget.enter(|| r.twice_real.gcd(&r.imaginary))?;
+        let [along, across] =
+            [&r.twice_real, &r.imaginary].map(|p| p.div_exact(&common).expect("a gcd divides both parts"));
+        let turned = self.axis.odd(&across).scaled_by(&Integer::from(2));
+        let imaginary =
+            turned.times(&MultiPoly::variable(1)).minus(&self.axis.even(&along).times(&MultiPoly::variable(2)));
+        Ok((imaginary, common))
     }
 
-    /// An angular frequency beyond which the modulus of the open loop is below a hundredth, or where it does not fall as far, below a number between its limit
-    /// and one.
-    fn beyond(&self, budget: &Budget) -> Result<Rational, Error> {
-        let Some(level) = self.level(budget)? else {
+    /// An angular frequency beyond which the modulus of the open loop is below one over a number, or where it does not fall as far, below a number between its
+    /// limit and one; and the square of what it is below.
+    pub(super) fn beyond(&self, listed: &Integer, budget: &Budget) -> Result<[Rational; 2], Error> {
+        let Some(level) = self.level(listed, budget)? else {
             let help = "such a loop bears no delay, and its gain margin is a limit of 'intervals'";
             return Err(refused(
                 "the modulus of the open loop with dead time is one or more at high frequencies",
@@ -68,25 +77,32 @@ impl<'a, G: Ground> DeadTime<'a, G> {
         let r = &self.parts.reduced;
         let [up, down] = [level.numerator(), level.denominator()].map(|c| G::Number::from_integer(&c));
         let excess = r.numerator_squared.scaled(&down).minus(&r.denominator_squared.scaled(&up));
-        let zeros = self.parts.ground.zeros(&excess, &Range::between(None, Some(Rational::ZERO)), budget)?;
-        Ok(match zeros.first() {
-            // x = -omega^2 of the highest frequency.
-            Some(x) => {
-                let (lowest, _) = x.refined(&Rational::ONE).enclosure();
-                Enclosure::from_rational(-lowest).sqrt(32).upper() + &Rational::ONE
-            }
-            None => Rational::ONE,
-        })
+        Ok([self.beyond_zeros(&excess, budget)?, level])
+    }
+
+    /// An angular frequency beyond all zeros of a polynomial in the variable of the frequencies.
+    pub(super) fn beyond_zeros(&self, p: &Poly<G::Number>, budget: &Budget) -> Result<Rational, Exhausted> {
+        let frequencies = self.parts.frequencies();
+        let zeros = self.parts.ground.zeros(p, &frequencies.inner(), budget)?;
+        let size = |x: &Real| {
+            let (low, high) = x.refined(&Rational::ONE).enclosure();
+            let size = low.abs().max(high.abs());
+            // Else x is -omega^2.
+            if frequencies.are_signed() { size } else { Enclosure::from_rational(size).sqrt(32).upper().clone() }
+        };
+        let furthest = zeros.first().into_iter().chain(zeros.last()).map(size).max();
+        Ok(furthest.unwrap_or(Rational::ZERO) + Rational::ONE)
     }
 
     /// A number below one and above the limit of the squared modulus at high frequencies; `None` where that limit is one or more.
-    fn level(&self, budget: &Budget) -> Result<Option<Rational>, Error> {
+    fn level(&self, listed: &Integer, budget: &Budget) -> Result<Option<Rational>, Error> {
         let r = &self.parts.reduced;
         let (above, below) = (&r.numerator_squared, &r.denominator_squared);
-        let beside =
-            |limit: &Rational, part: i64| limit + &(&(Rational::ONE - limit) * &Rational::new(1.into(), part.into()));
+        let beside = |limit: &Rational, part: &Integer| {
+            limit + &(&(Rational::ONE - limit) * &Rational::new(1.into(), part.clone()))
+        };
         match above.degree().cmp(&below.degree()) {
-            Ordering::Less => return Ok(Some(beside(&Rational::ZERO, LISTED * LISTED))),
+            Ordering::Less => return Ok(Some(beside(&Rational::ZERO, &(listed * listed)))),
             Ordering::Greater => return Ok(None),
             Ordering::Equal => {}
         }
@@ -101,7 +117,7 @@ impl<'a, G: Ground> DeadTime<'a, G> {
         let level = try_until_shown(64, |bits| -> Result<Option<Rational>, Exhausted> {
             budget.check()?;
             let limit = budget.enter(|| limit.enclosure(bits))?;
-            Ok(Some(beside(limit.upper(), LISTED)).filter(|_| *limit.upper() < Rational::ONE))
+            Ok(Some(beside(limit.upper(), listed)).filter(|_| *limit.upper() < Rational::ONE))
         })?;
         Ok(Some(level))
     }
@@ -109,24 +125,45 @@ impl<'a, G: Ground> DeadTime<'a, G> {
     /// All crossings of modulus one, and those of the negative real axis down to a hundredth.
     pub fn crossings(&self, rational: Crossings, budget: &Budget) -> Result<Crossings, Error> {
         let mut rational = self.turned_by_all(rational);
-        rational.phase.retain(|c| matches!(c.place, Place::Lowest));
+        let frequencies = self.parts.frequencies();
+        rational.phase.retain(|c| c.place.is_at_rest(frequencies));
         rational.phase_everywhere = false;
-        let end = self.beyond(budget)?;
-        // At a zero of the open loop on the axis both parts vanish: no factor makes it -1 there.
-        let r = &self.parts.reduced;
-        let common = budget.enter(|| r.twice_real.gcd(&r.imaginary))?;
-        let [along, across] =
-            [&r.twice_real, &r.imaginary].map(|p| p.div_exact(&common).expect("a gcd divides both parts"));
-        let imaginary = self.twice_imaginary(&along, &across);
-        let real = self.twice_real();
-        let below = self.axis.of_square(&self.parts.reduced.denominator_squared).scaled_by(&Integer::from(-2));
-        for omega in self.axis.zeros(&imaginary, &end, budget)? {
-            let factor = self.axis.quotient(&below, &real, &omega);
+        let [end, _] = self.beyond(&Integer::from(LISTED), budget)?;
+        let (mut below, mut above) = (Vec::new(), Vec::new());
+        for (omega, factor) in self.factors(&end, budget)? {
             if budget.enter(|| factor.sign())?.is_gt() {
-                rational.phase.push(PhaseCrossing { place: place_of(&omega), factor: Value::Number(factor) });
+                let list = if omega.sign().is_lt() { &mut below } else { &mut above };
+                list.push(PhaseCrossing { place: self.axis.place_of(&omega), factor: Value::Number(factor) });
             }
         }
+        rational.phase = below.into_iter().chain(rational.phase).chain(above).collect();
         Ok(rational)
+    }
+
+    /// The frequencies other than 0 and up to a size at which the open loop is real, ascending, with the factors that make it -1 there.
+    pub(super) fn factors(&self, end: &Rational, budget: &Budget) -> Result<Vec<(Real, Real)>, Error> {
+        let ((imaginary, common), real) = (self.twice_imaginary(budget)?, self.twice_real());
+        let below = self.axis.even(&self.parts.reduced.denominator_squared).scaled_by(&Integer::from(-2));
+        let zeros = self.axis.zeros(&imaginary, end, budget)?;
+        self.keep_clear(&zeros, &common, budget)?;
+        Ok(zeros.into_iter().map(|omega| (omega.clone(), self.axis.quotient(&below, &real, &omega))).collect())
+    }
+
+    /// Whether the open loop has a pole or a zero where it would be real: then a root stays near the axis as the factor falls to 0, or grows.
+    fn keep_clear(&self, zeros: &[Real], common: &Poly<G::Number>, budget: &Budget) -> Result<(), Exhausted> {
+        let frequencies = self.parts.frequencies();
+        for pole in self.parts.ground.zeros(common, &frequencies.inner(), budget)? {
+            let pole = budget.enter(|| within(&pole, COMPARED_BITS))?;
+            let is_near = |omega: &Real| {
+                let omega = within(omega, COMPARED_BITS);
+                let x = if frequencies.are_signed() { omega } else { omega.mul(&omega, COMPARED_BITS).neg() };
+                x.lower() <= pole.upper() && x.upper() >= pole.lower()
+            };
+            if budget.enter(|| zeros.iter().any(is_near))? {
+                return Err(Exhausted::new(Stop::Separation, "the open loop at its pole on the axis"));
+            }
+        }
+        Ok(())
     }
 
     /// The margins of a stable loop.
@@ -134,24 +171,31 @@ impl<'a, G: Ground> DeadTime<'a, G> {
         budget.step("gain margin");
         let gain = self.gain(budget)?;
         budget.step("phase margin");
-        let phase = self.phase(crossings, budget)?;
+        let (one_sided, phase) = match self.parts.frequencies().are_signed() {
+            true => {
+                let one_sided = OneSided::with_dead_time(self.parts, crossings, budget)?;
+                let phase = one_sided.smaller(budget)?;
+                (Some(one_sided), phase)
+            }
+            false => (None, self.phase(crossings, budget)?),
+        };
         budget.step("delay margin");
         let delay = DelayMargin::over(self.parts, crossings, budget)?;
         budget.step("modulus margin");
-        let [d, n] = [&self.parts.denominator.re, &self.parts.numerator.re];
+        let [d, n] = [&self.parts.denominator, &self.parts.numerator];
         let sensitivity = self.peak(vec![d.clone()], budget)?;
         let peak_sensitivity = sensitivity.root(budget)?;
         let modulus = reciprocal(&peak_sensitivity, budget)?;
         let modulus_at = inverse(sensitivity, &Rational::ONE, budget)?;
         budget.step("peak of the complementary sensitivity");
-        let complementary_at = self.peak(vec![Poly::zero(), n.clone()], budget)?;
+        let complementary_at = self.peak(vec![ComplexPoly::from(Poly::zero()), n.clone()], budget)?;
         let peak_complementary = complementary_at.root(budget)?;
         budget.step("disk margin");
         let disk = self.disk(skew, budget)?;
         Ok(StableMargins {
             gain,
             phase,
-            one_sided: None,
+            one_sided,
             delay,
             modulus,
             peak_sensitivity,
@@ -172,7 +216,7 @@ impl<'a, G: Ground> DeadTime<'a, G> {
             }
             Rule::Circle(circle) => {
                 let [u, v] = circle.combined().map(|c| G::Number::from_integer(&c.into()));
-                let [d, n] = [&self.parts.denominator.re, &self.parts.numerator.re];
+                let [d, n] = [&self.parts.denominator, &self.parts.numerator];
                 let peak = self.peak(vec![d.scaled(&u), n.scaled(&v)], budget)?;
                 match ((circle.least() * circle.least()).recip(), peak.value()) {
                     (Some(most), Some(peak)) => peak.compare(&Value::from(most), budget)?.is_le(),
@@ -193,24 +237,18 @@ impl<'a, G: Ground> DeadTime<'a, G> {
 
     /// The stable factors.
     fn gain(&self, budget: &Budget) -> Result<GainMargin, Error> {
+        if self.parts.frequencies().are_signed() {
+            return Ok(GainMargin::of_set(self.factors_of_complex_loop(budget)?));
+        }
         let parts = [&self.parts.denominator.re, &self.parts.numerator.re];
         Ok(GainMargin::of_set(self.parts.ground.stable_factors_with_delay(parts, self.tau, budget)?))
     }
 
     /// The least angle of all crossings.
     fn phase(&self, crossings: &Crossings, budget: &Budget) -> Result<PhaseMargin, Exhausted> {
-        /// Bits with which angles are compared.
-        const BITS: u64 = 256;
         let size = |e: Enclosure| if e.lower().is_negative() { e.neg() } else { e };
-        let mut least: Option<(usize, Enclosure)> = None;
-        for (i, crossing) in crossings.gain.iter().enumerate() {
-            let angle = size(budget.enter(|| crossing.phase(BITS))?);
-            if least.as_ref().is_none_or(|(_, known)| angle.upper() < known.lower()) {
-                least = Some((i, angle));
-            }
-        }
-        let Some((i, _)) = least else { return Ok(PhaseMargin::Unbounded) };
-        let crossing = crossings.gain[i].clone();
+        let least = crossings.least(|crossing, bits| size(crossing.phase(bits)), budget)?;
+        let Some(crossing) = least.cloned() else { return Ok(PhaseMargin::Unbounded) };
         let place = Some(crossing.place.clone());
         if matches!(crossing.place, Place::Lowest) && crossing.tangent_squared.is_none() {
             // Nothing turns there: exactly 180 degrees, of which half has no tangent.
@@ -224,15 +262,15 @@ impl<'a, G: Ground> DeadTime<'a, G> {
     }
 
     /// The greatest modulus of a quotient whose denominator is that of the closed loop.
-    fn peak(&self, above: Vec<Poly<G::Number>>, budget: &Budget) -> Result<Extreme, Exhausted> {
-        let below = vec![self.parts.denominator.re.clone(), self.parts.numerator.re.clone()];
+    fn peak(&self, above: Vec<ComplexPoly<G::Number>>, budget: &Budget) -> Result<Extreme, Exhausted> {
+        let below = vec![self.parts.denominator.clone(), self.parts.numerator.clone()];
         DelayedQuotient::new(&self.parts.ground, self.tau.clone(), above, below).peak(budget)
     }
 
     /// The least `2 |1 + L|/|(1 + skew) - (1 - skew) L|`.
     fn disk(&self, skew: &Rational, budget: &Budget) -> Result<DiskMargin, Exhausted> {
         let (p, q) = (skew.numerator(), skew.denominator());
-        let [d, n] = [&self.parts.denominator.re, &self.parts.numerator.re];
+        let [d, n] = [&self.parts.denominator, &self.parts.numerator];
         let [sum, difference] = [&q + &p, &p - &q].map(|c| G::Number::from_integer(&c));
         let peak = self.peak(vec![d.scaled(&sum), n.scaled(&difference)], budget)?;
         let extreme = inverse(peak, &Rational::from(Integer::from(4) * &(&q * &q)), budget)?;
@@ -250,7 +288,7 @@ fn inverse(extreme: Extreme, number: &Rational, budget: &Budget) -> Result<Extre
         }
         let factor = Enclosure::from_rational(number.clone());
         Ok(Value::Number(enclosed("a number over an extreme", move |bits| {
-            Some(super::enclosed::within(&inverse, bits).mul(&factor, bits))
+            Some(within(&inverse, bits).mul(&factor, bits))
         })))
     };
     Ok(match extreme {

@@ -2,7 +2,7 @@
 
 use super::Place;
 use super::complex_poly::ComplexPoly;
-use super::crossings::{Crossings, Direction, GainCrossing};
+use super::crossings::{COMPARED_BITS, Crossings, Direction, GainCrossing};
 use super::ground::{Ground, at_end};
 use super::open_loop::OpenLoop;
 use super::parts::{Parts, with_parts};
@@ -10,7 +10,6 @@ use crate::stability::Shape;
 use jurist_algebra::limits::{Budget, Exhausted, try_until_shown};
 use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
 use jurist_algebra::poly::{Domain, Poly};
-use jurist_algebra::real::Real;
 
 /// The delay margin: how much delay at the cut a stable loop bears.
 #[derive(Clone, Debug)]
@@ -29,9 +28,6 @@ pub enum DelayMargin {
 
 /// Whole samples up to which a loop is followed whose modulus touches one and never goes above.
 const FOLLOWED_SAMPLES: u64 = 10_000;
-
-/// Bits with which two delays of crossings are compared, which may be equal.
-const COMPARED_BITS: u64 = 256;
 
 impl DelayMargin {
     /// Whether it counts whole samples: dead time between them makes another loop of a plant behind a hold.
@@ -120,8 +116,7 @@ fn by_counts<G: Ground>(parts: &Parts<G>, budget: &Budget) -> Result<u64, Exhaus
 /// delay leads: there all is as in the mirror image.
 fn samples<G: Ground>(parts: &Parts<G>, crossings: &Crossings, budget: &Budget) -> Result<DelayMargin, Exhausted> {
     let frequencies = parts.frequencies();
-    let is_rest = |x: &Real| frequencies.are_signed() && x.sign().is_eq();
-    let is_turned = |c: &&GainCrossing| matches!(&c.place, Place::Inside(x) if !is_rest(x));
+    let is_turned = |c: &&GainCrossing| matches!(&c.place, Place::Inside(_)) && !c.is_at_rest();
     let inside: Vec<&GainCrossing> = crossings.gain.iter().filter(is_turned).collect();
     let at_highest = meets_at_highest(parts, budget)?;
     if inside.is_empty() {

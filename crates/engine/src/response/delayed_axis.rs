@@ -1,9 +1,9 @@
 //! Functions of the angular frequency with `cos(tau omega)` and `sin(tau omega)` in them: variables 0, 1 and 2 of polynomials. Symbols of the coefficients
 //! follow.
 
-use super::Place;
 use super::enclosed::enclosed;
 use super::ground::Ground;
+use super::{Frequencies, Place};
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, Exhausted, Stop};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
@@ -12,10 +12,11 @@ use jurist_algebra::real::Real;
 use jurist_algebra::symbols::{Definition, MovingSymbols};
 use std::sync::Arc;
 
-/// The cosine and the sine of `tau omega`.
+/// The cosine and the sine of `tau omega`. The function at a negative frequency is that of the mirrored one at the positive frequency.
 pub(super) struct DelayedAxis<G> {
     ground: G,
     tau: Rational,
+    is_signed: bool,
     turning: Arc<MovingSymbols>,
 }
 
@@ -23,7 +24,7 @@ pub(super) struct DelayedAxis<G> {
 const BEFORE: usize = 3;
 
 impl<G: Ground> DelayedAxis<G> {
-    pub fn new(ground: &G, tau: Rational) -> DelayedAxis<G> {
+    pub fn new(ground: &G, tau: Rational, frequencies: Frequencies) -> DelayedAxis<G> {
         let time = &RationalFunction::variable(0) * &RationalFunction::from(tau.clone());
         let polynomial = vec![RationalFunction::one(), RationalFunction::zero(), RationalFunction::one()];
         let part = |name: &str, index| {
@@ -31,7 +32,8 @@ impl<G: Ground> DelayedAxis<G> {
         };
         let mut table = vec![part("cos", 0), part("sin", 1)];
         table.extend(ground.symbols_after(BEFORE));
-        DelayedAxis { ground: ground.clone(), tau, turning: Arc::new(MovingSymbols::new(table)) }
+        let is_signed = frequencies.are_signed();
+        DelayedAxis { ground: ground.clone(), tau, is_signed, turning: Arc::new(MovingSymbols::new(table)) }
     }
 
     pub fn ground(&self) -> &G {
@@ -42,19 +44,35 @@ impl<G: Ground> DelayedAxis<G> {
         &self.tau
     }
 
+    /// Whether negative frequencies are looked at.
+    pub fn is_signed(&self) -> bool {
+        self.is_signed
+    }
+
     /// A polynomial in `omega`.
     pub fn of_omega(&self, p: &Poly<G::Number>) -> MultiPoly {
         self.ground.in_variable(p, BEFORE)
     }
 
-    /// A polynomial in `x = -omega^2` as one in `omega`.
-    pub fn of_square(&self, p: &Poly<G::Number>) -> MultiPoly {
+    /// A polynomial in the variable of the frequencies, `omega` or `x = -omega^2`, as one in `omega`.
+    pub fn even(&self, p: &Poly<G::Number>) -> MultiPoly {
+        if self.is_signed {
+            return self.of_omega(p);
+        }
         let mut spread = Vec::new();
         for (i, c) in p.coeffs().iter().enumerate() {
             let sign = if i.is_multiple_of(2) { Integer::ONE } else { -Integer::ONE };
             spread.extend([c.times(&G::Number::from_integer(&sign)), G::Number::zero()]);
         }
         self.of_omega(&Poly::new(spread))
+    }
+
+    /// The same of an imaginary part, which is divided by `omega` where frequencies have no sign.
+    pub fn odd(&self, p: &Poly<G::Number>) -> MultiPoly {
+        match self.is_signed {
+            true => self.of_omega(p),
+            false => self.even(p).times(&MultiPoly::variable(0)),
+        }
     }
 
     /// The derivative by `omega`, times the denominator of the dead time.
@@ -65,13 +83,39 @@ impl<G: Ground> DelayedAxis<G> {
         p.derivative(0).scaled_by(&down).plus(&by_cos).plus(&by_sin)
     }
 
-    /// The frequencies above 0 and below `end` at which a function vanishes.
+    /// The frequencies of a size above 0 and below `end` at which a function vanishes, ascending.
     pub fn zeros(&self, p: &MultiPoly, end: &Rational, budget: &Budget) -> Result<Vec<Real>, Exhausted> {
+        let above = self.zeros_above(p, end, budget)?;
+        if !self.is_signed {
+            return Ok(above);
+        }
+        let below = self.zeros_above(&mirrored(p), end, budget)?;
+        Ok(below.iter().rev().map(Real::negated).chain(above).collect())
+    }
+
+    fn zeros_above(&self, p: &MultiPoly, end: &Rational, budget: &Budget) -> Result<Vec<Real>, Exhausted> {
         let found = self.turning.zeros_in(&p.clone().into(), &Rational::ZERO, end, end, budget)?;
         match found.undecided.is_empty() {
             true => Ok(found.zeros),
             false => Err(Exhausted::new(Stop::Separation, "frequencies of a loop with dead time")),
         }
+    }
+
+    /// An angular frequency as a place.
+    pub fn place_of(&self, omega: &Real) -> Place {
+        let omega = omega.clone();
+        if self.is_signed {
+            return Place::Inside(omega);
+        }
+        Place::Inside(enclosed("minus the square of a frequency", move |bits| {
+            let omega = super::enclosed::within(&omega, bits);
+            Some(omega.mul(&omega, bits).neg())
+        }))
+    }
+
+    /// The frequency 0 as a place.
+    pub fn at_rest(&self) -> Place {
+        if self.is_signed { Place::Inside(Real::from(Rational::ZERO)) } else { Place::Lowest }
     }
 
     /// `above/below` at an angular frequency.
@@ -89,12 +133,11 @@ impl<G: Ground> DelayedAxis<G> {
     }
 }
 
-/// An angular frequency as a place.
-pub(super) fn place_of(omega: &Real) -> Place {
-    let omega = omega.clone();
-    Place::Inside(enclosed("minus the square of a frequency", move |bits| {
-        let omega = super::enclosed::within(&omega, bits);
-        Some(omega.mul(&omega, bits).neg())
+/// A function at the opposite frequency.
+fn mirrored(p: &MultiPoly) -> MultiPoly {
+    MultiPoly::from_terms(p.terms().iter().map(|(monomial, c)| {
+        let is_odd = (monomial.exponent(0) + monomial.exponent(2)) % 2 == 1;
+        (monomial.exponents().to_vec(), if is_odd { -c.clone() } else { c.clone() })
     }))
 }
 

@@ -3,18 +3,16 @@
 //! The square of the modulus is a function of `omega`, `cos(tau omega)` and `sin(tau omega)`; its extremes are zeros of another one. Beyond some frequency
 //! the modulus is proved to be below a value that it has somewhere: there the part of the denominator without delay outweighs all else.
 
-use super::delayed_axis::{DelayedAxis, place_of};
-use super::ground::{Constants, Ground, Integers};
-use super::parts::without_denominators;
-use super::{Extreme, Place, Value};
-use crate::error::Error;
-use crate::model::Symbols;
-use crate::problem::{BaseDelay, base_delay};
-use crate::stability::Range;
+use super::complex_poly::ComplexPoly;
+use super::crossings::COMPARED_BITS;
+use super::delayed_axis::DelayedAxis;
+use super::enclosed::{greater, within};
+use super::ground::Ground;
+use super::{Extreme, Frequencies, Place, Value};
+use crate::stability::{Range, Shape};
 use jurist_algebra::limits::{Budget, Exhausted, Stop};
-use jurist_algebra::number::{Integer, Rational};
-use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
-use std::cmp::Ordering;
+use jurist_algebra::number::{Enclosure, Integer, Rational};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly};
 
 /// Frequencies at which the modulus is looked at first, as powers of two over the dead time, and so many between two of them.
 const OCTAVES: std::ops::Range<i64> = -10..12;
@@ -29,68 +27,19 @@ const DIGITS_OF_PEAK: usize = 20;
 /// Bits of these values.
 const BITS: u64 = 96;
 
-/// Two polynomials in `s` and `exp(-tau s)`: the coefficients of `exp(-tau s)^k` at `[k]`, polynomials in constants.
-pub(super) struct DelayedTransfer {
-    tau: Rational,
-    parts: [Vec<Poly<MultiPoly>>; 2],
-    ground: Constants,
-}
-
-impl DelayedTransfer {
-    /// From coefficients of powers of `s`, the denominator first, in which symbols are constants and exponentials of dead times.
-    ///
-    /// # Errors
-    /// [`Error::Refused`] for dead times that are not multiples of one.
-    pub fn new(lists: [Vec<RationalFunction>; 2], symbols: &Symbols) -> Result<DelayedTransfer, Error> {
-        let delays = symbols.delays();
-        let (BaseDelay::Number(tau), powers) = base_delay(&delays)? else { unreachable!("no name is free") };
-        let multiple = |variable: usize| {
-            delays.iter().position(|(v, _)| *v - symbols.first() == variable).map_or(0, |i| powers[i])
-        };
-        let parts = without_denominators(lists).map(|p| by_powers(&p, multiple));
-        Ok(DelayedTransfer { tau, parts, ground: Constants::beside_delays(symbols)? })
+/// Those of either sign, of complex coefficients.
+pub(super) fn frequencies_of<'a, R: Domain + 'a>(mut parts: impl Iterator<Item = &'a ComplexPoly<R>>) -> Frequencies {
+    match parts.all(ComplexPoly::is_real) {
+        true => Frequencies::Positive(Shape::LeftHalfPlane),
+        false => Frequencies::Signed(Shape::LeftHalfPlane),
     }
-
-    /// The extreme of the square of the modulus, as [`DelayedQuotient::peak`].
-    ///
-    /// # Errors
-    /// As [`DelayedQuotient::peak`].
-    pub fn peak(&self, budget: &Budget) -> Result<Extreme, Exhausted> {
-        let number = |c: &MultiPoly| c.as_constant();
-        let numbers = |p: &Poly<MultiPoly>| p.coeffs().iter().map(number).collect::<Option<_>>().map(Poly::new);
-        let all = |parts: &Vec<Poly<MultiPoly>>| parts.iter().map(numbers).collect::<Option<Vec<UniPoly>>>();
-        let [below, above] = &self.parts;
-        match (all(below), all(above)) {
-            (Some(below), Some(above)) => DelayedQuotient::new(&Integers, self.tau.clone(), above, below).peak(budget),
-            _ => DelayedQuotient::new(&self.ground, self.tau.clone(), above.clone(), below.clone()).peak(budget),
-        }
-    }
-}
-
-/// The coefficients of each power of `exp(-tau s)`; `multiple` is the power that a variable stands for.
-fn by_powers(p: &Poly<MultiPoly>, multiple: impl Fn(usize) -> usize) -> Vec<Poly<MultiPoly>> {
-    let mut parts = vec![Poly::zero()];
-    for (j, c) in p.coeffs().iter().enumerate() {
-        for (monomial, c) in c.terms() {
-            let (mut k, mut own) = (0, monomial.exponents().to_vec());
-            for (variable, e) in own.iter_mut().enumerate().filter(|(variable, _)| multiple(*variable) > 0) {
-                k += multiple(variable) * std::mem::take(e) as usize;
-            }
-            while parts.len() <= k {
-                parts.push(Poly::zero());
-            }
-            let term = MultiPoly::from_terms([(own, c.clone())]);
-            parts[k] = parts[k].plus(&Poly::monomial(term, j));
-        }
-    }
-    parts
 }
 
 /// `A/B`, the coefficients of `exp(-tau s)^k` at `[k]`, without a root of `B` on the axis.
 pub(super) struct DelayedQuotient<G: Ground> {
     axis: DelayedAxis<G>,
-    above: Vec<Poly<G::Number>>,
-    below: Vec<Poly<G::Number>>,
+    above: Vec<ComplexPoly<G::Number>>,
+    below: Vec<ComplexPoly<G::Number>>,
 }
 
 impl<G: Ground> DelayedQuotient<G> {
@@ -98,10 +47,11 @@ impl<G: Ground> DelayedQuotient<G> {
     pub fn new(
         ground: &G,
         tau: Rational,
-        above: Vec<Poly<G::Number>>,
-        below: Vec<Poly<G::Number>>,
+        above: Vec<ComplexPoly<G::Number>>,
+        below: Vec<ComplexPoly<G::Number>>,
     ) -> DelayedQuotient<G> {
-        DelayedQuotient { axis: DelayedAxis::new(ground, tau), above, below }
+        let frequencies = frequencies_of(above.iter().chain(&below));
+        DelayedQuotient { axis: DelayedAxis::new(ground, tau, frequencies), above, below }
     }
 
     /// The extreme of the square of the modulus.
@@ -113,9 +63,9 @@ impl<G: Ground> DelayedQuotient<G> {
     pub fn peak(&self, budget: &Budget) -> Result<Extreme, Exhausted> {
         let [above, below] = [&self.above, &self.below].map(|parts| self.square(parts));
         let slope = self.axis.derivative(&above).times(&below).minus(&above.times(&self.axis.derivative(&below)));
-        let at_zero = |parts: &[Poly<G::Number>]| {
-            let sum = parts.iter().fold(G::Number::zero(), |sum, p| sum.plus(&p.coeff(0)));
-            sum.times(&sum)
+        let at_zero = |parts: &[ComplexPoly<G::Number>]| {
+            let none = ComplexPoly::from(Poly::zero());
+            parts.iter().fold(none, |sum, p| sum.plus(&p.coeff(0))).squared().coeff(0)
         };
         let lowest = self.ground().quotient(&at_zero(&self.above), &at_zero(&self.below), budget)?;
         let slope = without_squares_of_sine(&slope);
@@ -134,11 +84,15 @@ impl<G: Ground> DelayedQuotient<G> {
             },
             (end, _) => (end?, None),
         };
-        let mut best = (Place::Lowest, lowest.number(budget)?);
+        let mut best = (self.axis.at_rest(), lowest.number(budget)?);
         for omega in self.axis.zeros(&slope, &end, budget)? {
             let value = self.axis.quotient(&above, &below, &omega);
-            if value.compare(&best.1, budget)? == Ordering::Greater {
-                best = (place_of(&omega), value);
+            let [own, known] = budget.enter(|| [&value, &best.1].map(|x| within(x, COMPARED_BITS)))?;
+            if own.lower() > known.upper() {
+                best = (self.axis.place_of(&omega), value);
+            } else if own.upper() >= known.lower() {
+                // A loop that is a real one seen from a frame that turns has the same peak at two frequencies.
+                best.1 = greater(best.1, value);
             }
         }
         if let Some(square) = limit.map(|limit| &limit * &limit)
@@ -157,10 +111,11 @@ impl<G: Ground> DelayedQuotient<G> {
             &(&unit * &part) * &Rational::from(2).pow(octave).expect("two is not zero")
         };
         let all = OCTAVES.flat_map(|octave| (0..IN_AN_OCTAVE).map(move |k| (octave, k)));
-        let at = |(octave, k)| self.axis.quotient_at(squares, &frequency(octave, k), BITS);
+        let all = all.flat_map(|place| self.signs().iter().map(move |sign| (place, Rational::from(*sign))));
+        let at = |((octave, k), sign)| self.axis.quotient_at(squares, &(frequency(octave, k) * sign), BITS);
         let found = all.filter_map(at).map(|value| value.lower().clone()).max();
         let square = found.into_iter().chain([lowest.enclosure(BITS).lower().clone()]).max().expect("there is one");
-        jurist_algebra::number::Enclosure::from_rational(square).sqrt(BITS).lower().clone().max(Rational::ZERO)
+        Enclosure::from_rational(square).sqrt(BITS).lower().clone().max(Rational::ZERO)
     }
 
     /// A frequency beyond which the modulus is below one that is above the limit; the error where no such modulus is found.
@@ -177,7 +132,7 @@ impl<G: Ground> DelayedQuotient<G> {
             for omega in self.axis.zeros(slope, &reach, budget)? {
                 let square = self.axis.quotient(above, below, &omega);
                 let least = budget.enter(|| square.refined_to_digits(DIGITS_OF_PEAK).enclosure().0)?;
-                best = best.max(jurist_algebra::number::Enclosure::from_rational(least).sqrt(BITS).lower().clone());
+                best = best.max(Enclosure::from_rational(least).sqrt(BITS).lower().clone());
             }
             match self.end(&best, budget) {
                 Err(stopped) if !stopped.stop.is_budget() => {}
@@ -202,11 +157,22 @@ impl<G: Ground> DelayedQuotient<G> {
             }
         }
         weights[0].1 = value - &weights[0].1;
+        let ends = self.signs().iter().map(|sign| self.end_on_side(&weights, *sign, budget));
+        Ok(ends.collect::<Result<Vec<_>, _>>()?.into_iter().max().expect("there is one"))
+    }
+
+    /// A size beyond which, at frequencies of one sign, the first polynomial times its weight is greater than all others.
+    fn end_on_side(
+        &self,
+        weights: &[(&ComplexPoly<G::Number>, Rational)],
+        sign: i64,
+        budget: &Budget,
+    ) -> Result<Rational, Exhausted> {
         let common = weights.iter().fold(Integer::ONE, |l, (_, weight)| l.lcm(&weight.denominator()));
         let whole = |weight: &Rational| G::Number::from_integer(&(weight * &Rational::from(&common)).numerator());
-        let modulus = |(p, weight): &(&Poly<G::Number>, Rational)| {
-            let [re, im] = along_axis(p);
-            re.times(&re).plus(&im.times(&im)).scaled(&whole(weight).times(&whole(weight)))
+        let modulus = |(p, weight): &(&ComplexPoly<G::Number>, Rational)| {
+            let square = along_axis(p).squared().scaled(&whole(weight).times(&whole(weight)));
+            if sign < 0 { square.negated_argument() } else { square }
         };
         let outweighed = match &weights[1..] {
             [one] => modulus(one),
@@ -232,12 +198,25 @@ impl<G: Ground> DelayedQuotient<G> {
     /// The modulus that is come near to, again and again, at high frequencies: there `exp(-j omega tau)` is 1 and -1 in turn. `None` where the terms with the
     /// highest power of `s` are not all in phase at one of these, and where it is not rational.
     fn limit(&self, budget: &Budget) -> Result<Option<Rational>, Exhausted> {
-        let Some(order) = self.below[0].degree() else { return Ok(None) };
-        if self.above.iter().chain(&self.below).any(|p| p.degree().is_some_and(|degree| degree > order)) {
+        let Some(order) = self.below[0].len().checked_sub(1) else { return Ok(None) };
+        if self.above.iter().chain(&self.below).any(|p| p.len() > order + 1) {
             return Ok(None);
         }
-        let highest = |parts: &[Poly<G::Number>]| -> Vec<G::Number> { parts.iter().map(|p| p.coeff(order)).collect() };
-        let (above, below) = (highest(&self.above), highest(&self.below));
+        let unit = self.below[0].coeff(order);
+        let mut highest = Vec::new();
+        for p in self.above.iter().chain(&self.below) {
+            // Relative to that of the denominator without delay, a real number where all are in phase.
+            let [c, aside] = match unit.is_real() && p.is_real() {
+                true => [p.re.coeff(order), G::Number::zero()],
+                false => p.coeff(order).times_conjugate(&unit).map(|c| c.coeff(0)),
+            };
+            if self.ground().sign(&aside, budget)?.is_ne() {
+                return Ok(None);
+            }
+            highest.push(c);
+        }
+        let below = highest.split_off(self.above.len());
+        let above = highest;
         let sum = |list: &[G::Number]| -> Result<G::Number, Exhausted> {
             let sizes = list.iter().map(|c| self.size(c, budget)).collect::<Result<Vec<_>, _>>()?;
             Ok(sizes.iter().fold(G::Number::zero(), |sum, c| sum.plus(c)))
@@ -267,10 +246,20 @@ impl<G: Ground> DelayedQuotient<G> {
     }
 
     /// At least the size of the factor that makes the first polynomial of the second one.
-    fn ratio(&self, p: &Poly<G::Number>, own: &Poly<G::Number>, budget: &Budget) -> Result<Rational, Exhausted> {
-        let leading = |p: &Poly<G::Number>| self.size(p.leading().expect("not zero"), budget);
-        let ratio = self.ground().quotient(&leading(p)?, &leading(own)?, budget)?;
-        budget.enter(|| ratio.enclosure(BITS).upper().clone())
+    fn ratio(
+        &self,
+        p: &ComplexPoly<G::Number>,
+        own: &ComplexPoly<G::Number>,
+        budget: &Budget,
+    ) -> Result<Rational, Exhausted> {
+        let [a, b] = [p, own].map(|p| p.leading().expect("not zero"));
+        if a.is_real() && b.is_real() {
+            let [a, b] = [self.size(&a.re.coeff(0), budget)?, self.size(&b.re.coeff(0), budget)?];
+            let ratio = self.ground().quotient(&a, &b, budget)?;
+            return budget.enter(|| ratio.enclosure(BITS).upper().clone());
+        }
+        let square = self.ground().quotient(&a.squared().coeff(0), &b.squared().coeff(0), budget)?;
+        budget.enter(|| square.enclosure(BITS).sqrt(BITS).upper().clone())
     }
 
     /// The absolute value.
@@ -278,22 +267,24 @@ impl<G: Ground> DelayedQuotient<G> {
         Ok(if self.ground().sign(c, budget)?.is_lt() { c.negated() } else { c.clone() })
     }
 
-    /// The polynomial with the absolute values of the coefficients.
-    fn sizes(&self, p: &Poly<G::Number>, budget: &Budget) -> Result<Poly<G::Number>, Exhausted> {
-        let sizes = p.coeffs().iter().map(|c| self.size(c, budget)).collect::<Result<_, _>>()?;
-        Ok(Poly::new(sizes))
+    /// A polynomial with coefficients that are at least the absolute values of these.
+    fn sizes(&self, p: &ComplexPoly<G::Number>, budget: &Budget) -> Result<Poly<G::Number>, Exhausted> {
+        let sizes = |p: &Poly<G::Number>| -> Result<Poly<G::Number>, Exhausted> {
+            Ok(Poly::new(p.coeffs().iter().map(|c| self.size(c, budget)).collect::<Result<_, _>>()?))
+        };
+        Ok(sizes(&p.re)?.plus(&sizes(&p.im)?))
     }
 
     /// The square of the modulus of `sum a_k z^k` at `s = j omega`: the sum of `2 Re(a_k conj(a_l) z^(k - l))`.
-    fn square(&self, parts: &[Poly<G::Number>]) -> MultiPoly {
-        let along: Vec<[Poly<G::Number>; 2]> = parts.iter().map(along_axis).collect();
+    fn square(&self, parts: &[ComplexPoly<G::Number>]) -> MultiPoly {
+        let along: Vec<ComplexPoly<G::Number>> = parts.iter().map(along_axis).collect();
         let (cos, sin) = (MultiPoly::variable(1), MultiPoly::variable(2));
         let (mut turn, mut out) = ([MultiPoly::one(), MultiPoly::zero()], MultiPoly::zero());
         for m in 0..parts.len() {
             let (mut re, mut im) = (Poly::zero(), Poly::zero());
-            for [a, b] in along[m..].iter().zip(&along).map(|(a, b)| [a, b]) {
-                re = re.plus(&a[0].times(&b[0])).plus(&a[1].times(&b[1]));
-                im = im.plus(&a[1].times(&b[0])).minus(&a[0].times(&b[1]));
+            for (a, b) in along[m..].iter().zip(&along) {
+                let [own_re, own_im] = a.times_conjugate(b);
+                (re, im) = (re.plus(&own_re), im.plus(&own_im));
             }
             let [re, im] = [&re, &im].map(|p| self.axis.of_omega(p));
             let term = re.times(&turn[0]).plus(&im.times(&turn[1]));
@@ -304,6 +295,11 @@ impl<G: Ground> DelayedQuotient<G> {
         without_squares_of_sine(&out)
     }
 
+    /// The signs of the frequencies.
+    fn signs(&self) -> &'static [i64] {
+        if self.axis.is_signed() { &[1, -1] } else { &[1] }
+    }
+
     /// The inverse of the dead time.
     fn unit(&self) -> Rational {
         self.axis.tau().recip().expect("a dead time is not 0")
@@ -311,23 +307,16 @@ impl<G: Ground> DelayedQuotient<G> {
 }
 
 /// Whether one polynomial is the other times a number.
-fn is_multiple<R: Domain>(p: &Poly<R>, own: &Poly<R>) -> bool {
+fn is_multiple<R: Domain>(p: &ComplexPoly<R>, own: &ComplexPoly<R>) -> bool {
     match (p.leading(), own.leading()) {
-        (Some(a), Some(b)) => p.scaled(b) == own.scaled(a),
+        (Some(a), Some(b)) => p.times(&b) == own.times(&a),
         _ => false,
     }
 }
 
-/// The real and the imaginary part at `s = j omega`.
-fn along_axis<R: Domain>(p: &Poly<R>) -> [Poly<R>; 2] {
-    [0, 1].map(|odd| {
-        let of = |(i, c): (usize, &R)| match (i % 2 == odd, (i / 2).is_multiple_of(2)) {
-            (true, true) => c.clone(),
-            (true, false) => c.negated(),
-            (false, _) => R::zero(),
-        };
-        Poly::new(p.coeffs().iter().enumerate().map(of).collect())
-    })
+/// The polynomial at `s = j omega`.
+fn along_axis<R: Domain>(p: &ComplexPoly<R>) -> ComplexPoly<R> {
+    p.along(0, Shape::LeftHalfPlane)
 }
 
 /// The same function of the frequency with the sine to the first power at most.

@@ -43,3 +43,11 @@ pub(crate) fn within(x: &Real, bits: u64) -> Enclosure {
     let (lo, hi) = x.refined(&Rational::dyadic(&Integer::ONE, bits)).enclosure();
     Enclosure::new(lo, hi)
 }
+
+/// The greater of two numbers that enclosures do not tell apart.
+pub(crate) fn greater(a: Real, b: Real) -> Real {
+    enclosed("the greater of two", move |bits| {
+        let [a, b] = [within(&a, bits), within(&b, bits)];
+        Some(Enclosure::new(a.lower().max(b.lower()).clone(), a.upper().max(b.upper()).clone()))
+    })
+}

@@ -78,6 +78,9 @@ pub(crate) trait Ground: Clone + fmt::Debug + Send + Sync {
         budget: &Budget,
     ) -> Result<StableSet, Error>;
 
+    /// The loop of the factor `k`: the sum of these polynomials times powers of `k exp(-tau s)`, from the zeroth up.
+    fn family_of_factors(&self, powers: &[Poly<Self::Number>], tau: &Rational) -> FamilyLoop;
+
     /// A number as a polynomial in symbols, whose variables come after so many others.
     fn in_symbols(&self, c: &Self::Number, before: usize) -> MultiPoly;
 
@@ -228,6 +231,13 @@ impl Ground for Integers {
         let zero = UniPoly::zero();
         let gain = GainLoop::new(vec![d.clone(), zero.clone()], vec![zero, n.clone()], tau.clone());
         stable_factors(gain_cells(&gain, &Range::all(), budget), &gain.family(), budget)
+    }
+
+    fn family_of_factors(&self, powers: &[UniPoly], tau: &Rational) -> FamilyLoop {
+        let part =
+            |(i, p): (usize, &UniPoly)| p.coeffs().iter().map(|c| UniPoly::monomial(c.clone(), i)).collect::<Vec<_>>();
+        let parts = powers.iter().enumerate().map(part).collect();
+        FamilyLoop::new(parts, Line::constant(tau.clone()), Line::constant(Rational::ZERO))
     }
 
     fn in_symbols(&self, c: &Integer, _: usize) -> MultiPoly {
@@ -382,13 +392,17 @@ impl Ground for Constants {
         tau: &Rational,
         budget: &Budget,
     ) -> Result<StableSet, Error> {
-        let part = |p: &Poly<MultiPoly>, power: u64| -> Vec<MultiPoly> {
-            let factor = MultiPoly::variable(0).power(power);
+        let family = self.family_of_factors(&[d.clone(), n.clone()], tau);
+        stable_factors(family_cells(&family, &Range::all(), budget), &family, budget)
+    }
+
+    fn family_of_factors(&self, powers: &[Poly<MultiPoly>], tau: &Rational) -> FamilyLoop {
+        let part = |(i, p): (usize, &Poly<MultiPoly>)| -> Vec<MultiPoly> {
+            let factor = MultiPoly::variable(0).power(i as u64);
             p.coeffs().iter().map(|c| self.in_symbols(c, 1).times(&factor)).collect()
         };
-        let parts = ConstantParts::new(vec![part(d, 0), part(n, 1)], Symbols::clone(&self.0));
-        let family = FamilyLoop::enclosed(parts, Line::constant(tau.clone()), Line::constant(Rational::ZERO));
-        stable_factors(family_cells(&family, &Range::all(), budget), &family, budget)
+        let parts = ConstantParts::new(powers.iter().enumerate().map(part).collect(), Symbols::clone(&self.0));
+        FamilyLoop::enclosed(parts, Line::constant(tau.clone()), Line::constant(Rational::ZERO))
     }
 
     fn in_symbols(&self, c: &MultiPoly, before: usize) -> MultiPoly {

@@ -1,6 +1,6 @@
 //! The peak gain of a closed-loop transfer function.
 
-use super::delayed_peak::DelayedTransfer;
+use super::delayed_transfer::DelayedTransfer;
 use super::extreme::extreme_over;
 use super::ground::Ground;
 use super::met::AtPoint;
@@ -88,19 +88,12 @@ enum Transfer {
 }
 
 impl Transfer {
-    fn new(
-        below: Vec<RationalFunction>,
-        above: Vec<RationalFunction>,
-        symbols: &Symbols,
-        shape: Shape,
-    ) -> Result<Transfer, Error> {
+    /// From the real and the imaginary parts of the coefficients, those of the denominator first.
+    fn new(lists: [Vec<RationalFunction>; 4], symbols: &Symbols, shape: Shape) -> Result<Transfer, Error> {
         // Dead time alone does not change the modulus.
-        match symbols.delays().is_empty() {
-            true => Ok(Transfer::Of(Over::new(below, above, Vec::new(), symbols, shape)?.0)),
-            false => match Over::new(below.clone(), above.clone(), Vec::new(), symbols, shape) {
-                Ok((over, _)) => Ok(Transfer::Of(over)),
-                Err(_) => Ok(Transfer::Delayed(DelayedTransfer::new([below, above], symbols)?)),
-            },
+        match Over::of_complex(lists.clone(), Vec::new(), symbols, shape) {
+            Err(_) if !symbols.delays().is_empty() => Ok(Transfer::Delayed(DelayedTransfer::new(lists, symbols)?)),
+            over => Ok(Transfer::Of(over?.0)),
         }
     }
 
@@ -115,10 +108,10 @@ impl Transfer {
         }
     }
 
-    fn frequencies(&self, shape: Shape) -> Frequencies {
+    fn frequencies(&self) -> Frequencies {
         match self {
             Transfer::Of(over) => over.frequencies(),
-            Transfer::Delayed(_) => shape.into(),
+            Transfer::Delayed(transfer) => transfer.frequencies(),
         }
     }
 }
@@ -161,16 +154,15 @@ impl Problem {
         budget.enter(|| {
             let verdict = self.verdict(budget)?.into_value();
             let (closed_loop, symbols) = self.closed_loop_over_symbols(budget)?;
-            let shape = self.shape();
-            let transfer = if closed_loop.is_complex {
+            let lists = if closed_loop.is_complex {
                 let (row, column) = closed_loop.complex_ports(input, output)?;
                 let [below, above] = closed_loop.complex_transfer(row, column, budget)?;
-                let lists = [below.re, below.im, above.re, above.im];
-                Transfer::Of(Over::of_complex(lists, Vec::new(), symbols, shape)?.0)
+                [below.re, below.im, above.re, above.im]
             } else {
                 let transfer = closed_loop.transfer_function(input, output, budget)?;
-                Transfer::new(transfer.denominator.coefficients, transfer.numerator, symbols, shape)?
+                [transfer.denominator.coefficients, Vec::new(), transfer.numerator, Vec::new()]
             };
+            let transfer = Transfer::new(lists, symbols, self.shape())?;
             let peak = match verdict.verdict {
                 Verdict::Stable => {
                     budget.step("peak gain");
@@ -180,7 +172,7 @@ impl Problem {
             };
             let sample_time = self.algebra_over_symbols(budget)?.sample_time().and_then(RationalFunction::as_constant);
             let (input, output) = (input.to_owned(), output.to_owned());
-            let frequencies = transfer.frequencies(shape);
+            let frequencies = transfer.frequencies();
             Ok(Answer::new(Arc::clone(self), Norm { input, output, verdict, peak, frequencies, sample_time }))
         })?
     }

@@ -4,15 +4,17 @@
 //! `-2 Im(N conj(D0))/|D0 + N|^2`, falls as `phi` grows, and is finite where the loop is stable. So the greatest cotangent is that of the least lag,
 //! and the least one is that of the least lead.
 
-use super::crossings::Crossings;
+use super::crossings::{COMPARED_BITS, Crossings, GainCrossing};
 use super::disk::degrees;
+use super::enclosed::{enclosed, greater, within};
 use super::extreme::extreme_over;
 use super::ground::Ground;
 use super::open_loop::OpenLoop;
 use super::parts::{Parts, with_parts};
 use super::value::reciprocal;
 use super::{PhaseMargin, Place, Value};
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::ball::{Ball, cos_sin};
+use jurist_algebra::limits::{Budget, Exhausted, Stop};
 use jurist_algebra::number::{Enclosure, Integer, Rational, Sign};
 use jurist_algebra::poly::{Domain, Poly};
 use jurist_algebra::real::Real;
@@ -59,9 +61,27 @@ impl OneSided {
         Ok(OneSided { lag: greatest(-2)?, lead: greatest(2)? })
     }
 
+    /// Of a stable loop with dead time, whose crossings know it.
+    pub(super) fn with_dead_time<G: Ground>(
+        parts: &Parts<G>,
+        crossings: &Crossings,
+        budget: &Budget,
+    ) -> Result<OneSided, Exhausted> {
+        Ok(OneSided {
+            lag: Rotation::of_least(GainCrossing::lag, -2, parts, crossings, budget)?,
+            lead: Rotation::of_least(GainCrossing::lead, 2, parts, crossings, budget)?,
+        })
+    }
+
     /// The smaller of both, which is at most 180 degrees; where enclosures do not tell which it is, as where both are the same, the lag.
     pub(super) fn smaller(&self, budget: &Budget) -> Result<PhaseMargin, Exhausted> {
         let (Some(lag), Some(lead)) = (&self.lag, &self.lead) else { return Ok(PhaseMargin::Unbounded) };
+        if let Some(both) = budget.enter(|| lag.nearly_as(lead))? {
+            if budget.enter(|| within(&both, COMPARED_BITS))?.contains(&Rational::ZERO) {
+                return Err(Exhausted::new(Stop::Separation, "a phase margin of 180 degrees"));
+            }
+            return Ok(PhaseMargin::Angle { tangent: Some(Box::new(both.recip())), place: lag.place.clone() });
+        }
         let is_lead = match lead.cotangent.compare(&lag.cotangent, budget) {
             Err(stopped) if stopped.stop.is_precision() => false,
             order => order?.is_gt(),
@@ -88,6 +108,45 @@ impl OneSided {
 }
 
 impl Rotation {
+    /// By the least angle, in one sense, of all crossings of a loop with dead time.
+    fn of_least<G: Ground>(
+        angle: fn(&GainCrossing, u64) -> Enclosure,
+        factor: i64,
+        parts: &Parts<G>,
+        crossings: &Crossings,
+        budget: &Budget,
+    ) -> Result<Option<Rotation>, Exhausted> {
+        let Some(crossing) = crossings.least(angle, budget)?.cloned() else { return Ok(None) };
+        let place = Some(crossing.place.clone());
+        if crossing.is_at_rest() {
+            let r = &parts.reduced;
+            let above = r.imaginary.scaled(&G::Number::from_integer(&Integer::from(factor)));
+            let value = parts.ground.value(&above, &r.sum_squared, &crossing.place, r.frequencies, budget)?;
+            let cotangent = value.expect("a stable loop is nowhere -1").number(budget)?;
+            return Ok(Some(Rotation { cotangent, place }));
+        }
+        let two = Enclosure::from_rational(Rational::from(2));
+        let cotangent = enclosed("cotangent of half of an angle", move |bits| {
+            let half = angle(&crossing, bits).div(&two, bits)?;
+            let (cosine, sine) = cos_sin(&Ball::from_enclosure(&half, bits));
+            Some(cosine.div(&sine)?.to_enclosure())
+        });
+        Ok(Some(Rotation { cotangent, place }))
+    }
+
+    /// The greater cotangent of two that enclosures hardly tell apart, as those of a loop that is a real one seen from a frame that turns.
+    fn nearly_as(&self, other: &Rotation) -> Option<Real> {
+        let (own, other) = (self.cotangent.clone(), other.cotangent.clone());
+        if own.algebraic().is_some() || other.algebraic().is_some() {
+            return None;
+        }
+        let [a, b] = [within(&own, COMPARED_BITS), within(&other, COMPARED_BITS)];
+        if a.upper() < b.lower() || b.upper() < a.lower() {
+            return None;
+        }
+        Some(greater(own, other))
+    }
+
     /// With the greatest cotangent `above/|D0 + N|^2` where the modulus is one.
     fn of_greatest<G: Ground>(
         above: &Poly<G::Number>,
@@ -121,15 +180,26 @@ impl Rotation {
         if let Some(degrees) = self.known_degrees() {
             return Enclosure::from_rational(Rational::from(degrees));
         }
+        degrees(&self.half(working).mul(&Enclosure::from_rational(Rational::from(2)), working), bits)
+    }
+
+    /// Half the angle in radians.
+    fn half(&self, working: u64) -> Enclosure {
+        let near = within(&self.cotangent, working);
+        if near.lower().abs() < Rational::ONE && near.upper().abs() < Rational::ONE {
+            // It may be 0, which enclosures do not tell.
+            let quarter =
+                Enclosure::pi(working).mul(&Enclosure::from_rational(Rational::new(1.into(), 2.into())), working);
+            return quarter.sub(&near.atan(working), working);
+        }
         let cotangent = Value::Number(self.cotangent.clone()).enclosure(working);
         let one = Enclosure::from_rational(Rational::ONE);
         let tangent = one.div(&cotangent, working).expect("digits tell a number from zero");
         let half = tangent.atan(working);
-        let half = match half.upper().sign() {
+        match half.upper().sign() {
             Ordering::Less => Enclosure::pi(working).add(&half, working),
             _ => half,
-        };
-        degrees(&half.mul(&Enclosure::from_rational(Rational::from(2)), working), bits)
+        }
     }
 
     /// The angle where its cosine is rational.

@@ -287,10 +287,16 @@ impl OpenLoop {
     /// A value multiplied by that of the dead time.
     fn delayed(&self, x: &Rational, real: Enclosure, imaginary: Enclosure, bits: u64) -> (Enclosure, Enclosure) {
         let Some(tau) = &self.dead_time else { return (real, imaginary) };
-        let rate = Enclosure::from_rational(-x).sqrt(bits);
+        let is_signed = self.frequencies().are_signed();
+        let rate =
+            if is_signed { Enclosure::from_rational(x.clone()) } else { Enclosure::from_rational(-x).sqrt(bits) };
         let turned = rate.mul(&Enclosure::from_rational(tau.clone()), bits);
         let (cos, sin) = cos_sin(&Ball::from_enclosure(&turned, bits));
         let (cos, sin) = (cos.to_enclosure(), sin.to_enclosure());
+        if is_signed {
+            let along = real.mul(&cos, bits).add(&imaginary.mul(&sin, bits), bits);
+            return (along, imaginary.mul(&cos, bits).sub(&real.mul(&sin, bits), bits));
+        }
         let over_rate = sin.div(&rate, bits).unwrap_or_else(|| Enclosure::from_rational(tau.clone()));
         let along = real.mul(&cos, bits).add(&imaginary.mul(&rate, bits).mul(&sin, bits), bits);
         (along, imaginary.mul(&cos, bits).sub(&real.mul(&over_rate, bits), bits))
@@ -352,13 +358,8 @@ impl Over {
         symbols: &crate::model::Symbols,
         shape: Shape,
     ) -> Result<(Over, Option<Rational>), Error> {
-        let [denominator, mut numerator] = without_denominators([denominator, numerator]);
-        let mut dead_time = None;
-        if !symbols.delays().is_empty() {
-            let (rest, tau) = split_delay(&denominator, &numerator, symbols).ok_or_else(no_single_delay)?;
-            numerator = rest;
-            dead_time = Some(tau).filter(|tau| !tau.is_zero());
-        }
+        let [denominator, numerator] = without_denominators([denominator, numerator]);
+        let ([numerator], dead_time) = without_delay([&denominator], [numerator], symbols)?;
         let is_rational = |p: &Poly<MultiPoly>| p.coeffs().iter().all(MultiPoly::is_constant);
         if is_rational(&denominator) && is_rational(&numerator) && poles.iter().all(is_rational) {
             let plain = |p: &Poly<MultiPoly>| p.map(|c| c.as_constant().expect("every parameter has a value"));
@@ -366,31 +367,45 @@ impl Over {
             let parts = Parts::new(Integers, plain(&denominator), plain(&numerator), poles, shape);
             return Ok((Over::Integers(parts), dead_time));
         }
-        let is_delay = |variable: &usize| symbols.delays().iter().any(|(own, _)| *own - symbols.first() == *variable);
-        if poles.iter().flat_map(|p| p.coeffs()).any(|c| c.variables().iter().any(is_delay)) {
-            return Err(BESIDE_DEAD_TIME.diagnostic(&[]).into());
-        }
-        let ground = Constants::beside_delays(symbols)?;
+        let ground = constants_of(&poles, symbols)?;
         Ok((Over::Constants(Parts::new(ground, denominator, numerator, poles, shape)), dead_time))
     }
 }
 
-fn no_single_delay() -> Error {
-    ONE_FACTOR.diagnostic(&[]).into()
+/// The constants of an open loop; refuses dead times in the poles of a factor.
+pub(super) fn constants_of(poles: &[Poly<MultiPoly>], symbols: &crate::model::Symbols) -> Result<Constants, Error> {
+    let is_delay = |variable: &usize| symbols.delays().iter().any(|(own, _)| *own - symbols.first() == *variable);
+    if poles.iter().flat_map(|p| p.coeffs()).any(|c| c.variables().iter().any(is_delay)) {
+        return Err(BESIDE_DEAD_TIME.diagnostic(&[]).into());
+    }
+    Constants::beside_delays(symbols)
+}
+
+/// The parts of the numerator without the dead time that is a factor of all of them, and that dead time; the parts of the denominator have none.
+pub(super) fn without_delay<const N: usize>(
+    denominator: [&Poly<MultiPoly>; N],
+    numerator: [Poly<MultiPoly>; N],
+    symbols: &crate::model::Symbols,
+) -> Result<([Poly<MultiPoly>; N], Option<Rational>), Error> {
+    if symbols.delays().is_empty() {
+        return Ok((numerator, None));
+    }
+    let (rest, tau) = split_delay(denominator, &numerator, symbols).ok_or_else(|| ONE_FACTOR.diagnostic(&[]))?;
+    Ok((rest, Some(tau).filter(|tau| !tau.is_zero())))
 }
 
 /// The numerator without the one product of powers of `exp(-tau s)` that all its terms have, and its dead time; symbols are
 /// numbered as in their table.
-fn split_delay(
-    denominator: &Poly<MultiPoly>,
-    numerator: &Poly<MultiPoly>,
+fn split_delay<const N: usize>(
+    denominator: [&Poly<MultiPoly>; N],
+    numerator: &[Poly<MultiPoly>; N],
     symbols: &crate::model::Symbols,
-) -> Option<(Poly<MultiPoly>, Rational)> {
+) -> Option<([Poly<MultiPoly>; N], Rational)> {
     let delays: Vec<(usize, RationalFunction)> =
         symbols.delays().into_iter().map(|(variable, delay)| (variable - symbols.first(), delay)).collect();
     let is_free = |p: &MultiPoly| delays.iter().all(|(variable, _)| p.degree_in(*variable) == 0);
     let mut exponents: Option<Vec<u32>> = None;
-    for (monomial, _) in numerator.coeffs().iter().flat_map(|c| c.terms()) {
+    for (monomial, _) in numerator.iter().flat_map(|p| p.coeffs()).flat_map(|c| c.terms()) {
         let found: Vec<u32> = delays.iter().map(|(variable, _)| monomial.exponent(*variable)).collect();
         if exponents.get_or_insert_with(|| found.clone()) != &found {
             return None;
@@ -404,8 +419,8 @@ fn split_delay(
             factor = factor.times(&MultiPoly::variable(*variable).power(u64::from(exponent)));
         }
     }
-    let rest = numerator.map(|c| c.div_exact(&factor).expect("every term has the factor"));
-    denominator.coeffs().iter().all(is_free).then_some((rest, tau))
+    let rest = numerator.each_ref().map(|p| p.map(|c| c.div_exact(&factor).expect("every term has the factor")));
+    denominator.iter().flat_map(|p| p.coeffs()).all(is_free).then_some((rest, tau))
 }
 
 /// The loop opened at a signal, with polynomials over the constants of holds, and the sample time.

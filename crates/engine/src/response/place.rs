@@ -94,6 +94,15 @@ pub enum Place {
 }
 
 impl Place {
+    /// Whether it is the frequency 0.
+    pub(super) fn is_at_rest(&self, frequencies: Frequencies) -> bool {
+        match self {
+            Place::Lowest => true,
+            Place::Inside(x) => frequencies.are_signed() && x.sign().is_eq(),
+            Place::Highest => false,
+        }
+    }
+
     /// Angle and frequency, enclosed with about `bits` significant bits; `None` for the limit of high frequencies.
     pub fn frequency(
         &self,
