@@ -240,7 +240,7 @@ pub(crate) fn stable_factors(
         Ok(Ok(cells)) => Ok(cells.stable_set(family, &[], &Range::all(), budget)?),
         Ok(Err(_)) => Ok(StableSet::from_intervals(Vec::new(), Vec::new())),
         Err(NotSolved::NotCounted(reason)) => Err(not_counted(reason)),
-        Err(_) => Err(undecided("the factors of the open loop have no end")),
+        Err(reason) => Err(not_solved(reason)),
     }
 }
 
