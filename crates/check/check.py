@@ -838,7 +838,9 @@ class Loop:
         need("states" not in loop and "E" not in loop, "blocks have their own states")
         for block in blocks:
             need({"input", "output"} <= set(table(block, keys)), "a block has no input or no output")
-        names = [text_of(block["name"]) for block in blocks if "name" in block]
+        given = [text_of(block["name"]) if "name" in block else None for block in blocks]
+        bare = given.index(None) if None in given and "block" not in given else -1
+        names = [name if name is not None else "block" if i == bare else f"block {i + 1}" for i, name in enumerate(given)]
         need(len(set(names)) == len(names), "two blocks have one name")
         driven = [name for block in blocks for name in several(block["output"])]
         self.inputs = several(loop.get("inputs", []))
@@ -850,13 +852,13 @@ class Loop:
             used[self.cut.name] = used[self.cut.name] * self.cut.factor
         need(not self.cut or self.cut.kind != "input" or self.cut.name in names, "the loop is cut at a block that is not there")
         rates, of_rows, of_states = [], [], {}
-        for block in blocks:
+        for name, block in zip(names, blocks):
             self.every, phase = (constant(block.get(key, usual)) for key, usual in (("every", 1), ("phase", 0)))
             need(self.every.denominator == phase.denominator == 1 and 0 <= phase < self.every, "a rate is no number of samples")
             need(self.z == "z" or not {"every", "phase"} & set(block), "a continuous loop has no rates")
             self.every = int(self.every)
             rates.append((self.every, int(phase), several(block["output"])))
-            self.block(block, used)
+            self.block(name, block, used)
             of_rows += [rates[-1]] * (len(self.equations) - len(of_rows))
             of_states |= {name: rates[-1] for name in self.unknowns[len(driven):] if name not in of_states}
         if any(every > 1 for every, _, _ in rates):
@@ -896,12 +898,12 @@ class Loop:
         self.equations = [e for _, e in sorted(equations, key=lambda timed: timed[0])]  # neighbours share signals
         self.unknowns = [(name, t) for name in self.unknowns for t in range(steps) if active(of_states.get(name, (1, 0)), start + t)]
 
-    def block(self, block, signals):
+    def block(self, called, block, signals):
         scope = self.scope
         u = [scope.linear(e, signals) for e in several(block["input"])]
         # External signals are zero, and what divides them is not in the equations.
         u = [Value({name: p for name, p in e.tops.items() if name not in self.inputs}, e.bottom) for e in u]
-        if self.cut and self.cut.kind == "input" and self.cut.name == block.get("name"):
+        if self.cut and self.cut.kind == "input" and self.cut.name == called:
             need(len(u) == 1, "the loop is cut at the input of a block that has not one")
             u = [u[0] * self.cut.factor]
         y = [Value({name: ONE}) for name in several(block["output"])]

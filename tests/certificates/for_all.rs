@@ -7,7 +7,7 @@ use crate::helpers::model::read;
 use crate::helpers::number::{number, ratio};
 use crate::helpers::thorough::tried;
 use jurist::certified::{certify_boxes, certify_required_intervals, certify_requirements, certify_tolerance};
-use jurist::{Ask, Budget, Rational, Requirement, ToleranceRequest};
+use jurist::{Ask, Budget, Model, Rational, Requirement, Source, ToleranceRequest};
 use jurist_check::{Limits, Step, check};
 use jurist_engine::answer::BoxRequest;
 use jurist_engine::response::{AllOf, MapForAll};
@@ -238,4 +238,33 @@ fn statements_that_ask_for_something_else_are_rejected() {
     ] {
         reject_in_rust(text, &with(&certificate, from, to), step);
     }
+}
+
+/// A filter before the loop, and the loop: three blocks of which none has a name, or the middle one has the name of the first.
+#[test]
+fn blocks_without_names_are_told_apart() {
+    let text = |name: &str| {
+        format!(
+            "time = 'continuous'\n[parameters]\nK = {{ nominal = 1, min = 0, max = 20 }}\n[loop]\ninputs = ['w']\noutputs = ['y']\n\
+             [[block]]\ninput = 'w'\noutput = 'r'\ntransfer = '1/(s + 1)'\n[[block]]\n{name}input = 'r - y'\noutput = 'u'\ngain = 'K'\n\
+             [[block]]\ninput = 'u'\noutput = 'y'\ntransfer = '1/(s + 1)^3'\n"
+        )
+    };
+    for (name, cut) in [("", "block 2"), ("name = 'block'\n", "block")] {
+        let text = text(name);
+        let problem = read(&text).ask().set("K", 1).problem().unwrap();
+        // The gain margin is 8.
+        let stable = problem.margins(None, &Rational::ZERO, &budget()).unwrap().into_value().stable.unwrap();
+        assert_eq!(stable.gain.upper.unwrap().value.exact(), Some(8.into()));
+        for (factor, is_met) in [("7", true), ("9", false)] {
+            let asked = [Requirement::gain_margin(&number(factor)).unwrap()];
+            let certificate = certify_requirements(&problem, &asked, None, is_met, &budget()).unwrap();
+            let words = check(&text, &certificate, &LIMITS).unwrap().statement;
+            assert!(words.contains(&format!("'{cut}'")), "{words}");
+            accept(&text, &certificate);
+            reject(&text, &with(&certificate, &format!("\"{cut}\""), "\"block 9\""), Step::Model);
+        }
+    }
+    let message = |text: &str| Model::from_toml(&Source::new("model.toml", text)).unwrap_err().to_string();
+    assert!(message(&text("name = 'block 3'\n")).contains("the block without a name is called 'block 3'"));
 }

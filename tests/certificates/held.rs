@@ -300,3 +300,12 @@ fn held_ends_and_bits_are_checked() {
     assert!(python(&model, &few).is_none_or(|found| found.is_ok() == proves));
     reject(&model, &with("certificate/2", "certificate/1"), Step::Format);
 }
+
+/// Beside the characteristic polynomial the checkers have a divisor of degree 84 in the tangent of the oscillation: it asks for more bits than that has.
+#[test]
+fn an_oscillation_with_part_of_a_sample_of_dead_time() {
+    let text = "time = 'discrete'\nsample_time = '2/7'\n[parameters]\nK = { nominal = 1, min = -1, max = 6 }\n[loop]\ninputs = ['r']\noutputs = ['y']\n\
+                [[block]]\ninput = 'r - y'\noutput = 'u'\ngain = 'K'\n[[block]]\ninput = 'u'\noutput = 'y'\ntransfer = '1/(s^2 + 16)'\n\
+                discretize = { method = 'zoh', delay = '1/3' }\n";
+    accept(text, &emitted(text, "K"));
+}

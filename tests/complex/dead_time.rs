@@ -5,6 +5,7 @@ use crate::helpers::program::jurist_with_input;
 use jurist::certified::certify_verdict;
 use jurist::{Ask, Limits, check};
 use jurist_algebra::limits::Budget;
+use jurist_engine::answer::DelayedRoots;
 use jurist_engine::problem::Problem;
 use jurist_engine::stability::StableSet;
 
@@ -120,6 +121,27 @@ fn a_gain_that_begins_at_zero() {
     assert_eq!(open.lower, Some(0.into()));
     // The modulus of s (s + 1) at s = -0.7975507 j.
     assert_eq!(found.intervals()[0].upper.as_ref().unwrap().value.decimal(11), "1.0201440191");
+}
+
+/// Of `D conj(D)` there are twice as many: a verdict is about `D`.
+#[test]
+fn roots_of_a_complex_loop_are_counted_once() {
+    let counts = |function: &str| {
+        let text = format!("time = 'continuous'\n[loop]\ncharacteristic = '{function}'\n");
+        let found = read(&text).ask().verdict(&Budget::unlimited()).unwrap().into_value();
+        let DelayedRoots { on, right, .. } = found.delayed.unwrap();
+        (found.degree, on, right)
+    };
+    // Newton's method finds one root right of the axis, 0.0728 - 2.5190 j.
+    assert_eq!(counts("s + 1 + j + 2*exp(-j/3)*exp(-s)"), (1, 0, Some(1)));
+    assert_eq!(counts("(s - j)*(s - 2 + j)*(s + 1 + exp(-s)/3)"), (3, 1, Some(1)));
+    // One root at s = 0, and two.
+    assert_eq!(counts("(s + 1)*(s + 2) - 2 + j*(1 - exp(-s))"), (2, 1, Some(0)));
+    assert_eq!(counts("s*((s + 1)*(s + 2) - 2 + j*(1 - exp(-s)))"), (3, 2, Some(0)));
+    // The gain of s + 3 + j + exp(-s)/8, beyond the only limit.
+    let model = "time = 'continuous'\n[parameters]\na = 1\n[loop]\ncharacteristic = 's + 3 + j - a + exp(-s)/8'\n";
+    let printed = jurist_with_input(&["tolerance", "-", "--tol", "a=10%"], model.as_bytes()).stdout;
+    assert!(printed.contains(", 1 root to the right just beyond"), "{printed}");
 }
 
 /// By boxes: a verdict is a box of one point.

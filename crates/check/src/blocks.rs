@@ -21,11 +21,11 @@ use super::factor::{Cut, PutIn};
 use super::hold::{Hold, MovingHold};
 use super::model::{Ports, names, outputs};
 use super::multivariate::{Fraction, Multi};
-use super::number::{Q, shorten};
+use super::number::Q;
 use super::symbols::Table;
 use super::toml::Toml;
 use rates::{Rate, Rates};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// `s = top/bottom` with `top`, `bottom` in the variable; both are without denominators.
@@ -105,10 +105,7 @@ pub(super) fn system_matrix<'t>(
     sample_time: Option<&Toml>,
     values: Option<Values<'_>>,
 ) -> Result<(Form, Ports<'t>), String> {
-    let mut called = BTreeSet::new();
-    if let Some(name) = blocks.iter().filter_map(|b| b.get("name")?.text().ok()).find(|name| !called.insert(*name)) {
-        return Err(format!("two blocks are called '{}'", shorten(name)));
-    }
+    let called = cut::called(blocks)?;
     let inputs = names(table, "inputs")?;
     let mut driven = Vec::new();
     for block in blocks {
@@ -144,13 +141,13 @@ pub(super) fn system_matrix<'t>(
     };
     let mut first = 0;
     let mut states = Vec::new();
-    for block in blocks {
+    for (block, called) in blocks.iter().zip(&called) {
         let own = &driven[first..first + names(block, "output")?.len()];
         if block.get("A").is_some() && block.get("C").is_none() {
             states.extend(own);
         }
         diagram.rate = Rate::of(block, declared.discrete, diagram.scope.clock)?;
-        diagram.block(block, first..first + own.len())?;
+        diagram.block((block, called), first..first + own.len())?;
         diagram.rates.note(diagram.rate, first..first + own.len(), diagram.rows.len(), diagram.unknowns - unknowns);
         first += own.len();
     }
@@ -161,12 +158,12 @@ pub(super) fn system_matrix<'t>(
 }
 
 impl Diagram<'_, '_> {
-    fn block(&mut self, block: &Toml, outputs: Range<usize>) -> Result<(), String> {
+    fn block(&mut self, (block, called): (&Toml, &str), outputs: Range<usize>) -> Result<(), String> {
         let mut inputs: Vec<Row> = Vec::new();
         for text in block.get("input").map(Toml::one_or_more).unwrap_or_default() {
             inputs.push(self.scope.linear(text, &self.signals)?);
         }
-        self.behind_factor(block, &mut inputs)?;
+        self.behind_factor(called, &mut inputs)?;
         let (transfer, exponents) = self.without_dead_time(block)?;
         let rule = match block.get("discretize") {
             Some(_) if !self.declared.discrete => return Err("a continuous loop has nothing to discretise".into()),

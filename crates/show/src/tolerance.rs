@@ -9,7 +9,9 @@ use super::verdict::verdict_line;
 use crate::Text;
 use jurist_algebra::limits::Exhausted;
 use jurist_algebra::number::{Rational, to_decimal};
-use jurist_engine::answer::{Answer, ExactFactor, PointVerdict, ToleranceAnswer, ToleranceLimit, Verdict, WorstEnd};
+use jurist_engine::answer::{
+    Answer, DelayedRoots, ExactFactor, PointVerdict, ToleranceAnswer, ToleranceLimit, Verdict, WorstEnd,
+};
 use jurist_engine::problem::Problem;
 use jurist_engine::stability::AtPoint;
 use jurist_engine::stability::boxes::{BoxDecision, LargestFactor, Side, Witness};
@@ -226,17 +228,20 @@ impl Shown<'_> {
     fn beyond(&self, witness: &Witness) -> String {
         let Some(at) = &witness.at else { return String::new() };
         let own = PointVerdict::of_witness(witness, self.problem);
+        if let Some(DelayedRoots { on, right, .. }) = own.delayed {
+            return match (right, on) {
+                (Some(0), 0) => String::new(),
+                (Some(0), _) => ", on the boundary there".to_owned(),
+                (Some(n), _) => format!(", {n} {} to the right just beyond", if n == 1 { "root" } else { "roots" }),
+                (None, _) => ", infinitely many roots to the right just beyond".to_owned(),
+            };
+        }
         match (at, own.count) {
             (AtPoint::Defined { .. }, Some(count)) if count.outside + own.infinite > 0 => {
                 let n = count.outside + own.infinite;
                 format!(", {n} {} outside just beyond", if n == 1 { "root" } else { "roots" })
             }
             (AtPoint::Defined { .. }, Some(count)) if count.on > 0 => format!(", {} on the boundary there", count.on),
-            (AtPoint::Delayed { right: Some(n @ 1..), .. }, _) => {
-                format!(", {n} {} to the right just beyond", if *n == 1 { "root" } else { "roots" })
-            }
-            (AtPoint::Delayed { on: 1.., right: Some(0) }, _) => ", on the boundary there".to_owned(),
-            (AtPoint::Delayed { right: None, .. }, _) => ", infinitely many roots to the right just beyond".to_owned(),
             (AtPoint::Undefined, _) => ", undefined there".to_owned(),
             _ => String::new(),
         }

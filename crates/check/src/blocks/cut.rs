@@ -7,10 +7,28 @@ use crate::multivariate::Fraction;
 use crate::number::{Q, shorten};
 use crate::toml::Toml;
 use num_traits::One;
+use std::collections::BTreeSet;
+
+/// What blocks are called. Of those without a name the first is `block`, unless a name is that, and each other one has its place in its name.
+pub(super) fn called(blocks: &[Toml]) -> Result<Vec<String>, String> {
+    let given: Vec<Option<&str>> = blocks.iter().map(|b| b.get("name").and_then(|name| name.text().ok())).collect();
+    let first = given.iter().position(Option::is_none).filter(|_| !given.contains(&Some("block")));
+    let name = |(i, given): (usize, &Option<&str>)| match given {
+        Some(name) => (*name).to_owned(),
+        None if first == Some(i) => "block".to_owned(),
+        None => format!("block {}", i + 1),
+    };
+    let all: Vec<String> = given.iter().enumerate().map(name).collect();
+    let mut seen = BTreeSet::new();
+    match all.iter().find(|name| !seen.insert(name.as_str())) {
+        Some(name) => Err(format!("two blocks are called '{}'", shorten(name))),
+        None => Ok(all),
+    }
+}
 
 impl Diagram<'_, '_> {
     /// Puts the signal behind the factor into the inputs of a block, where it belongs.
-    pub(super) fn behind_factor(&mut self, block: &Toml, inputs: &mut [Row]) -> Result<(), String> {
+    pub(super) fn behind_factor(&mut self, called: &str, inputs: &mut [Row]) -> Result<(), String> {
         let (Some(behind), Some(factor)) = (self.cut, &self.scope.factor) else { return Ok(()) };
         match &factor.cut {
             Cut::Signal(name) => {
@@ -21,7 +39,7 @@ impl Diagram<'_, '_> {
                     }
                 }
             }
-            Cut::Input(name) if block.get("name").is_some_and(|own| own.text() == Ok(name)) => {
+            Cut::Input(name) if name == called => {
                 let [input] = inputs else {
                     return Err(format!("the block '{}' has not one input to be cut at", shorten(name)));
                 };

@@ -13,10 +13,13 @@ use jurist_algebra::number::Rational;
 
 /// The verdict at a point.
 pub(super) fn verdict(problem: &Problem, delayed: &DelayedLoop, budget: &Budget) -> Result<PointVerdict, Error> {
-    let degree = problem.algebra_over_symbols(budget)?.formal_degree();
+    let algebra = problem.algebra_over_symbols(budget)?;
+    let counted = |on, right| {
+        PointVerdict::with_dead_time(algebra.formal_degree(), on, right).without_conjugates_if(algebra.is_complex())
+    };
     let count = delayed.family().map(|family| family.count(&Rational::ZERO, budget).map_err(not_counted));
-    let Some(count) = count.transpose()?.flatten() else { return Ok(PointVerdict::with_dead_time(degree, 0, None)) };
-    Ok(PointVerdict::with_dead_time(degree, count.on, count.right))
+    let Some(count) = count.transpose()?.flatten() else { return Ok(counted(0, None)) };
+    Ok(counted(count.on, count.right))
 }
 
 pub(super) fn not_counted(reason: NotCounted) -> Error {
@@ -237,7 +240,7 @@ pub(crate) fn stable_factors(
         Ok(Ok(cells)) => Ok(cells.stable_set(family, &[], &Range::all(), budget)?),
         Ok(Err(_)) => Ok(StableSet::from_intervals(Vec::new(), Vec::new())),
         Err(NotSolved::NotCounted(reason)) => Err(not_counted(reason)),
-        Err(_) => Err(undecided("the factors of the open loop have no end")),
+        Err(reason) => Err(not_solved(reason)),
     }
 }
 

@@ -117,7 +117,9 @@ impl PointVerdict {
         let half =
             |RootCount { inside, on, outside }| RootCount { inside: inside / 2, on: on / 2, outside: outside / 2 };
         let (degree, infinite) = (self.degree / 2, self.infinite / 2);
-        PointVerdict { degree, infinite, count: self.count.map(half), ..self }
+        let delayed =
+            self.delayed.map(|DelayedRoots { on, right }| DelayedRoots { on: on / 2, right: right.map(|n| n / 2) });
+        PointVerdict { degree, infinite, count: self.count.map(half), delayed, ..self }
     }
 
     /// The root count of a witness as a verdict; answers hold counted ones only.

@@ -1,5 +1,6 @@
 //! Constants that are not rational, beside dead time.
 
+use super::delayed::refused;
 use super::over_symbols::definition;
 use crate::coverage::refusals::BESIDE_DEAD_TIME;
 use crate::error::Error;
@@ -20,6 +21,12 @@ pub(super) struct Constants {
 /// The refusal of other functions beside dead time.
 pub(super) fn refused_beside() -> Error {
     BESIDE_DEAD_TIME.diagnostic(&[]).into()
+}
+
+/// The refusal of a dead time that is no rational number, and no rational function of the free name.
+pub(super) fn refused_in_delay() -> Error {
+    let help = "write each dead time as a rational number, such as 2.22144 for pi/sqrt(2); a tolerance around it, 'tolerance --tol NAME=0.01%', proves the number between";
+    refused("a dead time is a function, or a constant, that is not rational", help)
 }
 
 impl Constants {
@@ -46,6 +53,11 @@ impl Constants {
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.variables.is_empty()
+    }
+
+    /// Whether a dead time depends on one, in variables that so many others come before in the polynomial.
+    pub fn are_in(&self, delays: &[(usize, RationalFunction)], room: usize) -> bool {
+        delays.iter().flat_map(|(_, time)| time.variables()).any(|variable| self.position(variable + room).is_some())
     }
 
     /// How many there are.

@@ -1,6 +1,6 @@
 //! Loops with dead time: the characteristic function as a polynomial in `s`, `exp(-tau s)` and what is free.
 
-use super::beside_dead_time::{Constants, refused_beside};
+use super::beside_dead_time::{Constants, refused_beside, refused_in_delay};
 use super::evaluation::Algebra;
 use super::region::Bound;
 use super::resolved::Problem;
@@ -58,8 +58,8 @@ impl DelayedLoop {
         // A decay rate that is asked for is one more variable before the symbols.
         let room = usize::from(problem.region().is_free());
         let constants = Constants::of(algebra.symbols(), room)?;
-        if delays.iter().flat_map(|(_, time)| time.variables()).any(|v| constants.position(v + room).is_some()) {
-            return Err(refused_beside());
+        if constants.are_in(&delays, room) {
+            return Err(refused_in_delay());
         }
         let (delay, powers) = base_delay(&delays)?;
         let power_of = |variable: usize| delays.iter().position(|(v, _)| *v + room == variable).map(|i| powers[i]);

@@ -1,6 +1,6 @@
 //! Loops with dead time and a free parameter inside of functions.
 
-use super::beside_dead_time::{Beside, refused_beside};
+use super::beside_dead_time::{Beside, refused_beside, refused_in_delay};
 use super::delayed::{BaseDelay, base_delay, sorted};
 use super::region::Bound;
 use super::resolved::Problem;
@@ -34,7 +34,7 @@ impl Problem {
         };
         let beside = Beside::of(algebra.symbols(), 1)?;
         if beside.delays.iter().flat_map(|(_, time)| time.variables()).any(|v| v > 0) {
-            return Err(refused_beside());
+            return Err(refused_in_delay());
         }
         let (delay, powers) = base_delay(&beside.delays)?;
         let Bound::Number(decay) = self.region().bound() else { return Err(refused_beside()) };

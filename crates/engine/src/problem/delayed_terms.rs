@@ -1,6 +1,6 @@
 //! The characteristic function of a loop with dead time in several parameters, sorted by its dead times.
 
-use super::beside_dead_time::Constants;
+use super::beside_dead_time::{Constants, refused_in_delay};
 use super::delayed::cleared;
 use super::resolved::Problem;
 use crate::coverage::refusals::DECAY;
@@ -51,6 +51,9 @@ impl Problem {
         let delays = symbols.delays();
         let Some(polynomial) = algebra.polynomial().filter(|_| !delays.is_empty()) else { return Ok(None) };
         let constants = Constants::of(symbols, 0)?;
+        if constants.are_in(&delays, 0) {
+            return Err(refused_in_delay());
+        }
         if constants.is_empty() {
             return Ok(Some(OverDelays { polynomial: Cow::Borrowed(polynomial), delays, constants: Vec::new() }));
         }

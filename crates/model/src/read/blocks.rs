@@ -36,20 +36,49 @@ pub(super) fn diagram(
     };
     let before = reader.errors();
     distinct_names(items, reader);
-    let blocks: Vec<Block> = items.iter().filter_map(|item| block(item, time, sample_time, reader)).collect();
+    let named = items.iter().zip(names_of(items));
+    let blocks: Vec<Block> = named.filter_map(|(item, name)| block(item, name, time, sample_time, reader)).collect();
     (reader.errors() == before || blocks.len() == items.len()).then_some(Diagram { inputs, outputs, blocks })
 }
 
-/// Reports blocks that have the name of an earlier one; without a name they are as many as one likes.
+/// The name that a block is given, and where.
+fn given_name(item: &Value) -> Option<(&str, Span)> {
+    let Kind::Table(table) = &item.kind else { return None };
+    match table.get("name")? {
+        Value { kind: Kind::String(text), span } => Some((text.as_str(), *span)),
+        _ => None,
+    }
+}
+
+/// What blocks are called. The first without a name is `block`, if no other has that name; any further one has its place in its name. So no name stands for two blocks,
+/// unless it was given: a loop is cut at a name.
+fn names_of(items: &[Value]) -> Vec<String> {
+    let given: Vec<Option<&str>> = items.iter().map(|item| given_name(item).map(|(name, _)| name)).collect();
+    let first = given.iter().position(Option::is_none).filter(|_| !given.contains(&Some("block")));
+    let name = |(i, given): (usize, &Option<&str>)| match given {
+        Some(name) => (*name).to_owned(),
+        None if first == Some(i) => "block".to_owned(),
+        None => format!("block {}", i + 1),
+    };
+    given.iter().enumerate().map(name).collect()
+}
+
+/// Reports blocks that have the name of another one.
 fn distinct_names(items: &[Value], reader: &mut Reader) {
     let mut seen: HashMap<&str, Span> = HashMap::new();
     for item in items {
-        let Kind::Table(table) = &item.kind else { continue };
-        let Some(Value { kind: Kind::String(text), span }) = table.get("name") else { continue };
-        if let Some(first) = seen.insert(text.as_str(), *span) {
-            let message = format!("two blocks have the name '{}'", shorten(text.as_str()));
-            let error = Diagnostic::error(Code::DuplicateName, message).at(*span, "here again");
+        let Some((text, span)) = given_name(item) else { continue };
+        if let Some(first) = seen.insert(text, span) {
+            let message = format!("two blocks have the name '{}'", shorten(text));
+            let error = Diagnostic::error(Code::DuplicateName, message).at(span, "here again");
             reader.report(error.also(first, "first here").help("rename one of them, or leave the name out"));
+        }
+    }
+    for (item, name) in items.iter().zip(names_of(items)).filter(|(item, _)| given_name(item).is_none()) {
+        if let Some(first) = seen.get(name.as_str()) {
+            let message = format!("the block without a name is called '{name}', and so is another one");
+            let error = Diagnostic::error(Code::DuplicateName, message).at(item.span, "without a name");
+            reader.report(error.also(*first, "here").help("give it a name, or the other one another"));
         }
     }
 }
@@ -92,13 +121,19 @@ impl BlockTable<'_> {
     }
 }
 
-fn block(value: &Value, time: Time, sample_time: Option<&Expression>, reader: &mut Reader) -> Option<Block> {
+fn block(
+    value: &Value,
+    name: String,
+    time: Time,
+    sample_time: Option<&Expression>,
+    reader: &mut Reader,
+) -> Option<Block> {
     let Kind::Table(table) = &value.kind else {
         reader.wrong_type(value, "a block", "a table");
         return None;
     };
     let meant = reader.unknown_keys(table, &keys::BLOCK, "a block");
-    let name = reader.plain_string(table, "name").unwrap_or_else(|| "block".into());
+    let name = reader.plain_string(table, "name").unwrap_or(name);
     if table.iter().next().is_none() {
         let error = Diagnostic::error(Code::Missing, "the block is empty").at(value.span, "nothing follows");
         reader.report(error.help("give it 'input', 'output' and what it does, such as 'transfer'"));

@@ -148,6 +148,8 @@ fn what_cannot_be_asked_of_dead_time_is_refused_with_a_reason() {
         ("s + tau + K*exp(-tau*s)", "tau", "roots can be on the boundary at frequencies without end"),
         ("s + 1 + K^2*exp(-tau*s)", "K", "roots can be on the boundary at frequencies without end"),
         ("s + 1 + K*exp(-tau*s) + exp(-s)", "tau", "the dead times are not rational multiples of one of them"),
+        ("s + 1 + K*exp(-sqrt(2)*s)", "K", "a dead time is a function, or a constant, that is not rational"),
+        ("s + 1 + K*exp(-sqrt(tau)*s)", "tau", "a dead time is a function, or a constant, that is not rational"),
         ("s + 1 + K*exp(-tau*s) + K*exp(-2*tau*s)", "K", "'K' enters in several terms with different dead times"),
         ("s^2 + 2*s + 2 + 2*K*s*exp(-tau*s)", "tau", "roots touch the imaginary axis at infinitely many dead times"),
     ] {

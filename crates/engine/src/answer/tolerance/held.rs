@@ -88,18 +88,17 @@ impl<'a> Truth<'a> {
             Err(Error::Undefined(_)) => return Ok(AtPoint::Undefined),
             verdict => verdict?.into_value(),
         };
+        // As of the polynomial, which of a complex loop has the conjugate roots as well.
+        let n = if problem.algebra_over_symbols(budget)?.is_complex() { 2 } else { 1 };
         if let Some(DelayedRoots { on, right }) = verdict.delayed {
-            return Ok(AtPoint::Delayed { on, right });
+            return Ok(AtPoint::Delayed { on: n * on, right: right.map(|right| n * right) });
         }
         Ok(match (verdict.verdict, verdict.count) {
             (Verdict::Undefined, _) | (_, None) => AtPoint::Undefined,
-            (_, Some(count)) if problem.algebra_over_symbols(budget)?.is_complex() => {
-                // As of the polynomial, which has the conjugate roots as well.
-                let RootCount { inside, on, outside } = count;
-                let count = RootCount { inside: 2 * inside, on: 2 * on, outside: 2 * outside };
-                AtPoint::Defined { count, infinite: 2 * verdict.infinite }
+            (_, Some(RootCount { inside, on, outside })) => {
+                let count = RootCount { inside: n * inside, on: n * on, outside: n * outside };
+                AtPoint::Defined { count, infinite: n * verdict.infinite }
             }
-            (_, Some(count)) => AtPoint::Defined { count, infinite: verdict.infinite },
         })
     }
 
