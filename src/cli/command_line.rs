@@ -71,6 +71,12 @@ impl CommandLine {
     /// `jurist loop.toml`, and before a loop in one line 'intervals', or 'verdict' where all its names have values.
     pub fn arguments(&self) -> Vec<OsString> {
         let mut arguments = self.arguments.clone();
+        if arguments.get(1).is_some_and(|first| first == "help") && arguments.len() <= 3 {
+            // As other programs take it: 'jurist help verdict' is 'jurist verdict --help'.
+            arguments.remove(1);
+            arguments.push("--help".into());
+            return arguments;
+        }
         let is_command = |a: &OsString| Arguments::command().get_subcommands().any(|c| a == c.get_name());
         // An argument that begins with a minus is an option, but for one after '--'.
         let first = match arguments.get(1) {
@@ -372,6 +378,17 @@ mod tests {
         ] {
             let whole = line(arguments).arguments();
             assert_eq!(whole.get(1).is_some_and(|a| a == "analyze") && whole.len() == arguments.len() + 2, analysed);
+        }
+    }
+
+    #[test]
+    fn help_of_a_command_is_asked_as_of_other_programs() {
+        for (arguments, asked) in [
+            (&["help"][..], &["jurist", "--help"][..]),
+            (&["help", "verdict"], &["jurist", "verdict", "--help"]),
+            (&["help", "verdict", "-q"], &["jurist", "help", "verdict", "-q"]),
+        ] {
+            assert_eq!(line(arguments).arguments(), asked.iter().map(OsString::from).collect::<Vec<_>>());
         }
     }
 
