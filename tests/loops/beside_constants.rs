@@ -17,8 +17,12 @@ use jurist_engine::stability::{Range, StableSet};
 
 /// Unity feedback of `transfer` with a gain `K`, beside a parameter `L`.
 fn feedback(transfer: &str) -> Model {
+    feedback_with("{ nominal = 1, min = 0 }", transfer)
+}
+
+fn feedback_with(gain: &str, transfer: &str) -> Model {
     read(&format!(
-        "time = 'continuous'\n[parameters]\nK = {{ nominal = 1, min = 0 }}\nL = {{ nominal = 1, min = '1/10' }}\n[loop]\ninputs = ['r']\n\
+        "time = 'continuous'\n[parameters]\nK = {gain}\nL = {{ nominal = 1, min = '1/10' }}\n[loop]\ninputs = ['r']\n\
          outputs = ['y']\n[[block]]\nname = 'plant'\ninput = 'K*(r - y)'\noutput = 'y'\ntransfer = '{transfer}'\n"
     ))
 }
@@ -166,6 +170,26 @@ fn margins_of_an_integrator_with_a_gain_of_pi_are_those_in_closed_form() {
     for (value, known) in found[1..4].iter().zip(known) {
         let value = value.as_ref().unwrap();
         assert!(value.contains(&known) && value.upper() - value.lower() < number("1e-18"), "{known}");
+    }
+}
+
+/// With two integrators a double root is at `s = 0` for the factor 0: the set of stable factors is that of the crossings.
+#[test]
+fn margins_with_two_integrators_are_those_of_numbers_beside_the_constants() {
+    let near = number("1e-7");
+    for (shape, gain) in [
+        ("(1 + 2/(5*s))*exp(-7/11*s)/(s*(s + 3/2*#))", "1/7"),
+        ("(s + 1/9)*exp(-s/5)/(s^2*(s/#/4 + 1))", "1"),
+        ("-(s + 1/9)*exp(-s/5)/(s^2*(s/#/4 + 1))", "-1"),
+    ] {
+        let [own, known] =
+            ["sqrt(2)", "1.4142135624"].map(|root| margins(&feedback_with("1", &shape.replace('#', root)), gain));
+        let factors = [&own, &known].map(|margins| ends(&margins.stable.as_ref().unwrap().gain.set));
+        assert!(factors[0] == factors[1] && factors[0].len() == 2, "{shape} {factors:?}");
+        for (a, b) in enclosures(&own).iter().zip(&enclosures(&known)) {
+            let [a, b] = [a, b].map(|e| e.as_ref().expect("a value").lower());
+            assert!((a - b).abs() < &near * &(Rational::ONE + a.abs()), "{shape} {a} {b}");
+        }
     }
 }
 

@@ -4,6 +4,8 @@ use super::moving::{FIRST_BITS, MOST_HALVINGS, TERMS};
 use super::{Definition, Function, MovingSymbols};
 use crate::ball::{Ball, Series};
 use crate::number::{Integer, Rational};
+use crate::poly::{MultiPoly, RationalFunction};
+use std::collections::BTreeMap;
 
 /// The orders of a zero at the lower end that are looked for.
 const MOST_ORDER: usize = 32;
@@ -18,7 +20,8 @@ impl MovingSymbols {
         upper: &Rational,
         is_zero: bool,
     ) -> Option<Rational> {
-        let order = self.order_at(f, lower).or_else(|| is_zero.then(|| self.least_order(f, lower)))?;
+        let order = self.order_at(f, lower).or_else(|| self.order_beside_constants(f, lower));
+        let order = order.or_else(|| is_zero.then(|| self.least_order(f, lower)))?;
         // f = (T - lower)^order (a + ...): the later coefficients on a short interval are less than the first one.
         let mut step = (upper - lower) * Rational::dyadic(&Integer::ONE, 3);
         for _ in 0..MOST_HALVINGS {
@@ -64,6 +67,48 @@ impl MovingSymbols {
             let values = super::rational_series::values(self.table(), at, terms)?;
             let series = f.at_rational_series(&values);
             if let Some(order) = series.iter().position(|c| !c.is_zero()) {
+                return Some(order);
+            }
+            terms *= 2;
+        }
+        None
+    }
+
+    /// The same where the series are rational but for symbols that do not depend on the parameter: the order of the first coefficient that is not zero as
+    /// a polynomial in these. Its value may still be zero.
+    fn order_beside_constants(&self, f: &Function, at: &Rational) -> Option<usize> {
+        // Variables that depend on the parameter, by their new numbers.
+        let mut moving = vec![0];
+        let mut table: Vec<(String, Definition)> = Vec::new();
+        for (variable, (name, definition)) in (1..).zip(self.table()) {
+            let place = |v: usize| moving.iter().position(|own| *own == v);
+            let arguments: Vec<usize> = definition.arguments().iter().flat_map(|f| f.variables()).collect();
+            if arguments.iter().all(|v| place(*v).is_none()) {
+                continue;
+            }
+            let moved = |f: &RationalFunction| match f.variables().iter().all(|v| place(*v).is_some()) {
+                true => f.map_variables(|v| place(v).expect("it moves")),
+                false => None,
+            };
+            table.push((name.clone(), definition.try_map(moved)?));
+            moving.push(variable);
+        }
+        // For each monomial in the constants the polynomial beside it.
+        let mut beside: BTreeMap<Vec<u32>, Vec<(Vec<u32>, Integer)>> = BTreeMap::new();
+        for (monomial, c) in f.polynomial()?.terms() {
+            let mut constants = monomial.exponents().to_vec();
+            moving.iter().filter(|v| **v < monomial.exponents().len()).for_each(|v| constants[*v] = 0);
+            constants.truncate(constants.iter().rposition(|e| *e > 0).map_or(0, |last| last + 1));
+            let own = moving.iter().map(|v| monomial.exponent(*v)).collect();
+            beside.entry(constants).or_default().push((own, c.clone()));
+        }
+        let polynomials: Vec<MultiPoly> = beside.into_values().map(MultiPoly::from_terms).collect();
+        let mut terms = 4;
+        while terms <= MOST_ORDER {
+            let values = super::rational_series::values(&table, at, terms)?;
+            let order =
+                |p: &MultiPoly| super::rational_series::polynomial_at(p, &values).iter().position(|c| !c.is_zero());
+            if let Some(order) = polynomials.iter().filter_map(order).min() {
                 return Some(order);
             }
             terms *= 2;

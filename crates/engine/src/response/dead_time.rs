@@ -238,10 +238,15 @@ impl<'a, G: Ground> DeadTime<'a, G> {
     /// The stable factors.
     fn gain(&self, budget: &Budget) -> Result<GainMargin, Error> {
         if self.parts.frequencies().are_signed() {
-            return Ok(GainMargin::of_set(self.factors_of_complex_loop(budget)?));
+            return Ok(GainMargin::of_set(self.stable_factors(budget)?));
         }
         let parts = [&self.parts.denominator.re, &self.parts.numerator.re];
-        Ok(GainMargin::of_set(self.parts.ground.stable_factors_with_delay(parts, self.tau, budget)?))
+        let set = match self.parts.ground.stable_factors_with_delay(parts, self.tau, budget) {
+            // Beside constants, where several roots are on the axis at one factor, as at the factor 0 with two integrators.
+            Err(Error::Stopped(Exhausted { stop: Stop::Method(_), .. })) => self.stable_factors(budget)?,
+            found => found?,
+        };
+        Ok(GainMargin::of_set(set))
     }
 
     /// The least angle of all crossings.

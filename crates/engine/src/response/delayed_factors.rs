@@ -1,4 +1,4 @@
-//! The stable factors of a complex loop with dead time.
+//! The stable factors of a loop with dead time, of complex loops and of others.
 //!
 //! With the factor `k` a root is on the axis where the open loop is real, `k = -1/L`; one count of roots in each of the gaps between such factors tells which are
 //! stable. As `k` grows the root there moves by `ds/d log k = 1/(tau + D0'/D0 - N'/N)`: beyond some frequency always to the right. So from a factor on that is not
@@ -45,10 +45,10 @@ impl Crossing {
 }
 
 impl<G: Ground> DeadTime<'_, G> {
-    /// The factors at the cut for which a complex loop is stable.
+    /// The factors at the cut for which the loop is stable.
     ///
     /// Cost: the frequencies at which the open loop is real, and a count of roots between any two of the factors.
-    pub(super) fn factors_of_complex_loop(&self, budget: &Budget) -> Result<StableSet, Error> {
+    pub(super) fn stable_factors(&self, budget: &Budget) -> Result<StableSet, Error> {
         let family = self.parts.ground.family_of_factors(&self.parts.in_factor(), self.tau);
         let outward = self.beyond_zeros(&self.motion(), budget)?;
         let r = &self.parts.reduced;
@@ -93,7 +93,8 @@ impl<G: Ground> DeadTime<'_, G> {
     fn factor_at_rest(&self, budget: &Budget) -> Result<Option<Real>, Exhausted> {
         let (r, ground, rest) = (&self.parts.reduced, &self.parts.ground, self.axis.at_rest());
         let vanishes = |p: &Poly<G::Number>| Ok(ground.sign(&p.coeff(0), budget)?.is_eq());
-        if vanishes(&r.denominator_squared)? || vanishes(&r.twice_real)? || !vanishes(&r.imaginary)? {
+        let is_turned = r.frequencies.are_signed() && !vanishes(&r.imaginary)?;
+        if vanishes(&r.denominator_squared)? || vanishes(&r.twice_real)? || is_turned {
             return Ok(None);
         }
         let above = r.denominator_squared.scaled(&G::Number::from_integer(&Integer::from(-2)));
@@ -115,7 +116,13 @@ impl<G: Ground> DeadTime<'_, G> {
         };
         let [up, down] = [self.tau.numerator(), self.tau.denominator()].map(|c| G::Number::from_integer(&c));
         let own = product(&turned(&d), &above).minus(&product(&turned(&n), &below));
-        product(&below, &above).scaled(&up).plus(&own.scaled(&down))
+        let in_frequency = product(&below, &above).scaled(&up).plus(&own.scaled(&down));
+        if self.parts.frequencies().are_signed() {
+            return in_frequency;
+        }
+        // Of a real loop it is even in the frequency, and the variable is -omega^2.
+        let even = in_frequency.coeffs().iter().step_by(2).enumerate();
+        Poly::new(even.map(|(i, c)| if i % 2 == 0 { c.clone() } else { G::Number::zero().minus(c) }).collect())
     }
 
     /// The stable set of the crossings between two factors, beyond which nothing is stable.
@@ -167,6 +174,10 @@ impl<G: Ground> DeadTime<'_, G> {
     fn end_at(&self, value: Real, omega: &Real) -> End {
         let side = match omega.sign() {
             Ordering::Equal => return End::new(value, Cause::RootAtZero.into(), None),
+            _ if !self.parts.frequencies().are_signed() => {
+                let pair = ComplexPair::at_angular_frequency(omega.clone());
+                return End::new(value, Cause::ComplexPair.into(), Some(pair));
+            }
             Ordering::Less => Side::Lower,
             Ordering::Greater => Side::Upper,
         };
