@@ -326,3 +326,11 @@ fn a_factor_without_constants_is_judged_exactly() {
     let first = &roots.into_value().list[0].disc;
     assert!(first.is_pair && first.re.abs() < number("1e-20") && (&first.im - &number("2")).abs() < number("1e-20"));
 }
+
+/// The modulus of the open loop goes to pi/10 from below: where stability ends is not known, and no word is of complex loops.
+#[test]
+fn margins_of_a_neutral_loop_stay_undecided_in_their_own_words() {
+    let model = feedback("s*pi/10*exp(-s)/(s + 1)");
+    let found = model.ask().set("K", Rational::ONE).margins(None, &Rational::ZERO, &Budget::unlimited());
+    assert!(matches!(found, Err(Error::Stopped(_))), "{found:?}");
+}

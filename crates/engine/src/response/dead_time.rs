@@ -243,7 +243,12 @@ impl<'a, G: Ground> DeadTime<'a, G> {
         let parts = [&self.parts.denominator.re, &self.parts.numerator.re];
         let set = match self.parts.ground.stable_factors_with_delay(parts, self.tau, budget) {
             // Beside constants, where several roots are on the axis at one factor, as at the factor 0 with two integrators.
-            Err(Error::Stopped(Exhausted { stop: Stop::Method(_), .. })) => self.stable_factors(budget)?,
+            Err(stopped @ Error::Stopped(Exhausted { stop: Stop::Method(_), .. })) => {
+                match self.stable_factors(budget) {
+                    Err(Error::Refused(_)) => return Err(stopped),
+                    found => found?,
+                }
+            }
             found => found?,
         };
         Ok(GainMargin::of_set(set))
