@@ -240,7 +240,7 @@ fn statements_that_ask_for_something_else_are_rejected() {
     }
 }
 
-/// A filter before the loop, and the loop: three blocks of which none has a name, or the middle one has the name of the first.
+/// Three blocks: a filter before the loop, a gain and a plant. No block has a name, or the gain alone has the name that the filter would get.
 #[test]
 fn blocks_without_names_are_told_apart() {
     let text = |name: &str| {

@@ -304,7 +304,7 @@ fn a_root_at_zero_beside_constants_is_told_exactly() {
     assert!(roots.len() > 2 && roots[1].disc.re.is_negative());
 }
 
-/// The roots of a factor with rational coefficients are told exactly, those on the axis, too.
+/// The program counts the roots of a factor with rational coefficients exactly, on the axis as well.
 #[test]
 fn a_factor_without_constants_is_judged_exactly() {
     let loop_of = |factor: &str| {

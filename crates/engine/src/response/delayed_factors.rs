@@ -20,7 +20,7 @@ use jurist_algebra::poly::{Domain, Poly};
 use jurist_algebra::real::{Real, rational_between};
 use std::cmp::Ordering;
 
-/// Bits with which factors are told apart.
+/// Two factors count as one where their enclosures with so many bits overlap.
 const BITS: u64 = 256;
 
 /// Factors up to so many powers of ten are looked at. Where the modulus of the open loop goes to a limit that is not 0, they come near to one without end.
@@ -108,15 +108,15 @@ impl<G: Ground> DeadTime<'_, G> {
         let (d, n) = (&self.parts.denominator, &self.parts.numerator);
         let [d, n] = [d, n].map(|p| p.along(p.len().saturating_sub(1), self.parts.shape));
         let [below, above] = [d.squared(), n.squared()];
-        // p'/p = -j (dp/domega)/p, of which the real part is Im(dp/domega conj(p))/|p|^2.
+        // p'/p = -j (dp/domega)/p. Its real part is Im(dp/domega conj(p))/|p|^2.
         let turned = |p: &ComplexPoly<G::Number>| {
             let slope = ComplexPoly { re: p.re.derivative(), im: p.im.derivative() };
             let [_, imaginary] = slope.times_conjugate(p);
             imaginary
         };
         let [up, down] = [self.tau.numerator(), self.tau.denominator()].map(|c| G::Number::from_integer(&c));
-        let own = product(&turned(&d), &above).minus(&product(&turned(&n), &below));
-        let in_frequency = product(&below, &above).scaled(&up).plus(&own.scaled(&down));
+        let own = turned(&d).times(&above).minus(&turned(&n).times(&below));
+        let in_frequency = below.times(&above).scaled(&up).plus(&own.scaled(&down));
         if self.parts.frequencies().are_signed() {
             return in_frequency;
         }
@@ -125,7 +125,8 @@ impl<G: Ground> DeadTime<'_, G> {
         Poly::new(even.map(|(i, c)| if i % 2 == 0 { c.clone() } else { G::Number::zero().minus(c) }).collect())
     }
 
-    /// The stable set of the crossings between two factors, beyond which nothing is stable.
+    /// The stable set, where the loop is stable for no factor below the least crossing and for none above the greatest. A stable gap that is shorter than the
+    /// enclosures of its ends, about `2^-256`, is left out.
     fn set_of(
         &self,
         mut crossings: Vec<Crossing>,
@@ -201,11 +202,6 @@ impl<G: Ground> DeadTime<'_, G> {
         }
         Ok(self.end_at(open.factor.clone(), &open.omega))
     }
-}
-
-/// The product of two polynomials, of which one may be zero.
-fn product<R: Domain>(a: &Poly<R>, b: &Poly<R>) -> Poly<R> {
-    if a.is_zero() || b.is_zero() { Poly::zero() } else { a.times(b) }
 }
 
 /// The less or the greater of two numbers that enclosures do not tell apart.

@@ -125,7 +125,8 @@ impl PartialEq for Enclosed {
 }
 
 impl FamilyLoop {
-    /// The loop of coefficients over constants, as [`FamilyLoop::new`] has that of exact ones.
+    /// The loop of coefficients over constants, as [`FamilyLoop::new`] has that of exact ones. A factor with rational coefficients that divides all parts is left
+    /// out; counts contain its roots.
     ///
     /// Cost: an enclosure of each coefficient; those with more bits are made when digits are asked for.
     ///

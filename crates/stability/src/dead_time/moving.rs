@@ -73,7 +73,8 @@ const GUARD: u64 = 16;
 
 impl MovingLoop {
     /// From the coefficient of `z^k s^j` at `[k][j]`, a polynomial in the parameter (0) and in symbols behind it, from what must not vanish, and from the dead
-    /// time and the decay, as [`FamilyLoop::new`] takes them.
+    /// time and the decay, as [`FamilyLoop::new`] takes them. A factor with rational coefficients that divides all parts is left out; where it has a root on
+    /// the line or to the right of it, no value is stable.
     ///
     /// # Panics
     /// When all coefficients are zero.

@@ -71,8 +71,8 @@ pub fn rightmost_roots(
 }
 
 /// The rightmost roots of a loop of retarded type whose coefficients are constants that are not rational. Each coefficient is enclosed, and Rouché's theorem and
-/// the count take the bounds of the errors. A multiple root stays undecided, and so does a root at 0
-/// unless a power of `s` divides all parts.
+/// the count take the bounds of the errors. The roots of a factor that has rational coefficients and divides
+/// all parts are known exactly. A multiple root of the rest stays undecided, and so does its root at 0.
 ///
 /// Cost: that of [`rightmost_roots`].
 ///
