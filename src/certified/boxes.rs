@@ -70,7 +70,7 @@ pub struct CertifiedBoxes {
 ///
 /// Cost: each box is tried, so for the tree twice what its check costs.
 ///
-/// ```standalone_crate
+/// ```
 /// use jurist::certified::certify_boxes;
 /// use jurist::{Ask, BoxRequest, Budget, Limits, MapMethod, MapOrBoxes, Model, Range, Source, check};
 /// let text = std::fs::read_to_string("examples/dc-servo.toml").unwrap();

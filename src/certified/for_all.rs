@@ -295,7 +295,7 @@ pub(super) fn leaf(
 ///
 /// Cost: some dozen boxes of the factor for each requirement, more as the margin gets closer to what is required.
 ///
-/// ```standalone_crate
+/// ```
 /// use jurist::certified::certify_requirements;
 /// use jurist::{Ask, Budget, Limits, Model, Requirement, Source, check};
 /// let text = "time = 'continuous'\nparameters.K = 1\nloop = { inputs = ['r'], outputs = ['y'] }\n\
@@ -331,7 +331,7 @@ pub fn certify_requirements(
 ///
 /// Cost: that of [`Answer::certificate`], else that of one box.
 ///
-/// ```standalone_crate
+/// ```
 /// use jurist::certified::certify_verdict;
 /// use jurist::{Ask, Budget, Limits, Model, Source, check};
 /// let text = "time = 'continuous'\nloop.characteristic = 's + pi/4 + sqrt(2)*exp(-s)'\n";

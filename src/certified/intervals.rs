@@ -66,7 +66,7 @@ pub struct CertifiedIntervals {
 ///
 /// Cost: that of [`Answer::certificate`], else that of [`certify_boxes`](crate::certified::certify_boxes) for some dozen boxes at each end.
 ///
-/// ```standalone_crate
+/// ```
 /// use jurist::certified::certify_intervals;
 /// use jurist::{Ask, Budget, Limits, Model, Source, check};
 /// let text = std::fs::read_to_string("examples/dc-servo.toml").unwrap();
@@ -138,7 +138,7 @@ fn by_boxes(answer: &Answer<StableSet>, budget: &Budget) -> Result<Option<Certif
 ///
 /// Cost: that of [`certify_requirements`](crate::certified::certify_requirements) for some dozen pieces at each end.
 ///
-/// ```standalone_crate
+/// ```
 /// use jurist::certified::certify_required_intervals;
 /// use jurist::{Ask, Budget, Limits, Model, Requirement, Source, check};
 /// let text = "time = 'continuous'\nparameters.K = 1\nloop = { inputs = ['r'], outputs = ['y'] }\n\

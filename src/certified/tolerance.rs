@@ -44,7 +44,7 @@ pub struct CertifiedTolerance {
 ///
 /// Cost: that of [`Answer::certificate`], else that of the parts.
 ///
-/// ```standalone_crate
+/// ```
 /// use jurist::certified::certify_tolerance;
 /// use jurist::{Ask, Budget, Limits, Model, Source, ToleranceRequest, check};
 /// let text = std::fs::read_to_string("examples/dc-servo.toml").unwrap();

@@ -139,7 +139,7 @@ pub(crate) const COPY: &str = "# Numbers of other files stand in this copy";
 ///
 /// Cost: that of reading both.
 ///
-/// ```standalone_crate
+/// ```
 /// let bytes = std::fs::read("examples/firmware/speed.toml").unwrap();
 /// let (model, _) = jurist::cli::model_in_folder("speed.toml", &bytes, "examples/firmware".as_ref())?;
 /// assert_eq!(model.constant("alpha").unwrap().number.as_ref().unwrap().to_string(), "1/4");

@@ -252,6 +252,7 @@ fn no_box_is_shown_in_which_the_angle_leaves_zero_to_pi() {
 
 /// The boxes of a map are on the side of the curve by hand that they say, and the engine says the same of points in them.
 #[test]
+#[ignore = "long: CI runs it"]
 fn maps_of_prewarped_loops_are_certified() {
     let loops = [
         ("b", "1", [("K", "0", "4"), ("b", "1/2", "3")]),

@@ -183,6 +183,7 @@ fn sets_of_a_loop_behind_a_hold_end_where_the_margin_is_the_required_one() {
 
 /// With dead time, at points: against samples of `K exp(-j w/2)/(j w)`.
 #[test]
+#[ignore = "long: CI runs it"]
 fn points_of_a_loop_with_dead_time_are_decided_by_the_margin() {
     let model = loop_with(CONTINUOUS, "K*exp(-s/2)/s");
     for k in tried(["1", "1/2", "2"], 3) {

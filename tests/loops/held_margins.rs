@@ -57,6 +57,7 @@ fn the_servo_behind_a_hold_has_these_margins_to_thirty_digits() {
 
 /// A factor of the transfer function, wherever it stands, is the same as the hold's own dead time.
 #[test]
+#[ignore = "long: CI runs it"]
 fn dead_time_of_a_plant_may_be_a_factor_of_its_transfer_function() {
     let of = |transfer: &str, discretize: &str| {
         let text = SERVO_BEHIND_A_HOLD
@@ -78,6 +79,7 @@ fn dead_time_of_a_plant_may_be_a_factor_of_its_transfer_function() {
 
 /// Only the fraction up to 18.46 samples had been looked at, and was called the margin.
 #[test]
+#[ignore = "long: CI runs it"]
 fn dead_time_behind_a_hold_is_not_less_than_the_whole_samples_that_are_borne() {
     let model = load(include_str!("../../src/cli/templates/held-plant.toml"));
     let answer = margins_of(&model, None);

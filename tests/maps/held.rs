@@ -281,6 +281,7 @@ fn coefficients_of(list: &[&str]) -> Vec<RationalFunction> {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn singular_maps_are_those_of_the_scaled_loops() {
     let loops: [&[&str]; 15] = [
         // Degree 0 and 1.

@@ -21,6 +21,7 @@ const PAIRS: [[&str; 2]; 5] = [
 ];
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn boxes_of_pairs_of_the_drive_agree_with_the_exact_map() {
     for [x, y] in PAIRS {
         let answer = json(&["map", "-x", x, "-y", y, "--method", "boxes", "--json"]);
@@ -162,6 +163,7 @@ fn text_of_boxes() {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn pictures_of_boxes() {
     let folder = std::env::temp_dir().join(format!("jurist-boxes-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();

@@ -280,6 +280,7 @@ fn a_wall_between_strips_has_its_own_cells() {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn a_smaller_region_names_its_own_boundary() {
     // |z| < 1/2 for z^2 + a z + b: |b| < 1/4 and |a| < 1/2 + 2 b, with real roots at 1/2 and -1/2.
     let model = b"time = 'discrete'\n[parameters]\na = {}\nb = {}\n[loop]\ncharacteristic = 'z^2 + a*z + b'\n";

@@ -144,7 +144,7 @@ fn every_question_of_a_loop_over_each_ring_has_the_outcome_of_the_table() {
     let wrong: Vec<Vec<String>> = parallel_map(rows(), |row| {
         let file = folder.join(format!("{:?}.html", row.asked));
         let of_time = |of: &&Loop| row.time.is_none_or(|time| time == of.model.time());
-        let tried = loops.iter().enumerate().filter(|(i, _)| is_tried(i + row.asked as usize, 24)).map(|(_, of)| of);
+        let tried = loops.iter().enumerate().filter(|(i, _)| is_tried(i + row.asked as usize, 48)).map(|(_, of)| of);
         let asked = tried.filter(of_time).map(|of| check(row, of, file.to_str().expect("a path")));
         asked.filter_map(Result::err).collect::<Vec<_>>()
     });

@@ -215,6 +215,7 @@ fn limits_and_margins_are_those_of_the_other_commands() {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn what_moves_a_limit_is_computed_again_exactly() {
     let html = page("examples/drive.toml");
     let moved =

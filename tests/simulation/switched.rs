@@ -78,6 +78,7 @@ fn limits_of_the_linearised_circuit() {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn perturbed_runs_have_their_limit_where_the_eigenvalues_say() {
     let growth =
         |k: f64, t: f64, pulse| switched_drive(k, t, pulse).perturbed_growth(&inputs(), 2_000, 4_000).map(|g| g.factor);

@@ -71,6 +71,7 @@ fn a_gain_grows_to_the_end_of_its_set_for_all_values() {
 
 /// No point of the largest box is unstable, the point beyond is, and both checkers agree.
 #[test]
+#[ignore = "long: CI runs it"]
 fn points_of_the_largest_box_are_stable() {
     let mut random = Random::new(11);
     for text in LOOPS {

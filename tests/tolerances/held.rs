@@ -63,6 +63,7 @@ fn a_box_beyond_the_limit_has_a_witness() {
 
 /// They were undecided, or took half a minute.
 #[test]
+#[ignore = "long: CI runs it"]
 fn one_name_behind_a_hold_has_the_factor_of_its_required_set() {
     let line = |k: &str, a: &str, b: &str| {
         read(&format!(

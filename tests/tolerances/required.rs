@@ -95,6 +95,7 @@ fn the_box_of_one_gain_grows_to_the_end_of_its_required_set() {
 
 /// Corners and random points of the proved box meet the requirement; the point beyond does not.
 #[test]
+#[ignore = "long: CI runs it"]
 fn points_of_a_proved_box_meet_the_requirement_and_the_point_beyond_does_not() {
     let model = load(SERVO);
     let mut random = Random::new(14);

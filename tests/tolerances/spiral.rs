@@ -57,6 +57,7 @@ fn a_negative_root_has_the_damping_below_a_hyperbola() {
 
 /// Over rational numbers and constants: the factor of the box from the formula of the root.
 #[test]
+#[ignore = "long: CI runs it"]
 fn the_factor_of_a_box_is_that_of_the_root() {
     let e = (-0.75 * PI).exp();
     let products = [
@@ -111,6 +112,7 @@ fn the_box_of_one_name_ends_where_its_set_does() {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn a_box_that_has_not_the_damping_is_refuted_by_a_point() {
     let loop_of = model(PRODUCT, "z + a*b");
     let found = tolerance(&loop_of, &[("a", "50%"), ("b", "50%")], "3/5");

@@ -337,6 +337,7 @@ mod tests {
 
     /// All coefficients are those of the expanded determinant, times one number.
     #[test]
+    #[ignore = "long: CI runs it"]
     fn coefficients_are_those_of_the_expanded_determinant() {
         let (clock, mut seed, sources) = (Clock::new(Duration::MAX), 7, Sources::default());
         let side = |a: i64, b: i64| [a, b].map(|x| Q::from(Z::from(x)));

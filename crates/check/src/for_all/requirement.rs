@@ -223,6 +223,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "long: CI runs it"]
     fn turns_are_told_from_tangents() {
         for tenths in (1..1800).step_by(29) {
             let tangent = (f64::from(tenths) / 20.0).to_radians().tan();

@@ -116,6 +116,7 @@ fn by_cones(function: &PlaneFunction, place: &Place) -> Option<usize> {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn what_keeps_away_from_zero_is_decided_as_by_cones() {
     // Chatter, and a gain and a dead time.
     for case in [
@@ -224,6 +225,7 @@ fn a_parameter_on_which_nothing_depends_is_not_cut() {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn a_loop_of_neutral_type_is_unstable_where_its_difference_operator_is() {
     // s + 1 + x (s + 4) exp(-y s).
     let case = case(&[[1, 0, 0], [1, 0, 0]], &[[0, 4, 0], [0, 1, 0]], [0, 0, 1]);

@@ -87,6 +87,7 @@ fn slices_of_a_map_of_two_parameters_inside_of_functions_are_stable_sets() {
 
 /// Points at random in decided boxes, counted by the loop's own polynomial there.
 #[test]
+#[ignore = "long: CI runs it"]
 fn points_of_boxes_have_their_root_count() {
     let model = load(include_str!("../../../../../examples/drive-hold.toml"));
     for names in [["K_pwm", "L_a"], ["L_a", "T"]] {

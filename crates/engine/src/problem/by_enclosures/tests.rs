@@ -141,6 +141,7 @@ fn open_loops_are_those_of_exact_polynomials() {
 
 /// Two modes: the gain margin is the limit of a gain, which another polynomial has.
 #[test]
+#[ignore = "long: CI runs it"]
 fn the_gain_margin_of_several_modes_is_the_limit_of_the_gain() {
     let plant = "1/((s^2 + s/5 + 1)*(s^2 + s/10 + 9))";
     let problem = problem_with_delay("K*(z - 9/10)/(2*(z - 1))", plant, "1/20", "1/50", "");
@@ -186,6 +187,7 @@ fn parts_without_the_parameter_are_counted() {
 
 /// Order 7 with three modes, and order 12 with five: exact polynomials over all constants are not to be had.
 #[test]
+#[ignore = "long: CI runs it"]
 fn several_modes_have_their_limits() {
     let plants = [
         "1/((s+1)*(s^2+0.4*s+4)*(s^2+0.66*s+11)*(s^2+s+26))",
