@@ -3,7 +3,7 @@
 //!
 //! `cargo run --example certificate`
 
-use jurist::{Ask, Budget, Error, Limits, Model, check};
+use jurist::{Ask, Budget, Certificate, Error, Limits, Model, check};
 
 fn main() -> Result<(), Error> {
     let drive = Model::drive();

@@ -172,7 +172,7 @@ def sbom():
     return json.dumps({**head, **document}, indent=1, ensure_ascii=False) + "\n"
 
 
-OWN = {"jurist-algebra", "jurist-check", "jurist-draw", "jurist-drive", "jurist-engine", "jurist-model", "jurist-ship", "jurist-show", "jurist-stability", "jurist-tune"}
+OWN = {"jurist-algebra", "jurist-check", "jurist-draw", "jurist-drive", "jurist-engine", "jurist-model", "jurist-prove", "jurist-ship", "jurist-show", "jurist-stability", "jurist-tune"}
 
 
 def dependencies(listed, main):

@@ -13,7 +13,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 KEYS = ("repository", "homepage", "documentation")
 PACKAGES = (
-    "crates/algebra", "crates/check", "crates/model", "crates/stability", "crates/engine", "crates/show", "crates/draw", "studies/drive", "crates/ship", "crates/tune", ".",
+    "crates/algebra", "crates/check", "crates/model", "crates/stability", "crates/engine", "crates/show", "crates/tune", "crates/prove", "crates/draw", "studies/drive", "crates/ship", ".",
 )
 """What is published, each after those that it needs."""
 

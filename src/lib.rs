@@ -40,7 +40,7 @@
 //! | [`Question::peak_to_peak`] | [`PeakToPeak`] | how far bounded inputs drive an output, in discrete time |
 //! | [`Question::analyze`] | [`Analysis`] | the verdict, and the stable set of each parameter |
 //!
-//! An answer writes itself for people (trait [`Text`]), for programs (trait [`Document`]) and for checkers (`certificate`, `smt2`); [`check()`]
+//! An answer writes itself for people (trait [`Text`]), for programs (trait [`Document`]), for checkers (trait [`Certificate`]), for Coq (trait [`Theorem`]) and for SMT solvers ([`smt2()`]); [`check()`]
 //! re-checks a certificate with code that shares nothing with the engine. Where a certificate is made of boxes, of requirements as of maps, it is written by [`certified`]. What stands in the JSON is said by
 //! [`documents`], as types, and by [`schemas`](_documentation::schemas). Everything that takes long takes a [`Budget`].
 //!
@@ -98,8 +98,8 @@ pub use jurist_algebra::poly::{
 pub use jurist_algebra::real::Real;
 // Certificates, checked by code of their own.
 pub use jurist_check::{Limits, Proved, Rejection, Step, check};
+pub use jurist_prove::{Certificate, Theorem, certified, smt2};
 
-pub mod certified;
 #[cfg(feature = "commands")]
 pub mod cli;
 #[cfg(feature = "cli")]

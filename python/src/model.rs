@@ -3,6 +3,7 @@
 use crate::errors::{About, raised, warnings};
 use crate::question::Asked;
 use crate::wait::{Patience, waited};
+use jurist::Theorem;
 use jurist::cli::captured;
 use jurist::documents::{Intervals, Verdict, to_text};
 use jurist::{Answer, Budget, Error, PointVerdict, StableSet};
@@ -246,7 +247,7 @@ impl Answered {
     /// The statement as SMT-LIB 2; `None` for a verdict.
     fn smt2(&self, py: Python<'_>, timeout: Option<f64>) -> PyResult<Option<String>> {
         self.made(py, timeout, |kind, budget| match kind {
-            Kind::Stable(answer) => answer.smt2(budget).map(Some),
+            Kind::Stable(answer) => jurist::smt2(answer, budget).map(Some),
             Kind::Verdict(_) => Ok(None),
         })
     }

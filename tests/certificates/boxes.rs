@@ -7,6 +7,7 @@ use crate::helpers::number::number;
 use crate::helpers::program::jurist;
 use crate::helpers::random::Random;
 use jurist::Ask;
+use jurist::Certificate;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_check::format::Json;

@@ -8,6 +8,7 @@ use crate::helpers::number::number;
 use crate::helpers::program::jurist;
 use crate::helpers::thorough::{count, tried};
 use jurist::Ask;
+use jurist::Certificate;
 use jurist_algebra::limits::Budget;
 use jurist_check::format::Json;
 use jurist_check::{Limits, Step, check};

@@ -1,6 +1,7 @@
 //! Hand-made certificates, wrong and broken ones, and the imports of the check.
 
 use jurist::Ask;
+use jurist::Certificate;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::parse_number;
 use jurist_check::format::{Json, MAX_DEPTH};

@@ -2,6 +2,7 @@
 
 use crate::helpers::model::{example_text, read};
 use jurist::Ask;
+use jurist::Theorem;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::error::Error;

@@ -6,6 +6,7 @@ use crate::helpers::model::read;
 use crate::helpers::number::number;
 use crate::helpers::thorough::count;
 use jurist::Ask;
+use jurist::Certificate;
 use jurist_algebra::limits::Budget;
 use jurist_check::format::Json;
 use jurist_check::{Limits, Step, check};

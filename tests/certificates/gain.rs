@@ -6,6 +6,7 @@ use crate::helpers::model::{example_text, read};
 use crate::helpers::number::number;
 use crate::helpers::thorough::{count, tried};
 use jurist::Ask;
+use jurist::Certificate;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_check::format::Json;

@@ -4,6 +4,7 @@ use crate::helpers::certificates::checkers::{accept, reject};
 use crate::helpers::certificates::with;
 use crate::helpers::model::read;
 use jurist::Ask;
+use jurist::Certificate;
 use jurist_algebra::limits::Budget;
 use jurist_check::format::Json;
 use jurist_check::{Limits, Step, check};

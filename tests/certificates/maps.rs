@@ -8,6 +8,7 @@ use crate::helpers::program::jurist;
 use crate::helpers::random::Random;
 use crate::helpers::thorough::{count, is_tried, tried};
 use jurist::Ask;
+use jurist::Certificate;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_check::format::Json;

@@ -8,6 +8,7 @@ use crate::helpers::model::{example_text, read};
 use crate::helpers::number::number;
 use crate::helpers::thorough::{is_thorough, tried};
 use jurist::Ask;
+use jurist::Certificate;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_check::{Limits, Step, check};
@@ -303,7 +304,9 @@ fn what_no_checker_knows_gets_no_certificate() {
     let budget = Budget::unlimited();
     let text = lag("3", "1/2");
     let model = read(&text);
-    let refused = model.ask().free("K").free("b").plane_problem().unwrap().refuse_map_certificate(&budget).unwrap_err();
+    let refused =
+        jurist_prove::refuse_map_certificate(&model.ask().free("K").free("b").plane_problem().unwrap(), &budget)
+            .unwrap_err();
     assert!(refused.to_string().contains("constants that are not rational"), "{refused}");
     for (frequency, time) in [("b", "1"), ("1", "b")] {
         let free = read(&lag(frequency, time));

@@ -6,6 +6,7 @@ use crate::helpers::model::{example_text, read};
 use crate::helpers::random::Random;
 use crate::loops::rates::{Cascade, position};
 use jurist::Ask;
+use jurist::Certificate;
 use jurist_algebra::limits::Budget;
 use jurist_check::Step;
 use jurist_engine::error::Code;

@@ -6,6 +6,7 @@ use crate::helpers::model::{example_text, read};
 use crate::helpers::number::number;
 use crate::helpers::random::Random;
 use crate::helpers::thorough::{count, is_tried, tried};
+use jurist::Certificate;
 use jurist::certified::certify_intervals;
 use jurist::{Ask, Budget};
 use jurist_algebra::number::Rational;

@@ -6,6 +6,7 @@ use crate::helpers::number::number;
 use crate::helpers::program::jurist_with_input;
 use crate::helpers::thorough::is_tried;
 use jurist::Ask;
+use jurist::Certificate;
 use jurist_algebra::limits::Budget;
 use jurist_check::Step;
 use std::collections::BTreeSet;

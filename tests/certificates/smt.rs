@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 
 fn script(model: &str, parameter: &str) -> String {
     let budget = Budget::unlimited();
-    read(model).ask().free(parameter).stable_set(&budget).unwrap().smt2(&budget).unwrap()
+    jurist::smt2(&read(model).ask().free(parameter).stable_set(&budget).unwrap(), &budget).unwrap()
 }
 
 /// The same script with a claimed set that holds another interval too.

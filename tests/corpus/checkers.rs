@@ -4,6 +4,7 @@ use crate::helpers::certificates::checkers::accept;
 use crate::helpers::corpus::{Case, Expectation, Found, FoundEnd, ask_all};
 use crate::helpers::model::read;
 use crate::helpers::number::number;
+use jurist::Certificate;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::poly::UniPoly;
 use jurist_check::format::Json;

@@ -1,5 +1,6 @@
 //! A question is evaluated once, its boundaries are isolated once, and all that is written comes of one answer.
 
+use jurist::Certificate;
 use jurist::{Ask, Document, Text};
 use jurist_algebra::limits::{Budget, Progress};
 use jurist_check::{Limits, check};
@@ -37,7 +38,7 @@ fn certificate_document_and_statement_of_a_stable_set_come_of_one_answer() {
         let model = Model::drive();
         let answer = model.ask().free(parameter).stable_set(&budget).unwrap();
         let certificate = answer.certificate(&budget).unwrap();
-        let _ = (answer.smt2(&budget).unwrap(), answer.json(12), answer.text(12));
+        let _ = (jurist::smt2(&answer, &budget).unwrap(), answer.json(12), answer.text(12));
         assert_eq!(steps.count("characteristic polynomial"), 1, "{parameter}");
         assert_eq!(steps.count("boundary polynomials"), 1, "{parameter}");
         assert_eq!(steps.count("isolating the boundaries' zeros"), 1, "{parameter}");

@@ -7,6 +7,7 @@ use crate::helpers::random::Random;
 use crate::helpers::schur::{closed, is_schur};
 use crate::helpers::thorough::count;
 use jurist::Ask;
+use jurist::Certificate;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::Verdict;

@@ -4,6 +4,7 @@ use crate::helpers::model::{example, load};
 use crate::helpers::number::number;
 use crate::helpers::thorough::{is_thorough, tried};
 use jurist::Ask;
+use jurist::Certificate;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
 use jurist_engine::answer::{Answer, BoxRequest, MapMethod, MapOrBoxes, ToleranceAnswer, ToleranceRequest, Verdict};

@@ -4,6 +4,7 @@ use crate::helpers::model::{example, load};
 use crate::helpers::number::number;
 use crate::helpers::thorough::{count, is_thorough};
 use jurist::Ask;
+use jurist::Certificate;
 use jurist_algebra::ball::{Ball, exp};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::{Integer, Rational};

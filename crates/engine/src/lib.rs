@@ -8,7 +8,6 @@
 //! | [`problem`] | a question about a model as one value, resolved once and evaluated once |
 //! | [`answer`] | answers: a problem and what is exactly known of it |
 //! | [`response`] | frequency response: the loop cut open, margins, peak gains |
-//! | [`prove`] | certificates and statements for solvers |
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -17,7 +16,6 @@ pub mod answer;
 pub mod coverage;
 mod precisions;
 pub mod problem;
-pub mod prove;
 pub mod response;
 pub use jurist_model::{self as model, error};
 pub use jurist_stability as stability;

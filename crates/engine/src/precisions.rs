@@ -14,9 +14,6 @@ pub(crate) const REQUIRED_DELAY: Precisions = Precisions::new(64, 1 << 12);
 /// The argument along a spiral of constant damping. Roots may be on it.
 pub(crate) const ROOTS_IN_SPIRAL: Precisions = Precisions::new(128, 1 << 10);
 
-/// The signs of a certificate over constants, which both checkers enclose again with as many bits.
-pub(crate) const CERTIFICATE_OVER_SYMBOLS: Precisions = Precisions::new(256, 1 << 13);
-
 /// Roots of a polynomial with enclosed coefficients. Equal ones are told apart by no bits.
 pub(crate) const ROOTS: Precisions = Precisions::new(256, 1 << 12);
 

@@ -8,6 +8,7 @@ use jurist_engine::error::{Code, Error, Source};
 use jurist_engine::model::Model;
 use jurist_engine::problem::{Ask, Question};
 use jurist_engine::stability::{End, Range, StableSet};
+use jurist_prove::{Certificate, Theorem, smt2};
 use jurist_show::{Document, Text};
 
 fn read(text: &str) -> Model {
@@ -173,7 +174,7 @@ fn documents_and_refusals_of_transcendental_limits() {
     };
     let budget = Budget::unlimited();
     assert!(answer.certificate(&budget).unwrap().contains("jurist/certificate/2"));
-    assert_eq!(code(answer.smt2(&budget).unwrap_err()), Code::NoCertificate);
+    assert_eq!(code(smt2(&answer, &budget).unwrap_err()), Code::NoCertificate);
     assert_eq!(code(answer.coq(&budget).unwrap_err()), Code::Coq);
     let verdict = unity("transfer = '1/(s + 1)'\ndiscretize = 'zoh'").ask().verdict(&budget).unwrap();
     assert!(verdict.certificate(&budget).unwrap().contains("jurist/certificate/2"));

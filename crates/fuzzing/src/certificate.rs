@@ -5,6 +5,7 @@ use jurist_check::{Limits, check};
 use jurist_engine::error::Source;
 use jurist_engine::model::Model;
 use jurist_engine::problem::Ask;
+use jurist_prove::Certificate;
 use std::time::Duration;
 
 /// Small models with their true certificates are mutated by the bytes, or the bytes are the certificate.

@@ -17,6 +17,7 @@ use jurist_engine::coverage::Asked;
 use jurist_engine::model::Model;
 use jurist_engine::problem::{DECAY, Problem, Question, RADIUS};
 use jurist_engine::response::{MapForAll, RequiredSet, Requirement};
+use jurist_prove::Theorem;
 use jurist_show::documents::Intervals;
 use jurist_show::{Document, Text};
 use jurist_show::{intervals_text, required_text};
@@ -111,7 +112,7 @@ fn stable_set(problem: &Arc<Problem>, (model, name): (&Model, &str), options: &O
     };
     context.warn(None, problem.warnings());
     if let Some(file) = options.smt2.as_ref().filter(|_| WRITES) {
-        write_answer(&answer.smt2(&context.budget)?, Some(file))?;
+        write_answer(&jurist_prove::smt2(&answer, &context.budget)?, Some(file))?;
     }
     if let Some(file) = options.coq.as_ref().filter(|_| WRITES) {
         write_answer(&answer.coq(&context.budget)?, Some(file))?;

@@ -25,6 +25,7 @@ use jurist_engine::error::{Code, Diagnostic, Error as EngineError};
 use jurist_engine::model::{Model, Time};
 use jurist_engine::problem::{DECAY, Problem, Question, RADIUS};
 use jurist_engine::response::{AllOf, MapForAll, Requirement, Requirements};
+use jurist_prove::Certificate;
 use jurist_show::{Document, Text};
 use jurist_show::{documents, map_boxes_text, map_text};
 use std::ffi::OsString;

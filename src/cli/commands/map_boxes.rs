@@ -75,7 +75,7 @@ impl MethodOptions {
                 }
             };
         }
-        let exact = problem.refuse_map_certificate(budget);
+        let exact = jurist_prove::refuse_map_certificate(problem, budget);
         match (self.method, exact) {
             (MethodName::Exact, Err(refusal)) => Err(refusal),
             (MethodName::Exact, Ok(())) => Ok(MapMethod::Exact),

@@ -20,6 +20,7 @@ use jurist_engine::answer::PointVerdict;
 use jurist_engine::error::{Code, Diagnostic, Source};
 use jurist_engine::model::Model;
 use jurist_engine::problem::Problem;
+use jurist_prove::Certificate;
 use jurist_ship::answer::{Beside, Holds, ShipAnswer};
 use jurist_ship::asked::{Asked, Overrides};
 use jurist_ship::emit::Target;

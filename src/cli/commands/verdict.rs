@@ -14,6 +14,7 @@ use clap::Args;
 use jurist_algebra::limits::Exhausted;
 use jurist_engine::answer::Verdict;
 use jurist_engine::coverage::Asked;
+use jurist_prove::Theorem;
 use jurist_show::documents;
 use jurist_show::{Document, Text};
 use std::ffi::OsString;

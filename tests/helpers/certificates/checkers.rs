@@ -3,6 +3,7 @@
 use super::mutations;
 use super::python::{self, Python};
 use crate::helpers::thorough::{count, is_tried};
+use jurist::Certificate;
 use jurist_algebra::limits::Budget;
 use jurist_check::format::Json;
 use jurist_check::{Limits, Step, check};

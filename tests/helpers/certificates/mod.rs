@@ -1,6 +1,7 @@
 //! Models with singular cases, their certificates, and mutations.
 
 use jurist::Ask;
+use jurist::Certificate;
 pub mod checkers;
 pub mod forgeries;
 pub mod python;

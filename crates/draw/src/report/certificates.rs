@@ -6,6 +6,7 @@ use super::part::{Part, Parts, Work};
 use crate::page::{Table, escaped, paragraph};
 use jurist_engine::answer::{Answer, PointVerdict};
 use jurist_engine::problem::Question;
+use jurist_prove::Certificate as _;
 
 /// Work of all certificates of limits together, which they share evenly, and of the verdict's: about a second of one core.
 const WORK: u64 = 60_000_000;

@@ -34,7 +34,7 @@ pub use sensitivity::{Sensitivities, Sensitivity};
 pub(crate) use sides::Sides;
 pub use table::{ParametricTable, PointTable};
 pub use tolerance::{ExactFactor, LimitSide, RequiredBox, ToleranceAnswer, ToleranceLimit, ToleranceRequest, WorstEnd};
-pub(crate) use tolerance::{SYMBOL_BITS, Truth};
+pub use tolerance::{SYMBOL_BITS, Truth};
 pub use verdict::{DelayedRoots, PointVerdict, Verdict};
 
 use crate::problem::Problem;

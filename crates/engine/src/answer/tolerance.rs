@@ -9,7 +9,7 @@ mod one_name;
 mod required;
 mod required_families;
 
-pub(crate) use held::{SYMBOL_BITS, Truth};
+pub use held::{SYMBOL_BITS, Truth};
 
 use super::Answer;
 use crate::error::{Code, Diagnostic, Error};

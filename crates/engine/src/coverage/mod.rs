@@ -22,6 +22,10 @@ pub use crate::error::Refusal;
 pub use asked::Asked;
 pub use method::Method;
 pub use page::page;
+pub use refusals::{
+    MAP_OF_CONSTANTS, MAP_WITH_DEAD_TIME, NO_CERTIFICATE, NOT_ALGEBRAIC, NOT_FOR_COQ, REQUIREMENT_NOT_CERTIFIED,
+    WIDE_DISK,
+};
 pub use ring::CoefficientRing;
 pub use table::{Row, rows};
 

@@ -123,26 +123,32 @@ pub(crate) static NOT_FOR_ALL: Refusal = Refusal::new(
 );
 pub(crate) static NOT_OVER_A_BOX: Refusal =
     Refusal::new(Code::Require, "the requirement {name} is not decided over a box of tolerances", "{help}");
-pub(crate) static NOT_ALGEBRAIC: Refusal =
+/// Statements for solvers are made of algebraic numbers.
+pub static NOT_ALGEBRAIC: Refusal =
     Refusal::new(Code::NoCertificate, "{what}: the limits are not algebraic numbers", OTHER_CERTIFICATES);
-pub(crate) static NO_CERTIFICATE: Refusal =
-    Refusal::new(Code::NoCertificate, "no certificate{of}: {why}", OTHER_CERTIFICATES);
-pub(crate) static REQUIREMENT_NOT_CERTIFIED: Refusal = Refusal::new(
+/// There is no certificate of this answer.
+pub static NO_CERTIFICATE: Refusal = Refusal::new(Code::NoCertificate, "no certificate{of}: {why}", OTHER_CERTIFICATES);
+/// The checkers do not know this requirement.
+pub static REQUIREMENT_NOT_CERTIFIED: Refusal = Refusal::new(
     Code::NoCertificate,
     "no certificate of '{asked}': the checkers know margins that are stability for all factors at a cut of the loop",
     "phase, gain, modulus and disk margins and the peak of T are such, at a signal or a block, in continuous time delay margins, too, and dampings; the answer is printed without '--certificate'",
 );
-pub(crate) static WIDE_DISK: Refusal = Refusal::new(
+/// The checkers do not know disk margins from 2 on.
+pub static WIDE_DISK: Refusal = Refusal::new(
     Code::NoCertificate,
     "no certificate of '{asked}': the checkers know disk margins below 2, whose factors fill a disc; from 2 on they fill a half plane",
     "the answer is printed without '--certificate'",
 );
-pub(crate) static MAP_OF_CONSTANTS: Refusal = Refusal::new(
+/// An exact map has a certificate where its constants are rational.
+pub static MAP_OF_CONSTANTS: Refusal = Refusal::new(
     Code::NoCertificate,
     "no certificate of a map: the loop has constants that are not rational",
     CERTIFIED_MAPS,
 );
-pub(crate) static MAP_WITH_DEAD_TIME: Refusal =
+/// An exact map of a loop with dead time has no certificate.
+pub static MAP_WITH_DEAD_TIME: Refusal =
     Refusal::new(Code::NoCertificate, "no certificate of a map: the loop has dead time", CERTIFIED_MAPS);
-pub(crate) static NOT_FOR_COQ: Refusal =
+/// Theorems for Coq are about rational loops.
+pub static NOT_FOR_COQ: Refusal =
     Refusal::new(Code::Coq, "no file for Coq: the loop is not rational, it contains {what}", "take '--certificate'");

@@ -79,7 +79,7 @@ impl CoefficientRing {
     }
 
     /// The ring of a loop with these symbols.
-    pub(crate) fn of(symbols: &Symbols) -> CoefficientRing {
+    pub fn of(symbols: &Symbols) -> CoefficientRing {
         let (all, delays) = (symbols.iter().count(), symbols.delays().len());
         match (all, delays) {
             (0, _) => CoefficientRing::Rational,

@@ -61,7 +61,7 @@ impl Problem {
     ///
     /// # Errors
     /// As [`Problem::algebra_over_symbols`]; `E-dead-time`.
-    pub(crate) fn fixed_symbols(&self, budget: &Budget) -> Result<Symbols, Error> {
+    pub fn fixed_symbols(&self, budget: &Budget) -> Result<Symbols, Error> {
         let symbols = self.algebra_over_symbols(budget)?.symbols();
         if !symbols.delays().is_empty() {
             return Err(not_rational(symbols));

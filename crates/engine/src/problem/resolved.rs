@@ -136,7 +136,7 @@ impl Problem {
     }
 
     /// Polynomials in what is free that are positive where the model has a meaning: numerators times denominators of what is presupposed.
-    pub(crate) fn positive(&self) -> Vec<MultiPoly> {
+    pub fn positive(&self) -> Vec<MultiPoly> {
         self.positive.iter().map(|f| f.numerator() * f.denominator()).collect()
     }
 
@@ -258,7 +258,7 @@ impl Problem {
     }
 
     /// True if the loop may be complex: the imaginary unit is written somewhere in the model, or a plant is held in another frame.
-    pub(crate) fn is_written_complex(&self) -> bool {
+    pub fn is_written_complex(&self) -> bool {
         self.model.is_written_complex()
     }
 

@@ -116,7 +116,7 @@ pub(super) fn has_phase_margin(
 }
 
 /// The tangent of half the angle whose cosine is half of this.
-pub(crate) fn half_tangent(twice_cosine: &RealAlgebraic, budget: &Budget) -> Result<Real, Exhausted> {
+pub fn half_tangent(twice_cosine: &RealAlgebraic, budget: &Budget) -> Result<Real, Exhausted> {
     let square = Value::quotient(&UniPoly::from_i64(&[2, -1]), &UniPoly::from_i64(&[2, 1]), twice_cosine);
     square_root(&square.number(budget)?, budget)
 }

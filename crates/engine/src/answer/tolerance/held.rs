@@ -15,10 +15,10 @@ use jurist_algebra::number::Rational;
 use std::sync::Arc;
 
 /// Symbols are enclosed with so many bits after the point.
-pub(crate) const SYMBOL_BITS: u64 = 512;
+pub const SYMBOL_BITS: u64 = 512;
 
 /// What the polynomial's variables beyond the free parameters are.
-pub(crate) struct Truth<'a> {
+pub struct Truth<'a> {
     problem: &'a Arc<Problem>,
     symbols: Vec<Side>,
     is_exact: bool,

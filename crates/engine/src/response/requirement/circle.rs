@@ -8,7 +8,7 @@ use jurist_algebra::poly::{Domain, Poly};
 ///
 /// With `least = p/q` the condition is `a |L|^2 + 2 b Re L + c >= 0`, where `a = q^2 - p^2 v^2`, `b = q^2 - p^2 u v`, `c = q^2 - p^2 u^2`.
 #[derive(Clone, Debug)]
-pub(crate) struct Circle {
+pub struct Circle {
     /// `u` and `v`.
     combined: [i64; 2],
     least: Rational,
@@ -19,6 +19,7 @@ pub(crate) struct Circle {
 }
 
 impl Circle {
+    /// Of the whole loop; `asked` is the number that the user wrote.
     pub fn new(combined: [i64; 2], least: Rational, asked: Rational) -> Circle {
         Circle { combined, least, asked, between: None }
     }

@@ -19,9 +19,9 @@ mod phase_margin;
 mod radius;
 mod settling_time;
 
-pub(crate) use circle::Circle;
+pub use circle::Circle;
 
-pub(crate) use settling_time::radius_below;
+pub use settling_time::radius_below;
 
 use super::{Margins, StableMargins};
 use crate::coverage::refusals::REQUIREMENT_NOT_CERTIFIED;
@@ -156,11 +156,14 @@ pub struct Requirement {
 
 /// What is decided.
 #[derive(Clone, Debug)]
-pub(crate) enum Rule {
+pub enum Rule {
     /// Stable for all factors from the inverse of this to itself; above 1.
     Factors(RealAlgebraic),
     /// Stable however the open loop is turned by less than the angle with this as twice its cosine.
-    Turned { twice_cosine: RealAlgebraic },
+    Turned {
+        /// Twice the cosine of the angle.
+        twice_cosine: RealAlgebraic,
+    },
     /// The open loop keeps to one side of a circle.
     Circle(Circle),
     /// Stable with all less dead time at the cut.
@@ -168,7 +171,10 @@ pub(crate) enum Rule {
     /// All roots, in discrete time their logarithms, make an angle with the negative real axis whose cosine is at least this.
     Sector(Rational),
     /// All roots have a modulus of at most the exponential of this.
-    Modulus { exponent: Rational },
+    Modulus {
+        /// The logarithm of the modulus.
+        exponent: Rational,
+    },
 }
 
 impl Requirement {
@@ -199,7 +205,8 @@ impl Requirement {
         }
     }
 
-    pub(crate) fn rule(&self) -> &Rule {
+    /// What is decided.
+    pub fn rule(&self) -> &Rule {
         &self.rule
     }
 

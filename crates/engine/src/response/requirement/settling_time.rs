@@ -67,7 +67,7 @@ impl Requirement {
 }
 
 /// A rational number of few digits just below `exp(exponent)`, by at most so many binary digits.
-pub(crate) fn radius_below(exponent: &Rational, bits: u64) -> Rational {
+pub fn radius_below(exponent: &Rational, bits: u64) -> Rational {
     let mut symbols = Symbols::new();
     let radius = symbols.insert("X", Definition::exponential(exponent.clone()));
     let low = symbols.values(bits + 8)[radius].lower();

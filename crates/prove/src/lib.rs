@@ -1,0 +1,88 @@
+//! What independent programs can check: certificates, statements for SMT solvers, theorems for Coq.
+//!
+//! A certificate is made of the answer that is printed, from the zeros and cells that decided it ([`Certificate`]). Where there is none,
+//! and of requirements, the answer is cut into boxes, and what the check sees judges each box ([`certified`]).
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+mod boxes;
+pub mod certified;
+mod cofactors;
+mod complex;
+mod coq;
+mod dead_time;
+mod digest;
+mod emit;
+mod enclosed;
+mod for_all;
+mod gain;
+mod held;
+mod line;
+mod map;
+mod map_boxes;
+mod over_symbols;
+mod precisions;
+mod smt2;
+mod statement;
+mod text;
+mod tuned;
+
+use jurist_algebra::limits::Budget;
+use jurist_engine::coverage::{NO_CERTIFICATE, NOT_ALGEBRAIC};
+use jurist_engine::problem::{Bound, Problem};
+use jurist_model::error::{Code, Diagnostic, Error};
+use jurist_stability::StableSet;
+
+pub use emit::SCHEMA;
+pub use for_all::{ForAllClaim, for_all_certificate};
+pub use map::refuse_map_certificate;
+pub use map_boxes::boxes_certificate;
+pub use smt2::smt2;
+pub use tuned::{BestOf, FoundClaim, TuneClaim, tune_certificate};
+
+/// What the checkers `jurist verify` and `check.py` are given of an answer.
+pub trait Certificate {
+    /// The certificate of this answer.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] when the budget runs out; [`Error::Refused`] (`E-no-certificate`) where there is none.
+    fn certificate(&self, budget: &Budget) -> Result<String, Error>;
+}
+
+/// What Coq is given of an answer.
+pub trait Theorem {
+    /// A file for Coq that proves this answer.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] when the budget runs out; [`Error::Refused`] (`E-no-certificate`) where there is none.
+    fn coq(&self, budget: &Budget) -> Result<String, Error>;
+}
+
+/// Certificates are made of polynomials over the integers.
+fn refuse_transcendental(set: &StableSet, what: &str) -> Result<(), Error> {
+    if set.is_algebraic() {
+        return Ok(());
+    }
+    Err(NOT_ALGEBRAIC.diagnostic(&[("what", what)]).into())
+}
+
+/// Boxes and maps of a model with requirements may be of these: the checkers prove stability alone.
+fn refuse_requirements(problem: &Problem) -> Result<(), Error> {
+    match problem.model().require().is_empty() {
+        true => Ok(()),
+        false => Err(no_certificate("no certificate: nothing proves the requirements of the model")),
+    }
+}
+
+/// Boxes and maps are of a region whose bound is a number.
+fn refuse_free_bound(problem: &Problem) -> Result<(), Error> {
+    match problem.region().bound() {
+        Bound::Free => Err(no_certificate("no certificate of a map on which the bound of the region is free")),
+        Bound::Number(_) => Ok(()),
+    }
+}
+
+fn no_certificate(why: impl Into<String>) -> Error {
+    Diagnostic::error(Code::NoCertificate, why).help(NO_CERTIFICATE.help).into()
+}
