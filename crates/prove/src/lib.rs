@@ -42,8 +42,22 @@ pub use smt2::smt2;
 pub use tuned::{BestOf, FoundClaim, TuneClaim, tune_certificate};
 
 /// What the checkers `jurist verify` and `check.py` are given of an answer.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_check::{Limits, check};
+/// use jurist_engine::problem::Ask;
+/// use jurist_model::Model;
+/// use jurist_prove::Certificate;
+/// let (drive, budget) = (Model::drive(), Budget::unlimited());
+/// let certificate = drive.ask().set("K_pwm", 551).verdict(&budget)?.certificate(&budget)?;
+/// assert!(check(&drive.source().text, &certificate, &Limits::default()).is_ok());
+/// # Ok::<(), jurist_model::error::Error>(())
+/// ```
 pub trait Certificate {
     /// The certificate of this answer.
+    ///
+    /// Cost: greatest common divisors of the polynomials that decided the answer; no root is counted or isolated again.
     ///
     /// # Errors
     /// [`Error::Stopped`] when the budget runs out; [`Error::Refused`] (`E-no-certificate`) where there is none.
@@ -51,8 +65,21 @@ pub trait Certificate {
 }
 
 /// What Coq is given of an answer.
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_engine::problem::Ask;
+/// use jurist_model::Model;
+/// use jurist_prove::Theorem;
+/// let (drive, budget) = (Model::drive(), Budget::unlimited());
+/// let file = drive.ask().free("K_pwm").stable_set(&budget)?.coq(&budget)?;
+/// assert!(file.contains("<-> lower_limit < K_pwm < upper_limit."));
+/// # Ok::<(), jurist_model::error::Error>(())
+/// ```
 pub trait Theorem {
-    /// A file for Coq that proves this answer.
+    /// A file for Coq that proves this answer, with the library in `proofs/`.
+    ///
+    /// Cost: a table of the conditions, as for [`jury_table`](jurist_stability::jury_table), and the signs of their coefficients.
     ///
     /// # Errors
     /// [`Error::Stopped`] when the budget runs out; [`Error::Refused`] (`E-no-certificate`) where there is none.

@@ -18,6 +18,16 @@ use std::fmt::Write;
 /// The conditions are those of the table whose rows are divided by the entry two rows above, so that their degrees grow by
 /// addition: `|first| > |last|` of a row stands as "`first - last` and `first + last` have the same sign".
 ///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_engine::problem::Ask;
+/// use jurist_model::Model;
+/// let (drive, budget) = (Model::drive(), Budget::unlimited());
+/// let script = jurist_prove::smt2(&drive.ask().free("K_pwm").stable_set(&budget)?, &budget)?;
+/// assert!(script.ends_with("(check-sat)\n"));
+/// # Ok::<(), jurist_model::error::Error>(())
+/// ```
+///
 /// Cost: one table, `O(n^2)` operations on polynomials in the parameter, and its text.
 ///
 /// # Errors

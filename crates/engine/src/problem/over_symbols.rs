@@ -59,6 +59,8 @@ impl Problem {
 impl Problem {
     /// What the symbols of a loop stand for, none of which depends on what is free.
     ///
+    /// Cost: that of [`Problem::algebra_over_symbols`].
+    ///
     /// # Errors
     /// As [`Problem::algebra_over_symbols`]; `E-dead-time`.
     pub fn fixed_symbols(&self, budget: &Budget) -> Result<Symbols, Error> {

@@ -32,17 +32,6 @@ impl Theorem for Answer<StableSet> {
     /// A loop given by matrices is stated by the entries as they are typed and by their eigenvalues; one given by a
     /// polynomial or by blocks by the coefficients of its characteristic polynomial.
     ///
-    /// ```
-    /// use jurist_algebra::limits::Budget;
-    /// use jurist_model::Model;
-    /// use jurist_engine::problem::Ask;
-    /// use jurist_prove::Theorem;
-    /// let (drive, budget) = (Model::drive(), Budget::unlimited());
-    /// let answer = drive.ask().free("K_pwm").stable_set(&budget).unwrap();
-    /// let file = answer.coq(&budget).unwrap();
-    /// assert!(file.contains("<-> lower_limit < K_pwm < upper_limit."));
-    /// ```
-    ///
     /// Cost: a table of the conditions, as for [`jury_table`](jurist_stability::jury_table), and for each piece of the domain the
     /// signs of their coefficients; more where a limit needs more digits.
     ///
