@@ -82,7 +82,7 @@ impl TuneClaim {
 /// Cost: that of writing it.
 ///
 /// # Errors
-/// As [`Problem::for_all_certificate`].
+/// As [`for_all_certificate`](crate::for_all_certificate).
 pub fn tune_certificate(
     problem: &Problem,
     claim: &TuneClaim,

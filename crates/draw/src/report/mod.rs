@@ -58,9 +58,9 @@ pub struct ReportRequest<'a> {
     pub file: Option<&'a str>,
     /// Where the loop is cut for margins and the Bode diagram; `None` where the model's `[require]` says so, or there is one loop only.
     pub at: Option<&'a str>,
-    /// Writes the certificates of limits; `None` for [`Answer::certificate`].
+    /// Writes the certificates of limits; `None` for [`certificate`](jurist_prove::Certificate::certificate).
     pub certify: Option<Certifier<'a>>,
-    /// Writes the certificate of the verdict; `None` for [`Answer::certificate`].
+    /// Writes the certificate of the verdict; `None` for [`certificate`](jurist_prove::Certificate::certificate).
     pub certify_verdict: Option<VerdictCertifier<'a>>,
     /// The independent check of certificates.
     pub check: Option<Checker<'a>>,

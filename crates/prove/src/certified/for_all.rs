@@ -336,7 +336,7 @@ pub fn certify_requirements(
 
 /// A certificate of a verdict: an exact one, or that of a box of one point.
 ///
-/// Cost: that of [`Answer::certificate`], else that of one box.
+/// Cost: that of [`Certificate::certificate`](crate::Certificate::certificate), else that of one box.
 ///
 /// ```
 /// use jurist_prove::certified::certify_verdict;

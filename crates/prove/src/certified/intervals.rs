@@ -68,7 +68,7 @@ pub struct CertifiedIntervals {
 /// Where there is no exact one, as where the parameter is inside of functions (a sample time, a constant of a plant behind a hold), a window that
 /// contains the finite ends is cut into boxes as that of a map; the certificate then leaves short pieces at the ends unknown.
 ///
-/// Cost: that of [`Answer::certificate`], else that of [`certify_boxes`](crate::certified::certify_boxes) for some dozen boxes at each end.
+/// Cost: that of [`Certificate::certificate`](crate::Certificate::certificate), else that of [`certify_boxes`](crate::certified::certify_boxes) for some dozen boxes at each end.
 ///
 /// ```
 /// use jurist_prove::certified::certify_intervals;

@@ -47,7 +47,7 @@ pub struct CertifiedTolerance {
 /// Where there is no exact one, as with tolerances inside of functions, with dead time, and with requirements, the box is cut into parts until the checkers see
 /// of each that it is good. Margins are taken at a cut. Next to the largest factor these are many, so a box that is a little smaller is taken if they are too many.
 ///
-/// Cost: that of [`Answer::certificate`], else that of the parts.
+/// Cost: that of [`Certificate::certificate`](crate::Certificate::certificate), else that of the parts.
 ///
 /// ```
 /// use jurist_prove::certified::certify_tolerance;
