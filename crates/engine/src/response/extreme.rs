@@ -113,17 +113,21 @@ pub(crate) fn extreme_over<G: Ground>(
             false => Extreme::Constant(ground.quotient(&a.coeff(0), &b.coeff(0), budget)?),
         });
     }
-    // A zero of the denominator inside is a double one, hence critical: what the slope a' b - a b' and b have in common is what b' and b
-    // have, since a and b have nothing.
-    let poles = budget.enter(|| b.derivative().gcd(&b))?;
+    // A zero of either inside is a double one, hence critical: what the slope a' b - a b' and b have in common is what b' and b
+    // have, since a and b have nothing, and so for a. The sign of a there would be that of zero, which constants do not show.
+    let [nulls, poles] = [&a, &b].map(|p| budget.enter(|| p.derivative().gcd(p)));
+    let (nulls, poles) = (nulls?, poles?);
     let range = frequencies.inner();
-    let infinite = if poles.is_constant() { Vec::new() } else { ground.zeros(&poles, &range, budget)? };
-    let unexpanded = if poles.is_constant() { ground.extremes([&a, &b], &range, budget)? } else { None };
+    let inside = |p: &Poly<G::Number>| if p.is_constant() { Ok(Vec::new()) } else { ground.zeros(p, &range, budget) };
+    let (zeros, infinite) = (inside(&nulls)?, inside(&poles)?);
+    let is_plain = nulls.is_constant() && poles.is_constant();
+    let unexpanded = if is_plain { ground.extremes([&a, &b], &range, budget)? } else { None };
     let critical = match unexpanded {
         Some(zeros) => zeros,
         None => {
             let slope = a.derivative().times(&b).minus(&a.times(&b.derivative()));
-            ground.zeros(&slope.div_exact(&poles).expect("a gcd divides"), &range, budget)?
+            let divided = slope.div_exact(&nulls.times(&poles)).expect("what each has in common with its derivative divides");
+            ground.zeros(&divided, &range, budget)?
         }
     };
     let mut best: Option<(Place, Value, bool)> = None;
@@ -136,6 +140,11 @@ pub(crate) fn extreme_over<G: Ground>(
         };
         if let (Ordering::Greater, 0, Some(pole)) = (wanted, i, infinite.last()) {
             return Ok(Extreme::Infinite(Place::Inside(pole.clone())));
+        }
+        if let (Ordering::Less, 0, Some(zero)) = (wanted, i, zeros.last())
+            && !value.is_zero()
+        {
+            return Ok(Extreme::At { place: Place::Inside(zero.clone()), value: Rational::ZERO.into(), attained: true });
         }
         let attained = !matches!((&place, frequencies.shape()), (Place::Highest, Shape::LeftHalfPlane));
         let better = match &best {
