@@ -55,7 +55,7 @@ impl Extreme {
     /// # Panics
     /// When `b` is zero.
     pub fn greatest(a: &UniPoly, b: &UniPoly, shape: Shape, budget: &Budget) -> Result<Extreme, Exhausted> {
-        extreme_over(&Integers, a, b, shape.into(), Ordering::Greater, budget)
+        extreme_over(&Integers, [a, b], &UniPoly::gcd, shape.into(), Ordering::Greater, budget)
     }
 
     /// The least value, of a quotient that is not infinite at all frequencies.
@@ -68,7 +68,7 @@ impl Extreme {
     /// # Panics
     /// When `b` is zero.
     pub fn least(a: &UniPoly, b: &UniPoly, shape: Shape, budget: &Budget) -> Result<Extreme, Exhausted> {
-        extreme_over(&Integers, a, b, shape.into(), Ordering::Less, budget)
+        extreme_over(&Integers, [a, b], &UniPoly::gcd, shape.into(), Ordering::Less, budget)
     }
 
     /// The value; `None` where it is infinite.
@@ -93,18 +93,21 @@ impl Extreme {
     }
 }
 
-/// The extreme value that is `wanted` of all others.
+/// A greatest common divisor of two polynomials.
+type Common<'c, R> = &'c dyn Fn(&Poly<R>, &Poly<R>) -> Poly<R>;
+
+/// The extreme value of `a/b` that is `wanted` of all others.
 pub(crate) fn extreme_over<G: Ground>(
     ground: &G,
-    a: &Poly<G::Number>,
-    b: &Poly<G::Number>,
+    [a, b]: [&Poly<G::Number>; 2],
+    common: Common<'_, G::Number>,
     frequencies: Frequencies,
     wanted: Ordering,
     budget: &Budget,
 ) -> Result<Extreme, Exhausted> {
     assert!(!b.is_zero(), "a modulus over zero");
-    let common = budget.enter(|| a.gcd(b))?;
-    let divided = |p: &Poly<G::Number>| p.div_exact(&common).expect("a gcd divides");
+    let both = budget.enter(|| common(a, b))?;
+    let divided = |p: &Poly<G::Number>| p.div_exact(&both).expect("a gcd divides");
     let (a, b) = (divided(a), divided(b));
     // Without a common factor the quotient is constant where both are.
     if a.is_constant() && b.is_constant() {
@@ -115,7 +118,7 @@ pub(crate) fn extreme_over<G: Ground>(
     }
     // A zero of either inside is a double one, hence critical: what the slope a' b - a b' and b have in common is what b' and b
     // have, since a and b have nothing, and so for a. The sign of a there would be that of zero, which constants do not show.
-    let [nulls, poles] = [&a, &b].map(|p| budget.enter(|| p.derivative().gcd(p)));
+    let [nulls, poles] = [&a, &b].map(|p| budget.enter(|| common(&p.derivative(), p)));
     let (nulls, poles) = (nulls?, poles?);
     let range = frequencies.inner();
     let inside = |p: &Poly<G::Number>| if p.is_constant() { Ok(Vec::new()) } else { ground.zeros(p, &range, budget) };
@@ -163,7 +166,8 @@ pub(crate) fn extreme_over<G: Ground>(
 pub(super) fn modulus_extreme(open_loop: &OpenLoop, budget: &Budget) -> Result<Extreme, Exhausted> {
     with_parts!(open_loop, parts => {
         let r = &parts.reduced;
-        extreme_over(&parts.ground, &r.sum_squared, &r.denominator_squared, parts.frequencies(), Ordering::Less, budget)
+        let quotient = [&r.sum_squared, &r.denominator_squared];
+        extreme_over(&parts.ground, quotient, &|a, b| r.common(a, b), r.frequencies, Ordering::Less, budget)
     })
 }
 
@@ -171,6 +175,7 @@ pub(super) fn modulus_extreme(open_loop: &OpenLoop, budget: &Budget) -> Result<E
 pub(super) fn complementary_extreme(open_loop: &OpenLoop, budget: &Budget) -> Result<Extreme, Exhausted> {
     with_parts!(open_loop, parts => {
         let r = &parts.reduced;
-        extreme_over(&parts.ground, &r.numerator_squared, &r.sum_squared, parts.frequencies(), Ordering::Greater, budget)
+        let quotient = [&r.numerator_squared, &r.sum_squared];
+        extreme_over(&parts.ground, quotient, &|a, b| r.common(a, b), r.frequencies, Ordering::Greater, budget)
     })
 }

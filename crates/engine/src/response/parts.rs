@@ -4,7 +4,7 @@ use super::Frequencies;
 use super::complex_poly::ComplexPoly;
 use super::ground::Ground;
 use super::place::{modulus_squared, product};
-use crate::stability::Shape;
+use crate::stability::{HalfSizePair, Shape};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
 
@@ -43,6 +43,8 @@ pub(crate) struct Reduced<R: Domain> {
     /// Twice the real part of `N conj(D0)`, and its imaginary part; over `sin theta` or `omega` where frequencies have no sign.
     pub twice_real: Poly<R>,
     pub imaginary: Poly<R>,
+    /// The factors of `N` and of `D0` whose zeros are on the boundary and not at its ends, or in pairs mirrored there.
+    pub mirrored: [Poly<R>; 2],
 }
 
 impl<G: Ground> Parts<G> {
@@ -69,7 +71,10 @@ impl<G: Ground> Parts<G> {
         Parts {
             denominator: scaled(&self.denominator, &down),
             numerator: scaled(&self.numerator, &up),
-            reduced: Reduced::of_products(squares, products, r.frequencies),
+            reduced: Reduced {
+                mirrored: r.mirrored.clone(),
+                ..Reduced::of_products(squares, products, r.frequencies)
+            },
             ..self.clone()
         }
     }
@@ -97,7 +102,9 @@ impl<R: Domain> Reduced<R> {
         let (numerator, denominator) = (divided(numerator), divided(denominator));
         let degree = numerator.coeffs().len().max(denominator.coeffs().len()) - 1;
         let squares = [&numerator, &denominator].map(|p| modulus_squared(p, degree, shape));
-        Reduced::of_products(squares, product(&numerator, &denominator, degree, shape).into(), shape.into())
+        let products = product(&numerator, &denominator, degree, shape).into();
+        let mirrored = [&numerator, &denominator].map(|p| mirrored_factor(p, shape));
+        Reduced { mirrored, ..Reduced::of_products(squares, products, shape.into()) }
     }
 
     /// From `|N|^2` and `|D0|^2`, and from twice the real part and the imaginary part of `N conj(D0)`.
@@ -115,7 +122,20 @@ impl<R: Domain> Reduced<R> {
             denominator_squared,
             twice_real,
             imaginary,
+            mirrored: [Poly::one(), Poly::one()],
         }
+    }
+
+    /// The greatest common divisor of two products, or of one and its derivative: what is mirrored is in both, and without it the
+    /// rest is short.
+    pub fn common(&self, a: &Poly<R>, b: &Poly<R>) -> Poly<R> {
+        let (mut a, mut b, mut known) = (a.clone(), b.clone(), Poly::one());
+        for factor in self.mirrored.iter().filter(|factor| !factor.is_constant()) {
+            while let (false, Some(x), Some(y)) = (b.is_zero(), a.div_exact(factor), b.div_exact(factor)) {
+                (a, b, known) = (x, y, known.times(factor));
+            }
+        }
+        known.times(&a.gcd(&b))
     }
 
     /// `|u D0 + v N|^2`.
@@ -124,6 +144,28 @@ impl<R: Domain> Reduced<R> {
         scaled(&self.denominator_squared, &(u * u))
             .plus(&scaled(&self.twice_real, &(u * v)))
             .plus(&scaled(&self.numerator_squared, &(v * v)))
+    }
+}
+
+/// The factor of a polynomial whose zeros are mirrored by others in the boundary, but for those at the ends of the range of `x`, as a polynomial in `x`.
+fn mirrored_factor<R: Domain>(p: &Poly<R>, shape: Shape) -> Poly<R> {
+    let at_zero = p.coeffs().iter().take_while(|c| c.is_zero()).count();
+    let p = Poly::new(p.coeffs()[at_zero..].to_vec()).primitive_part();
+    let mirror = match (p.degree(), shape) {
+        (None, _) => return Poly::one(),
+        (Some(degree), Shape::UnitDisc) => p.reversed(degree),
+        (Some(_), Shape::LeftHalfPlane) => p.negated_argument(),
+    };
+    let mut factor = if mirror == p || mirror == p.negated() { p } else { p.gcd(&mirror).primitive_part() };
+    let ends = [1, -1].map(|end| Poly::new(vec![R::from_integer(&Integer::from(-end)), R::one()]));
+    for end in ends.iter().filter(|_| shape == Shape::UnitDisc) {
+        while let Some(quotient) = factor.div_exact(end) {
+            factor = quotient;
+        }
+    }
+    match factor.degree() {
+        Some(degree) if degree > 0 => HalfSizePair::new(&factor, degree, shape).a.primitive_part(),
+        _ => Poly::one(),
     }
 }
 
