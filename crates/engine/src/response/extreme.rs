@@ -5,7 +5,7 @@ use super::open_loop::OpenLoop;
 use super::parts::with_parts;
 use super::value::square_root;
 use super::{Frequencies, Place, Value};
-use crate::stability::Shape;
+use crate::stability::{Range, Shape};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, Poly, UniPoly};
@@ -116,25 +116,9 @@ pub(crate) fn extreme_over<G: Ground>(
             false => Extreme::Constant(ground.quotient(&a.coeff(0), &b.coeff(0), budget)?),
         });
     }
-    // A zero of either inside is a double one, hence critical: what the slope a' b - a b' and b have in common is what b' and b
-    // have, since a and b have nothing, and so for a. The sign of a there would be that of zero, which constants do not show.
-    let [nulls, poles] = [&a, &b].map(|p| budget.enter(|| common(&p.derivative(), p)));
-    let (nulls, poles) = (nulls?, poles?);
-    let range = frequencies.inner();
-    let inside = |p: &Poly<G::Number>| if p.is_constant() { Ok(Vec::new()) } else { ground.zeros(p, &range, budget) };
-    let (zeros, infinite) = (inside(&nulls)?, inside(&poles)?);
-    let is_plain = nulls.is_constant() && poles.is_constant();
-    let unexpanded = if is_plain { ground.extremes([&a, &b], &range, budget)? } else { None };
-    let critical = match unexpanded {
-        Some(zeros) => zeros,
-        None => {
-            let slope = a.derivative().times(&b).minus(&a.times(&b.derivative()));
-            let divided = slope.div_exact(&nulls.times(&poles)).expect("what each has in common with its derivative divides");
-            ground.zeros(&divided, &range, budget)?
-        }
-    };
+    let Critical { places, zeros, infinite } = Critical::of(ground, [&a, &b], common, &frequencies.inner(), budget)?;
     let mut best: Option<(Place, Value, bool)> = None;
-    for (i, place) in frequencies.places(critical).into_iter().enumerate() {
+    for (i, place) in frequencies.places(places).into_iter().enumerate() {
         let Some(value) = ground.value(&a, &b, &place, frequencies, budget)? else {
             if wanted == Ordering::Greater {
                 return Ok(Extreme::Infinite(place));
@@ -147,7 +131,11 @@ pub(crate) fn extreme_over<G: Ground>(
         if let (Ordering::Less, 0, Some(zero)) = (wanted, i, zeros.last())
             && !value.is_zero()
         {
-            return Ok(Extreme::At { place: Place::Inside(zero.clone()), value: Rational::ZERO.into(), attained: true });
+            return Ok(Extreme::At {
+                place: Place::Inside(zero.clone()),
+                value: Rational::ZERO.into(),
+                attained: true,
+            });
         }
         let attained = !matches!((&place, frequencies.shape()), (Place::Highest, Shape::LeftHalfPlane));
         let better = match &best {
@@ -160,6 +148,44 @@ pub(crate) fn extreme_over<G: Ground>(
     }
     let (place, value, attained) = best.expect("not infinite at all frequencies");
     Ok(Extreme::At { place, value, attained })
+}
+
+/// Where a quotient of squares of moduli may have its extremes.
+struct Critical {
+    /// Zeros of the slope at which neither polynomial is zero.
+    places: Vec<Real>,
+    /// The double zeros of the numerator.
+    zeros: Vec<Real>,
+    /// The double zeros of the denominator.
+    infinite: Vec<Real>,
+}
+
+impl Critical {
+    /// A zero of either polynomial inside is a double one, hence critical: what the slope a' b - a b' and b have in common is what b' and b
+    /// have, since a and b have nothing, and so for a. The sign of a there would be that of zero, which constants do not show.
+    fn of<G: Ground>(
+        ground: &G,
+        [a, b]: [&Poly<G::Number>; 2],
+        common: Common<'_, G::Number>,
+        range: &Range,
+        budget: &Budget,
+    ) -> Result<Critical, Exhausted> {
+        let [nulls, poles] = budget.enter(|| [a, b].map(|p| common(&p.derivative(), p)))?;
+        let inside =
+            |p: &Poly<G::Number>| if p.is_constant() { Ok(Vec::new()) } else { ground.zeros(p, range, budget) };
+        let (zeros, infinite) = (inside(&nulls)?, inside(&poles)?);
+        let are_plain = nulls.is_constant() && poles.is_constant();
+        let unexpanded = if are_plain { ground.extremes([a, b], range, budget)? } else { None };
+        let places = match unexpanded {
+            Some(places) => places,
+            None => {
+                let slope = a.derivative().times(b).minus(&a.times(&b.derivative()));
+                let divided = slope.div_exact(&nulls.times(&poles)).expect("both divide the slope");
+                ground.zeros(&divided, range, budget)?
+            }
+        };
+        Ok(Critical { places, zeros, infinite })
+    }
 }
 
 /// The least value of `|1 + L|^2`.

@@ -71,10 +71,7 @@ impl<G: Ground> Parts<G> {
         Parts {
             denominator: scaled(&self.denominator, &down),
             numerator: scaled(&self.numerator, &up),
-            reduced: Reduced {
-                mirrored: r.mirrored.clone(),
-                ..Reduced::of_products(squares, products, r.frequencies)
-            },
+            reduced: Reduced { mirrored: r.mirrored.clone(), ..Reduced::of_products(squares, products, r.frequencies) },
             ..self.clone()
         }
     }
@@ -197,4 +194,38 @@ pub(crate) fn integral(a: Vec<Rational>, b: Vec<Rational>) -> (UniPoly, UniPoly)
     }
     let b = all.split_off(split);
     (Poly::new(all), Poly::new(b))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Poles and zeros on the circle and the axis, at its ends, repeated, and mirrored in them, against the plain divisor.
+    #[test]
+    fn common_factors_of_products_are_greatest_common_divisors() {
+        let p = UniPoly::from_i64;
+        let discrete = [
+            [p(&[5, -8, 5]), p(&[-1, 1])],
+            [p(&[5, -8, 5]).times(&p(&[5, -8, 5])), p(&[1, 1])],
+            [p(&[2, -5, 2]), p(&[0, 0, 1])],
+        ];
+        let continuous = [
+            [p(&[4, 0, 1]), p(&[0, 1])],
+            [p(&[4, 0, 1]).times(&p(&[9, 0, 1])), p(&[-1, 0, 1])],
+            [p(&[3]), p(&[0, 0, 1])],
+        ];
+        for (shape, cases) in [(Shape::UnitDisc, discrete), (Shape::LeftHalfPlane, continuous)] {
+            for [special, other] in cases.iter().flat_map(|[a, b]| [[a, b], [b, a]]) {
+                let denominator = special.times(other).times(&p(&[1, 3]));
+                let r = Reduced::of(&p(&[2, 1]).times(other), &denominator, shape);
+                let squares = [&r.numerator_squared, &r.denominator_squared];
+                let pairs = squares.map(|s| [s.derivative(), s.clone()]);
+                for [a, b] in pairs.into_iter().chain([[r.imaginary.clone(), r.twice_real.clone()]]) {
+                    assert_eq!(r.common(&a, &b).primitive_part(), a.gcd(&b).primitive_part());
+                }
+            }
+        }
+        let r = Reduced::of(&p(&[1]), &p(&[-5, 13, -13, 5]), Shape::UnitDisc);
+        assert_eq!(r.mirrored[1], p(&[-8, 5]));
+    }
 }
