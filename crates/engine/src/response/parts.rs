@@ -44,7 +44,7 @@ pub(crate) struct Reduced<R: Domain> {
     pub twice_real: Poly<R>,
     pub imaginary: Poly<R>,
     /// The factors of `N` and of `D0` whose zeros are on the boundary and not at its ends, or in pairs mirrored there.
-    pub mirrored: [Poly<R>; 2],
+    pub mirrored: Box<[Poly<R>; 2]>,
 }
 
 impl<G: Ground> Parts<G> {
@@ -100,7 +100,7 @@ impl<R: Domain> Reduced<R> {
         let degree = numerator.coeffs().len().max(denominator.coeffs().len()) - 1;
         let squares = [&numerator, &denominator].map(|p| modulus_squared(p, degree, shape));
         let products = product(&numerator, &denominator, degree, shape).into();
-        let mirrored = [&numerator, &denominator].map(|p| mirrored_factor(p, shape));
+        let mirrored = Box::new([&numerator, &denominator].map(|p| mirrored_factor(p, shape)));
         Reduced { mirrored, ..Reduced::of_products(squares, products, shape.into()) }
     }
 
@@ -119,7 +119,7 @@ impl<R: Domain> Reduced<R> {
             denominator_squared,
             twice_real,
             imaginary,
-            mirrored: [Poly::one(), Poly::one()],
+            mirrored: Box::new([Poly::one(), Poly::one()]),
         }
     }
 
