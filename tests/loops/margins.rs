@@ -255,3 +255,35 @@ fn peak_gains() {
     assert_eq!(approached.value().peak.as_ref().unwrap().value.exact(), Some(number("1/2")));
     assert!(peak(&loop_of("discrete", "3", "1, 0")).value().peak.is_none());
 }
+
+/// A resonant controller in an outer loop makes the inner open loop zero at the frequency of its poles: twice there, so that the greatest
+/// complementary sensitivity was looked for at it, and no enclosures tell zero. The digits are those of the cosine with twenty digits.
+#[test]
+fn an_inner_loop_beside_a_resonant_controller_of_an_irrational_frequency() {
+    let text = |cosine: &str| {
+        format!(
+            r#"
+            time = "discrete"
+            [constants]
+            c = "{cosine}"
+            [loop]
+            inputs = ["r"]
+            outputs = ["y"]
+            [[block]]
+            input = "r - y"
+            output = "v"
+            transfer = "1/5 + 1/20*(z*c - 1)/(z^2 - 2*c*z + 1)"
+            [[block]]
+            input = "v - x/10"
+            output = ["x", "y"]
+            A = [["1/2", "1/5"], ["1/3", "1/4"]]
+            B = [[1], ["1/2"]]
+            "#
+        )
+    };
+    let of = |cosine: &str| margins_of(&load(&text(cosine)), Some("x"));
+    let (near, root) = (of("70710678118654752440/100000000000000000000"), of("sqrt(2)/2"));
+    let (near, root) = (stable(&near), stable(&root));
+    assert_eq!(root.peak_complementary.decimal(15), near.peak_complementary.decimal(15));
+    assert_eq!(root.modulus.decimal(15), near.modulus.decimal(15));
+}

@@ -32,7 +32,8 @@ pub fn plants(question: &Question, gains: &[Gain], given: Vec<AllOf>, robust: bo
             continue;
         }
         let set = question.values_set().get(&name).cloned();
-        let nominal = set.map_or_else(|| question.nominal(&name), |value| Ok(Some(value)))?;
+        let number = question.model().constant(&name).and_then(|constant| constant.number.clone());
+        let nominal = set.or(number).map_or_else(|| question.nominal(&name), |value| Ok(Some(value)))?;
         let Some(nominal) = nominal else {
             let error = Diagnostic::error(Code::NoValue, format!("'{name}' has a tolerance and no value"));
             return Err(error.help(format!("give it one: --set {name}=VALUE")).into());
@@ -68,4 +69,26 @@ pub fn plants_of_model(question: &Question, gains: &[Gain]) -> Result<Vec<AllOf>
         given.push(all);
     }
     plants(question, gains, given, tuning.robust)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use jurist_engine::error::Source;
+    use jurist_engine::model::Model;
+    use jurist_engine::problem::Ask;
+
+    /// Its value was looked for among the parameters alone.
+    #[test]
+    fn a_constant_with_a_tolerance_has_a_value() {
+        let text = "time = 'continuous'\nconstants = { a = { value = 2, tolerance = '10%' } }\nparameters = { K = 1 }\n\
+            loop.characteristic = 's + a*K'\n";
+        let (model, _) = Model::from_toml(&Source::new("loop.toml", text)).unwrap();
+        let range = |question| {
+            let all = plants(&question, &[Gain::new("K")], Vec::new(), true).unwrap();
+            all[0].range.each_ref().map(ToString::to_string)
+        };
+        assert_eq!(range(model.ask()), ["9/5", "11/5"]);
+        assert_eq!(range(model.ask().set("a", 20)), ["18", "22"]);
+    }
 }

@@ -410,7 +410,7 @@ impl MovingSymbols {
         }
     }
 
-    /// The zero as a number: a rational one where it is a short fraction.
+    /// The zero as a number: a rational one where it is a short fraction, and that is proved.
     fn known(&self, root: MovingRoot, f: &Function, budget: &Budget) -> Result<Real, Exhausted> {
         let width = &root.monotone;
         let spare = 8 + width.denominator().bit_length().saturating_sub(width.numerator().bit_length());
@@ -422,7 +422,7 @@ impl MovingSymbols {
             let around = Rational::dyadic(&Integer::ONE, bits);
             if let Some(short) = simplest_between(&(place.lower() - &around), &(place.upper() + &around))
                 && short.numerator().bit_length() + short.denominator().bit_length() < short_bits
-                && self.vanishes_at(f, &short, budget)?
+                && self.vanishing(f, &short, budget)? == Some(true)
             {
                 return Ok(Real::from(short));
             }

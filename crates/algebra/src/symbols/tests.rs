@@ -250,3 +250,18 @@ fn a_zero_in_the_middle_of_its_place_is_refined() {
         assert!(found.upper() - found.lower() <= Rational::dyadic(&Integer::ONE, 48), "{found:?}");
     }
 }
+
+/// `exp(exp(T)) exp(-exp(T)) = 1` is beyond the normal form: that the zero is 1/2 is not proved, and its enclosures stand for it.
+#[test]
+fn a_rational_zero_that_nothing_proves_is_a_zero() {
+    let exp = |x: RationalFunction| Definition::Exponential(x);
+    let inner = RationalFunction::variable(1);
+    let table = [("a", exp(RationalFunction::variable(0))), ("b", exp(inner.clone())), ("c", exp(-&inner))];
+    let symbols = Arc::new(MovingSymbols::new(table.map(|(name, d)| (name.to_owned(), d)).to_vec()));
+    let [t, b, c] = [0, 2, 3].map(MultiPoly::variable);
+    let f = t.scaled_by(&2.into()).minus(&b.times(&c));
+    let one = Rational::ONE;
+    let found = symbols.zeros_in(&f.into(), &Rational::ZERO, &one, &one, &Budget::unlimited()).unwrap();
+    let [zero] = &found.zeros[..] else { panic!("one zero") };
+    assert!(found.undecided.is_empty() && zero.decimal(10) == "0.5000000000");
+}

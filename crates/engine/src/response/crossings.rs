@@ -168,10 +168,10 @@ pub(super) fn samples_between(
 fn phase_crossings<G: Ground>(parts: &Parts<G>, budget: &Budget) -> Result<Vec<PhaseCrossing>, Exhausted> {
     let (r, frequencies, ground) = (&parts.reduced, parts.frequencies(), &parts.ground);
     // Where the open loop is zero or infinite both parts of N conj(D0) vanish.
-    let common = budget.enter(|| r.imaginary.gcd(&r.twice_real))?;
+    let common = budget.enter(|| r.common(&r.imaginary, &r.twice_real))?;
     let divided = |p: &Poly<G::Number>| p.div_exact(&common).expect("a gcd divides");
     let (imaginary, real) = (divided(&r.imaginary), divided(&r.twice_real));
-    let imaginary = budget.enter(|| imaginary.div_exact(&imaginary.gcd(&common)).expect("a gcd divides"))?;
+    let imaginary = budget.enter(|| imaginary.div_exact(&r.common(&imaginary, &common)).expect("a gcd divides"))?;
     // k = -1/L = -|D0|^2 / Re(N conj(D0))
     let above = r.denominator_squared.scaled(&G::Number::from_integer(&Integer::from(-2)));
     let zeros = ground.zeros(&imaginary, &frequencies.inner(), budget)?;

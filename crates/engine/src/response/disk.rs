@@ -45,7 +45,8 @@ impl DiskMargin {
             return Ok(DiskMargin { skew, alpha: None, extreme: None });
         }
         let above = r.sum_squared.scaled(&number(Integer::from(4) * &(&q * &q)));
-        let extreme = extreme_over(&parts.ground, &above, &below, r.frequencies, Ordering::Less, budget)?;
+        let common = |a: &_, b: &_| r.common(a, b);
+        let extreme = extreme_over(&parts.ground, [&above, &below], &common, r.frequencies, Ordering::Less, budget)?;
         let alpha = match extreme.value() {
             None => None,
             Some(value) => Some(square_root(&value.number(budget)?, budget)?),

@@ -5,7 +5,7 @@ use super::open_loop::OpenLoop;
 use super::parts::with_parts;
 use super::value::square_root;
 use super::{Frequencies, Place, Value};
-use crate::stability::Shape;
+use crate::stability::{Range, Shape};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, Poly, UniPoly};
@@ -55,7 +55,7 @@ impl Extreme {
     /// # Panics
     /// When `b` is zero.
     pub fn greatest(a: &UniPoly, b: &UniPoly, shape: Shape, budget: &Budget) -> Result<Extreme, Exhausted> {
-        extreme_over(&Integers, a, b, shape.into(), Ordering::Greater, budget)
+        extreme_over(&Integers, [a, b], &UniPoly::gcd, shape.into(), Ordering::Greater, budget)
     }
 
     /// The least value, of a quotient that is not infinite at all frequencies.
@@ -68,7 +68,7 @@ impl Extreme {
     /// # Panics
     /// When `b` is zero.
     pub fn least(a: &UniPoly, b: &UniPoly, shape: Shape, budget: &Budget) -> Result<Extreme, Exhausted> {
-        extreme_over(&Integers, a, b, shape.into(), Ordering::Less, budget)
+        extreme_over(&Integers, [a, b], &UniPoly::gcd, shape.into(), Ordering::Less, budget)
     }
 
     /// The value; `None` where it is infinite.
@@ -93,18 +93,21 @@ impl Extreme {
     }
 }
 
-/// The extreme value that is `wanted` of all others.
+/// A greatest common divisor of two polynomials.
+type Common<'c, R> = &'c dyn Fn(&Poly<R>, &Poly<R>) -> Poly<R>;
+
+/// The extreme value of `a/b` that is `wanted` of all others.
 pub(crate) fn extreme_over<G: Ground>(
     ground: &G,
-    a: &Poly<G::Number>,
-    b: &Poly<G::Number>,
+    [a, b]: [&Poly<G::Number>; 2],
+    common: Common<'_, G::Number>,
     frequencies: Frequencies,
     wanted: Ordering,
     budget: &Budget,
 ) -> Result<Extreme, Exhausted> {
     assert!(!b.is_zero(), "a modulus over zero");
-    let common = budget.enter(|| a.gcd(b))?;
-    let divided = |p: &Poly<G::Number>| p.div_exact(&common).expect("a gcd divides");
+    let both = budget.enter(|| common(a, b))?;
+    let divided = |p: &Poly<G::Number>| p.div_exact(&both).expect("a gcd divides");
     let (a, b) = (divided(a), divided(b));
     // Without a common factor the quotient is constant where both are.
     if a.is_constant() && b.is_constant() {
@@ -113,21 +116,9 @@ pub(crate) fn extreme_over<G: Ground>(
             false => Extreme::Constant(ground.quotient(&a.coeff(0), &b.coeff(0), budget)?),
         });
     }
-    // A zero of the denominator inside is a double one, hence critical: what the slope a' b - a b' and b have in common is what b' and b
-    // have, since a and b have nothing.
-    let poles = budget.enter(|| b.derivative().gcd(&b))?;
-    let range = frequencies.inner();
-    let infinite = if poles.is_constant() { Vec::new() } else { ground.zeros(&poles, &range, budget)? };
-    let unexpanded = if poles.is_constant() { ground.extremes([&a, &b], &range, budget)? } else { None };
-    let critical = match unexpanded {
-        Some(zeros) => zeros,
-        None => {
-            let slope = a.derivative().times(&b).minus(&a.times(&b.derivative()));
-            ground.zeros(&slope.div_exact(&poles).expect("a gcd divides"), &range, budget)?
-        }
-    };
+    let Critical { places, zeros, infinite } = Critical::of(ground, [&a, &b], common, &frequencies.inner(), budget)?;
     let mut best: Option<(Place, Value, bool)> = None;
-    for (i, place) in frequencies.places(critical).into_iter().enumerate() {
+    for (i, place) in frequencies.places(places).into_iter().enumerate() {
         let Some(value) = ground.value(&a, &b, &place, frequencies, budget)? else {
             if wanted == Ordering::Greater {
                 return Ok(Extreme::Infinite(place));
@@ -136,6 +127,15 @@ pub(crate) fn extreme_over<G: Ground>(
         };
         if let (Ordering::Greater, 0, Some(pole)) = (wanted, i, infinite.last()) {
             return Ok(Extreme::Infinite(Place::Inside(pole.clone())));
+        }
+        if let (Ordering::Less, 0, Some(zero)) = (wanted, i, zeros.last())
+            && !value.is_zero()
+        {
+            return Ok(Extreme::At {
+                place: Place::Inside(zero.clone()),
+                value: Rational::ZERO.into(),
+                attained: true,
+            });
         }
         let attained = !matches!((&place, frequencies.shape()), (Place::Highest, Shape::LeftHalfPlane));
         let better = match &best {
@@ -150,11 +150,50 @@ pub(crate) fn extreme_over<G: Ground>(
     Ok(Extreme::At { place, value, attained })
 }
 
+/// Where a quotient of squares of moduli may have its extremes.
+struct Critical {
+    /// Zeros of the slope at which neither polynomial is zero.
+    places: Vec<Real>,
+    /// The double zeros of the numerator.
+    zeros: Vec<Real>,
+    /// The double zeros of the denominator.
+    infinite: Vec<Real>,
+}
+
+impl Critical {
+    /// A zero of either polynomial inside is a double one, hence critical: what the slope a' b - a b' and b have in common is what b' and b
+    /// have, since a and b have nothing, and so for a. The sign of a there would be that of zero, which constants do not show.
+    fn of<G: Ground>(
+        ground: &G,
+        [a, b]: [&Poly<G::Number>; 2],
+        common: Common<'_, G::Number>,
+        range: &Range,
+        budget: &Budget,
+    ) -> Result<Critical, Exhausted> {
+        let [nulls, poles] = budget.enter(|| [a, b].map(|p| common(&p.derivative(), p)))?;
+        let inside =
+            |p: &Poly<G::Number>| if p.is_constant() { Ok(Vec::new()) } else { ground.zeros(p, range, budget) };
+        let (zeros, infinite) = (inside(&nulls)?, inside(&poles)?);
+        let are_plain = nulls.is_constant() && poles.is_constant();
+        let unexpanded = if are_plain { ground.extremes([a, b], range, budget)? } else { None };
+        let places = match unexpanded {
+            Some(places) => places,
+            None => {
+                let slope = a.derivative().times(b).minus(&a.times(&b.derivative()));
+                let divided = slope.div_exact(&nulls.times(&poles)).expect("both divide the slope");
+                ground.zeros(&divided, range, budget)?
+            }
+        };
+        Ok(Critical { places, zeros, infinite })
+    }
+}
+
 /// The least value of `|1 + L|^2`.
 pub(super) fn modulus_extreme(open_loop: &OpenLoop, budget: &Budget) -> Result<Extreme, Exhausted> {
     with_parts!(open_loop, parts => {
         let r = &parts.reduced;
-        extreme_over(&parts.ground, &r.sum_squared, &r.denominator_squared, parts.frequencies(), Ordering::Less, budget)
+        let quotient = [&r.sum_squared, &r.denominator_squared];
+        extreme_over(&parts.ground, quotient, &|a, b| r.common(a, b), r.frequencies, Ordering::Less, budget)
     })
 }
 
@@ -162,6 +201,7 @@ pub(super) fn modulus_extreme(open_loop: &OpenLoop, budget: &Budget) -> Result<E
 pub(super) fn complementary_extreme(open_loop: &OpenLoop, budget: &Budget) -> Result<Extreme, Exhausted> {
     with_parts!(open_loop, parts => {
         let r = &parts.reduced;
-        extreme_over(&parts.ground, &r.numerator_squared, &r.sum_squared, parts.frequencies(), Ordering::Greater, budget)
+        let quotient = [&r.numerator_squared, &r.sum_squared];
+        extreme_over(&parts.ground, quotient, &|a, b| r.common(a, b), r.frequencies, Ordering::Greater, budget)
     })
 }

@@ -379,8 +379,9 @@ impl PhaseMargin {
         if r.difference_squared.is_zero() {
             return Ok(PhaseMargin::Angle { tangent: None, place: None });
         }
-        let (above, below) = (&r.sum_squared, &r.difference_squared);
-        let least = extreme_over(&parts.ground, above, below, parts.frequencies(), Ordering::Less, budget)?;
+        let quotient = [&r.sum_squared, &r.difference_squared];
+        let common = |a: &_, b: &_| r.common(a, b);
+        let least = extreme_over(&parts.ground, quotient, &common, r.frequencies, Ordering::Less, budget)?;
         let square = least.value().expect("not infinite everywhere").number(budget)?;
         let tangent = Some(Box::new(square_root(&square, budget)?));
         Ok(PhaseMargin::Angle { tangent, place: least.place().cloned() })

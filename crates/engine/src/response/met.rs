@@ -159,7 +159,8 @@ fn circle_extreme(open_loop: &OpenLoop, circle: &Circle, budget: &Budget) -> Res
         if below.is_zero() {
             return Ok(None);
         }
-        extreme_over(&parts.ground, &r.sum_squared, &below, r.frequencies, Ordering::Less, budget).map(Some)
+        let quotient = [&r.sum_squared, &below];
+        extreme_over(&parts.ground, quotient, &|a, b| r.common(a, b), r.frequencies, Ordering::Less, budget).map(Some)
     })
 }
 

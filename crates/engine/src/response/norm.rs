@@ -74,8 +74,10 @@ impl Norm {
 impl PeakGain {
     /// Of a stable transfer function.
     fn over<G: Ground>(parts: &Parts<G>, budget: &Budget) -> Result<PeakGain, Exhausted> {
-        let (above, below) = (&parts.reduced.numerator_squared, &parts.reduced.denominator_squared);
-        let extreme = extreme_over(&parts.ground, above, below, parts.frequencies(), Ordering::Greater, budget)?;
+        let r = &parts.reduced;
+        let quotient = [&r.numerator_squared, &r.denominator_squared];
+        let common = |a: &_, b: &_| r.common(a, b);
+        let extreme = extreme_over(&parts.ground, quotient, &common, r.frequencies, Ordering::Greater, budget)?;
         let square = extreme.value().expect("no pole of a stable loop is on the boundary").number(budget)?;
         Ok(PeakGain { value: square_root(&square, budget)?, extreme })
     }

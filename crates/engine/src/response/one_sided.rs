@@ -158,7 +158,9 @@ impl Rotation {
         let (r, ground) = (&parts.reduced, &parts.ground);
         let mut best: Option<(Value, Option<Place>)> = None;
         if crossings.gain_everywhere {
-            let extreme = extreme_over(ground, above, &r.sum_squared, r.frequencies, Ordering::Greater, budget)?;
+            let common = |a: &_, b: &_| r.common(a, b);
+            let quotient = [above, &r.sum_squared];
+            let extreme = extreme_over(ground, quotient, &common, r.frequencies, Ordering::Greater, budget)?;
             best = Some((extreme.value().expect(FINITE), extreme.place().cloned()));
         }
         for crossing in &crossings.gain {

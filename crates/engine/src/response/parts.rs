@@ -4,7 +4,7 @@ use super::Frequencies;
 use super::complex_poly::ComplexPoly;
 use super::ground::Ground;
 use super::place::{modulus_squared, product};
-use crate::stability::Shape;
+use crate::stability::{HalfSizePair, Shape};
 use jurist_algebra::number::{Integer, Rational};
 use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
 
@@ -43,6 +43,8 @@ pub(crate) struct Reduced<R: Domain> {
     /// Twice the real part of `N conj(D0)`, and its imaginary part; over `sin theta` or `omega` where frequencies have no sign.
     pub twice_real: Poly<R>,
     pub imaginary: Poly<R>,
+    /// The factors of `N` and of `D0` whose zeros are on the boundary and not at its ends, or in pairs mirrored there.
+    pub mirrored: Box<[Poly<R>; 2]>,
 }
 
 impl<G: Ground> Parts<G> {
@@ -69,7 +71,7 @@ impl<G: Ground> Parts<G> {
         Parts {
             denominator: scaled(&self.denominator, &down),
             numerator: scaled(&self.numerator, &up),
-            reduced: Reduced::of_products(squares, products, r.frequencies),
+            reduced: Reduced { mirrored: r.mirrored.clone(), ..Reduced::of_products(squares, products, r.frequencies) },
             ..self.clone()
         }
     }
@@ -97,7 +99,9 @@ impl<R: Domain> Reduced<R> {
         let (numerator, denominator) = (divided(numerator), divided(denominator));
         let degree = numerator.coeffs().len().max(denominator.coeffs().len()) - 1;
         let squares = [&numerator, &denominator].map(|p| modulus_squared(p, degree, shape));
-        Reduced::of_products(squares, product(&numerator, &denominator, degree, shape).into(), shape.into())
+        let products = product(&numerator, &denominator, degree, shape).into();
+        let mirrored = Box::new([&numerator, &denominator].map(|p| mirrored_factor(p, shape)));
+        Reduced { mirrored, ..Reduced::of_products(squares, products, shape.into()) }
     }
 
     /// From `|N|^2` and `|D0|^2`, and from twice the real part and the imaginary part of `N conj(D0)`.
@@ -115,7 +119,20 @@ impl<R: Domain> Reduced<R> {
             denominator_squared,
             twice_real,
             imaginary,
+            mirrored: Box::new([Poly::one(), Poly::one()]),
         }
+    }
+
+    /// The greatest common divisor of two products, or of one and its derivative: what is mirrored is in both, and without it the
+    /// rest is short.
+    pub fn common(&self, a: &Poly<R>, b: &Poly<R>) -> Poly<R> {
+        let (mut a, mut b, mut known) = (a.clone(), b.clone(), Poly::one());
+        for factor in self.mirrored.iter().filter(|factor| !factor.is_constant()) {
+            while let (false, Some(x), Some(y)) = (b.is_zero(), a.div_exact(factor), b.div_exact(factor)) {
+                (a, b, known) = (x, y, known.times(factor));
+            }
+        }
+        known.times(&a.gcd(&b))
     }
 
     /// `|u D0 + v N|^2`.
@@ -124,6 +141,28 @@ impl<R: Domain> Reduced<R> {
         scaled(&self.denominator_squared, &(u * u))
             .plus(&scaled(&self.twice_real, &(u * v)))
             .plus(&scaled(&self.numerator_squared, &(v * v)))
+    }
+}
+
+/// The factor of a polynomial whose zeros are mirrored by others in the boundary, but for those at the ends of the range of `x`, as a polynomial in `x`.
+fn mirrored_factor<R: Domain>(p: &Poly<R>, shape: Shape) -> Poly<R> {
+    let at_zero = p.coeffs().iter().take_while(|c| c.is_zero()).count();
+    let p = Poly::new(p.coeffs()[at_zero..].to_vec()).primitive_part();
+    let mirror = match (p.degree(), shape) {
+        (None, _) => return Poly::one(),
+        (Some(degree), Shape::UnitDisc) => p.reversed(degree),
+        (Some(_), Shape::LeftHalfPlane) => p.negated_argument(),
+    };
+    let mut factor = if mirror == p || mirror == p.negated() { p } else { p.gcd(&mirror).primitive_part() };
+    let ends = [1, -1].map(|end| Poly::new(vec![R::from_integer(&Integer::from(-end)), R::one()]));
+    for end in ends.iter().filter(|_| shape == Shape::UnitDisc) {
+        while let Some(quotient) = factor.div_exact(end) {
+            factor = quotient;
+        }
+    }
+    match factor.degree() {
+        Some(degree) if degree > 0 => HalfSizePair::new(&factor, degree, shape).a.primitive_part(),
+        _ => Poly::one(),
     }
 }
 
@@ -155,4 +194,38 @@ pub(crate) fn integral(a: Vec<Rational>, b: Vec<Rational>) -> (UniPoly, UniPoly)
     }
     let b = all.split_off(split);
     (Poly::new(all), Poly::new(b))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Poles and zeros on the circle and the axis, at its ends, repeated, and mirrored in them, against the plain divisor.
+    #[test]
+    fn common_factors_of_products_are_greatest_common_divisors() {
+        let p = UniPoly::from_i64;
+        let discrete = [
+            [p(&[5, -8, 5]), p(&[-1, 1])],
+            [p(&[5, -8, 5]).times(&p(&[5, -8, 5])), p(&[1, 1])],
+            [p(&[2, -5, 2]), p(&[0, 0, 1])],
+        ];
+        let continuous = [
+            [p(&[4, 0, 1]), p(&[0, 1])],
+            [p(&[4, 0, 1]).times(&p(&[9, 0, 1])), p(&[-1, 0, 1])],
+            [p(&[3]), p(&[0, 0, 1])],
+        ];
+        for (shape, cases) in [(Shape::UnitDisc, discrete), (Shape::LeftHalfPlane, continuous)] {
+            for [special, other] in cases.iter().flat_map(|[a, b]| [[a, b], [b, a]]) {
+                let denominator = special.times(other).times(&p(&[1, 3]));
+                let r = Reduced::of(&p(&[2, 1]).times(other), &denominator, shape);
+                let squares = [&r.numerator_squared, &r.denominator_squared];
+                let pairs = squares.map(|s| [s.derivative(), s.clone()]);
+                for [a, b] in pairs.into_iter().chain([[r.imaginary.clone(), r.twice_real.clone()]]) {
+                    assert_eq!(r.common(&a, &b).primitive_part(), a.gcd(&b).primitive_part());
+                }
+            }
+        }
+        let r = Reduced::of(&p(&[1]), &p(&[-5, 13, -13, 5]), Shape::UnitDisc);
+        assert_eq!(r.mirrored[1], p(&[-8, 5]));
+    }
 }

@@ -4,7 +4,7 @@ use super::Frequencies;
 use super::crossings::samples_between;
 use super::ground::Ground;
 use super::open_loop::OpenLoop;
-use super::parts::{Parts, with_parts};
+use super::parts::{Parts, Reduced, with_parts};
 use crate::stability::Shape;
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Integer, Rational, Sign};
@@ -62,7 +62,7 @@ impl Turning {
 
     fn over<G: Ground>(parts: &Parts<G>, budget: &Budget) -> Result<Turning, Exhausted> {
         let (r, ground, frequencies) = (&parts.reduced, &parts.ground, parts.frequencies());
-        let sides = budget.enter(|| Sides::of([&r.twice_real, &r.imaginary], &r.denominator_squared))?;
+        let sides = budget.enter(|| Sides::of(r))?;
         let all = sides.product();
         let zeros = if all.is_constant() { Vec::new() } else { ground.zeros(&all, &frequencies.inner(), budget)? };
         let cell = |sample| Cell::at(&sides, &Real::from(sample), ground, budget);
@@ -133,10 +133,11 @@ struct Sides<R: Domain> {
 }
 
 impl<R: Domain> Sides<R> {
-    fn of([real, imaginary]: [&Poly<R>; 2], denominator_squared: &Poly<R>) -> Sides<R> {
-        let common = real.gcd(imaginary);
+    fn of(r: &Reduced<R>) -> Sides<R> {
+        let (real, imaginary) = (&r.twice_real, &r.imaginary);
+        let common = r.common(real, imaginary);
         let divided = |p: &Poly<R>, by: &Poly<R>| p.div_exact(by).expect("a gcd divides");
-        let of_poles = common.gcd(denominator_squared);
+        let of_poles = r.common(&common, &r.denominator_squared);
         let of_zeros = divided(&common, &of_poles);
         let [real, imaginary] = [real, imaginary].map(|p| divided(p, &common));
         Sides { real, imaginary, poles: multiple(of_poles), zeros: multiple(of_zeros), common }

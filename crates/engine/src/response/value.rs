@@ -56,6 +56,11 @@ impl Value {
         Value::Quotient { numerator, denominator, at: at.clone() }
     }
 
+    /// Whether it is known to be zero: what is not zero is never zero by its enclosures alone.
+    pub(super) fn is_zero(&self) -> bool {
+        matches!(self, Value::Number(x) if x.exact().is_some_and(|x| x.is_zero()))
+    }
+
     /// An enclosure with about `bits` significant bits.
     pub fn enclosure(&self, bits: u64) -> Enclosure {
         let narrow = |e: &Enclosure| {
