@@ -122,6 +122,11 @@ impl<R: Domain> ComplexPoly<R> {
         Some(self.coeff(self.len().checked_sub(1)?))
     }
 
+    /// The derivative.
+    pub fn derivative(&self) -> Self {
+        ComplexPoly { re: self.re.derivative(), im: self.im.derivative() }
+    }
+
     /// Times a real number.
     pub fn scaled(&self, by: &R) -> Self {
         ComplexPoly { re: self.re.scaled(by), im: self.im.scaled(by) }
