@@ -77,6 +77,7 @@ mod loops {
 /// Loops with complex coefficients, and plants that are held in another frame.
 mod complex {
     mod dead_time;
+    mod delayed_gains;
     mod delayed_margins;
     mod frames;
     mod jury;

@@ -2,9 +2,7 @@
 
 use super::enclosed::{greater, within};
 use crate::error::Error;
-use crate::stability::{
-    Cause, Causes, ComplexPair, End, Range, Side, StableInterval, StableSet, zeros_in,
-};
+use crate::stability::{Cause, Causes, ComplexPair, End, Range, Side, StableInterval, StableSet, zeros_in};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Rational};
 use jurist_algebra::poly::UniPoly;

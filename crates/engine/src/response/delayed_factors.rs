@@ -5,6 +5,7 @@
 //! `ds/d log k = 1/(m tau + A'/A - N'/N)`: beyond some frequency always to the right. So from a factor on that is not stable and above all those of lower
 //! frequencies none is stable.
 
+use super::Frequencies;
 use super::complex_loop::lowest_zero;
 use super::complex_poly::ComplexPoly;
 use super::delayed_axis::DelayedAxis;
@@ -13,7 +14,6 @@ use super::delayed_peak::{DelayedQuotient, frequencies_of};
 use super::enclosed::within;
 use super::ground::Ground;
 use super::value::square_root;
-use super::Frequencies;
 use crate::coverage::refusals::COMPLEX_FACTORS;
 use crate::error::Error;
 use crate::stability::dead_time::{FamilyLoop, NotCounted};
@@ -194,12 +194,7 @@ impl<G: Ground> DelayedFactors<G> {
     }
 
     /// All crossings up to a frequency, ascending by their factors as far as enclosures tell.
-    fn crossings(
-        &self,
-        on_axis: &OnAxis<G::Number>,
-        end: &Rational,
-        budget: &Budget,
-    ) -> Result<Vec<Cut>, Exhausted> {
+    fn crossings(&self, on_axis: &OnAxis<G::Number>, end: &Rational, budget: &Budget) -> Result<Vec<Cut>, Exhausted> {
         if on_axis.imaginary.is_zero() {
             let why = "the open loop is real on the whole axis";
             return Err(Exhausted::new(Stop::Method(why.into()), "crossings of the imaginary axis"));
