@@ -53,7 +53,7 @@ fn over_integers(
         return Ok(None);
     }
     let part = |k: usize| (0..=d.formal_degree).map(move |i| Rational::from(p.coeff(i).coeff(k)));
-    let (below, above) = integral(part(0).collect(), part(1).map(|c| c * nominal).collect());
+    let [below, above] = integral([part(0).collect(), part(1).map(|c| c * nominal).collect()]);
     let poles = d.poles.iter().map(side).chain([parametric.denominator().clone(), shared]);
     let poles = poles.filter(|p| !p.is_constant()).map(|p| in_factor(&p, nominal)).collect();
     Ok(Some((Over::Integers(Parts::new(Integers, below, above, poles, problem.shape())), None)))

@@ -50,7 +50,7 @@ impl Over {
 
 impl<G: Ground> Parts<G> {
     /// From the real and the imaginary parts of the denominator's coefficients, and of the numerator's.
-    fn complex(
+    pub(super) fn complex(
         ground: G,
         [re, im, numerator_re, numerator_im]: [Poly<G::Number>; 4],
         poles: Vec<Poly<G::Number>>,
@@ -65,7 +65,7 @@ impl<G: Ground> Parts<G> {
 
 impl<R: Domain> Reduced<R> {
     /// A common factor of both polynomials is one of all four products, and all that these have in common is its square.
-    fn complex(numerator: &ComplexPoly<R>, denominator: &ComplexPoly<R>, shape: Shape) -> Reduced<R> {
+    pub(super) fn complex(numerator: &ComplexPoly<R>, denominator: &ComplexPoly<R>, shape: Shape) -> Reduced<R> {
         let degree = numerator.len().max(denominator.len()) - 1;
         let [n, d] = [numerator, denominator].map(|p| p.along(degree, shape));
         let [real, imaginary] = n.times_conjugate(&d);

@@ -122,6 +122,11 @@ impl<R: Domain> ComplexPoly<R> {
         Some(self.coeff(self.len().checked_sub(1)?))
     }
 
+    /// `-p`.
+    pub fn negated(&self) -> Self {
+        ComplexPoly { re: Poly::zero().minus(&self.re), im: Poly::zero().minus(&self.im) }
+    }
+
     /// The derivative.
     pub fn derivative(&self) -> Self {
         ComplexPoly { re: self.re.derivative(), im: self.im.derivative() }

@@ -1,5 +1,6 @@
 //! Requirements over values of parameters, of loops with complex coefficients: refused.
 
+use super::requirement::Requirement;
 use crate::coverage::refusals::COMPLEX_REQUIRED;
 use crate::error::{Code, Error};
 use crate::problem::Problem;
@@ -14,6 +15,22 @@ impl Problem {
         match self.refuse_complex(budget) {
             Err(Error::Refused(found)) if found.code() == Code::Complex => Err(COMPLEX_REQUIRED.diagnostic(&[]).into()),
             known => known,
+        }
+    }
+
+    /// Refuses requirements over values of one parameter that are not known of loops with complex coefficients: a delay margin, and with dead time all on margins.
+    ///
+    /// # Errors
+    /// `E-complex`; as [`Problem::algebra_over_symbols`].
+    pub(super) fn refuse_complex_set(&self, requirements: &[Requirement], budget: &Budget) -> Result<(), Error> {
+        if !self.is_written_complex() || !self.algebra_over_symbols(budget)?.is_complex() {
+            return Ok(());
+        }
+        let has_delays = !self.algebra_over_symbols(budget)?.symbols().delays().is_empty();
+        let is_unknown = |r: &Requirement| r.is_delay_margin() || (has_delays && r.needs_cut());
+        match requirements.iter().any(is_unknown) {
+            true => Err(COMPLEX_REQUIRED.diagnostic(&[]).into()),
+            false => Ok(()),
         }
     }
 }

@@ -8,11 +8,13 @@
 mod affine;
 mod along_axis;
 mod along_circle;
+mod any_quotient;
 mod asked;
 mod asked_functions;
 mod axis_end;
 mod borne_samples;
 mod borne_set;
+mod boundaries;
 mod by_gain;
 mod candidates;
 mod cells;
