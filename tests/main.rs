@@ -86,6 +86,7 @@ mod complex {
     mod margins;
     pub(crate) mod oracle;
     mod random;
+    mod required_sets;
     pub(crate) mod table;
 }
 
