@@ -1,7 +1,7 @@
 //! Requirements over values of parameters, of loops with complex coefficients: refused.
 
 use super::requirement::Requirement;
-use crate::coverage::refusals::COMPLEX_REQUIRED;
+use crate::coverage::refusals::{COMPLEX_DELAY_MARGIN, COMPLEX_REQUIRED};
 use crate::error::{Code, Error};
 use crate::problem::Problem;
 use jurist_algebra::limits::Budget;
@@ -18,7 +18,7 @@ impl Problem {
         }
     }
 
-    /// Refuses requirements over values of one parameter that are not known of loops with complex coefficients: a delay margin, and with dead time all on margins.
+    /// Refuses a delay margin over values of one parameter of a loop with complex coefficients.
     ///
     /// # Errors
     /// `E-complex`; as [`Problem::algebra_over_symbols`].
@@ -26,10 +26,8 @@ impl Problem {
         if !self.is_written_complex() || !self.algebra_over_symbols(budget)?.is_complex() {
             return Ok(());
         }
-        let has_delays = !self.algebra_over_symbols(budget)?.symbols().delays().is_empty();
-        let is_unknown = |r: &Requirement| r.is_delay_margin() || (has_delays && r.needs_cut());
-        match requirements.iter().any(is_unknown) {
-            true => Err(COMPLEX_REQUIRED.diagnostic(&[]).into()),
+        match requirements.iter().any(Requirement::is_delay_margin) {
+            true => Err(COMPLEX_DELAY_MARGIN.diagnostic(&[]).into()),
             false => Ok(()),
         }
     }

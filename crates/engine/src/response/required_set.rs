@@ -258,6 +258,9 @@ impl Problem {
         }
         if !self.algebra_over_symbols(budget)?.symbols().delays().is_empty() {
             budget.step("boundaries of the requirements");
+            if self.algebra_over_symbols(budget)?.is_complex() {
+                return whole.required_of_delayed_complex(requirements, stable, at, budget);
+            }
             return whole.required_in_boxes(requirements, stable, at, budget);
         }
         let cut = requirements[0].cut(self, at)?;
