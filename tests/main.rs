@@ -79,6 +79,7 @@ mod complex {
     mod dead_time;
     mod delayed_gains;
     mod delayed_margins;
+    mod delayed_required_sets;
     mod frames;
     mod jury;
     mod laws;

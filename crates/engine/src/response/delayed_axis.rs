@@ -21,6 +21,13 @@ pub(super) struct DelayedAxis<G> {
     turning: Arc<MovingSymbols>,
 }
 
+/// The range of frequencies is cut at fractions of its end. A zero at a short number, as at the speed of a frame, has no sign there that enclosures tell: a prime
+/// in the end keeps such numbers inside of a part.
+const BEYOND: i64 = 1010;
+
+/// Digits by which a zero is told from the end.
+const DIGITS: usize = 20;
+
 /// So many variables are before the symbols of the coefficients.
 const BEFORE: usize = 3;
 
@@ -131,7 +138,9 @@ impl<G: Ground> DelayedAxis<G> {
     }
 
     fn zeros_above(&self, p: &MultiPoly, end: &Rational, budget: &Budget) -> Result<Vec<Real>, Exhausted> {
-        let found = self.turning.zeros_in(&p.clone().into(), &Rational::ZERO, end, end, budget)?;
+        let beyond = end * &Rational::new(BEYOND.into(), (BEYOND - 1).into());
+        let mut found = self.turning.zeros_in(&p.clone().into(), &Rational::ZERO, &beyond, &beyond, budget)?;
+        budget.enter(|| found.zeros.retain(|x| x.refined_to_digits(DIGITS).enclosure().0 < *end))?;
         match found.undecided.is_empty() {
             true => Ok(found.zeros),
             false => Err(Exhausted::new(Stop::Separation, "frequencies of a loop with dead time")),

@@ -4,13 +4,15 @@ use super::candidates::Candidates;
 use super::cells::{around, edge, outward};
 use super::delayed_affine::DelayedAffine;
 use super::enclosed::{greater, within};
+use super::open_loop::OpenLoop;
 use super::opened::OpenedLoop;
 use super::over_symbols::{left_open, where_changed};
 use super::requirement::Requirement;
 use super::{RequiredEnd, RequiredInterval, RequiredSet};
 use crate::coverage::refusals::COMPLEX_REQUIRED_WITH_DELAY;
 use crate::error::Error;
-use crate::problem::{Ask, Problem};
+use crate::model::Cut;
+use crate::problem::Problem;
 use crate::stability::{StableSet, UndecidedBracket};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
@@ -40,7 +42,8 @@ impl Problem {
         budget: &Budget,
     ) -> Result<RequiredSet, Error> {
         let refused = || Error::from(COMPLEX_REQUIRED_WITH_DELAY.diagnostic(&[]));
-        let opened = OpenedLoop::of(self, requirements[0].cut(self, at)?, budget)?;
+        let cut = requirements[0].cut(self, at)?;
+        let opened = OpenedLoop::of(self, cut.clone(), budget)?;
         let (quotient, _) = opened.any_quotient(MultiPoly::clone, budget)?;
         let family = match budget.enter(|| DelayedAffine::of(&quotient, &opened.symbols))? {
             Ok(Some(family)) => family,
@@ -70,7 +73,7 @@ impl Problem {
                 ties.extend(own);
                 candidates.add(requirement, interval, (values, Vec::new()), budget)?;
             }
-            let unmet = |value: &Rational| self.unmet_at(value, requirements, at, budget);
+            let unmet = |value: &Rational| self.unmet_at(value, &cut, requirements, budget);
             let mut parts = RequiredSet::default();
             super::cells::parts_beside(interval, candidates.brackets(), &mut parts, |part| {
                 candidates.cells(part, requirements, unmet, budget)
@@ -88,13 +91,19 @@ impl Problem {
     fn unmet_at(
         &self,
         value: &Rational,
+        cut: &Cut,
         requirements: &[Requirement],
-        at: Option<&str>,
         budget: &Budget,
     ) -> Result<Vec<&'static str>, Error> {
-        let question = self.model().ask().set_all(self.set().to_vec()).set(&self.parameter().name, value.clone());
-        let met = question.problem()?.requirements_met(requirements, at, budget)?;
-        Ok(met.iter().filter(|one| !one.met).map(|one| one.requirement.name()).collect())
+        let problem = self.with_value(value);
+        let open_loop = OpenLoop::of_cut(&problem, cut.clone(), budget)?;
+        let mut unmet = Vec::new();
+        for requirement in requirements {
+            if !problem.has_margin(&open_loop, requirement, budget)? {
+                unmet.push(requirement.name());
+            }
+        }
+        Ok(unmet)
     }
 }
 
