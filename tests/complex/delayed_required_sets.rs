@@ -81,8 +81,8 @@ fn real_loops_seen_from_frames() {
         // One gain of two.
         ("(K*s + 1)/s*exp(-s/4)/(s + 1)", "(K*(s - j) + 1)/(s - j)*exp(j/4)*exp(-s/4)/(s + 1 - j)"),
     ];
-    for (real, seen) in cases.into_iter().take(if thorough::is_thorough() { 3 } else { 1 }) {
-        for requirement in asked().iter().take(if thorough::is_thorough() { 5 } else { 2 }) {
+    for (real, seen) in cases.into_iter().take(if thorough::is_thorough() { 2 } else { 1 }) {
+        for requirement in asked()[1..].iter().take(if thorough::is_thorough() { 2 } else { 1 }) {
             let [real, seen] = [real, seen].map(|transfer| written(&set(&loop_of(transfer), requirement)));
             assert_eq!(real, seen, "{}", requirement.text());
         }
@@ -99,7 +99,7 @@ fn is_met(text: &str, requirement: &Requirement, k: &Rational) -> bool {
 #[test]
 fn random_loops_agree_with_verdicts() {
     let count = std::env::var("JURIST_COMPLEX_LOOPS").ok().and_then(|n| n.parse().ok());
-    let count = count.unwrap_or(thorough::count(1, 3));
+    let count = count.unwrap_or(thorough::count(1, 2));
     let (mut random, mut checked, mut of_requirements) = (Random::new(1976), 0, 0);
     while checked < count {
         let of = Open::random(&mut random, false);

@@ -12,7 +12,7 @@ use super::delayed_peak::{DelayedQuotient, frequencies_of};
 use super::enclosed::{enclosed, within};
 use super::ground::{Constants, Ground};
 use super::loop_functions::number_asked;
-use super::requirement::Rule;
+use super::requirement::{Circle, Rule};
 use crate::coverage::refusals::ONE_FACTOR;
 use crate::error::Error;
 use crate::model::Symbols;
@@ -119,6 +119,23 @@ impl DelayedAffine {
     }
 }
 
+impl DelayedAffine {
+    /// Whether the open loop keeps to its side of a circle with a value at which it does not touch it; `None` for another rule, and where that is not told. Its
+    /// peak at that value is not needed, which may be one of several that coincide.
+    ///
+    /// Cost: the zeros of one function of the frequency.
+    pub fn keeps_to(&self, rule: &Rule, value: &Rational, budget: &Budget) -> Result<Option<bool>, Exhausted> {
+        let (Rule::Circle(circle), Some(least)) = (rule, least_modulus(rule)) else { return Ok(None) };
+        let of = budget.enter(|| OnAxis::new(self, &number_asked(rule)))?;
+        let [constant, linear, square] = of.excess(circle);
+        let [up, down] = [value.numerator(), value.denominator()];
+        let at = constant.scaled_by(&(&down * &down)).plus(&linear.scaled_by(&(&up * &down)));
+        let at = at.plus(&square.scaled_by(&(&up * &up)));
+        let end = of.end(&least, &value.abs(), budget)?;
+        Ok(Some(of.zeros(&at, &end, budget)?.is_empty()))
+    }
+}
+
 /// The least modulus of an open loop that is at the edge of what a rule asks for; `None` where smaller ones may be.
 fn least_modulus(rule: &Rule) -> Option<Rational> {
     match rule {
@@ -170,9 +187,7 @@ impl<'a> OnAxis<'a> {
         let two = MultiPoly::from(2);
         match rule {
             Rule::Circle(circle) => {
-                let [a, b, c] = circle.coefficients().map(MultiPoly::constant);
-                let excess =
-                    sum(&sum(&scaled(&self.above, &a), &scaled(&self.twice_real, &b)), &scaled(&self.below, &c));
+                let excess = self.excess(circle);
                 let slope = slope(&excess);
                 vec![([excess, slope], false)]
             }
@@ -196,6 +211,12 @@ impl<'a> OnAxis<'a> {
             }
             Rule::Sector(_) | Rule::Modulus { .. } | Rule::DeadTime(_) => Vec::new(),
         }
+    }
+
+    /// What is negative where the condition of a circle is violated.
+    fn excess(&self, circle: &Circle) -> Quadratic {
+        let [a, b, c] = circle.coefficients().map(MultiPoly::constant);
+        sum(&sum(&scaled(&self.above, &a), &scaled(&self.twice_real, &b)), &scaled(&self.below, &c))
     }
 
     /// A frequency beyond which the modulus of the open loop is below a number, for all values of the parameter up to a size.

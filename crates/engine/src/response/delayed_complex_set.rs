@@ -73,7 +73,7 @@ impl Problem {
                 ties.extend(own);
                 candidates.add(requirement, interval, (values, Vec::new()), budget)?;
             }
-            let unmet = |value: &Rational| self.unmet_at(value, &cut, requirements, budget);
+            let unmet = |value: &Rational| self.unmet_at(value, (&cut, &family), requirements, budget);
             let mut parts = RequiredSet::default();
             super::cells::parts_beside(interval, candidates.brackets(), &mut parts, |part| {
                 candidates.cells(part, requirements, unmet, budget)
@@ -91,7 +91,7 @@ impl Problem {
     fn unmet_at(
         &self,
         value: &Rational,
-        cut: &Cut,
+        (cut, family): (&Cut, &DelayedAffine),
         requirements: &[Requirement],
         budget: &Budget,
     ) -> Result<Vec<&'static str>, Error> {
@@ -99,7 +99,12 @@ impl Problem {
         let open_loop = OpenLoop::of_cut(&problem, cut.clone(), budget)?;
         let mut unmet = Vec::new();
         for requirement in requirements {
-            if !problem.has_margin(&open_loop, requirement, budget)? {
+            let is_met = match family.keeps_to(requirement.rule(), value, budget) {
+                Ok(Some(is_met)) => is_met,
+                Err(stopped) if !stopped.stop.is_precision() => return Err(stopped.into()),
+                _ => problem.has_margin(&open_loop, requirement, budget)?,
+            };
+            if !is_met {
                 unmet.push(requirement.name());
             }
         }
