@@ -242,7 +242,7 @@ impl Asked {
     /// ```
     pub fn of_complex_loop(self) -> Option<&'static Refusal> {
         use Asked::*;
-        const KNOWN: [Asked; 38] = [
+        const KNOWN: [Asked; 41] = [
             Verdict,
             VerdictInRegion,
             Intervals,
@@ -281,6 +281,9 @@ impl Asked {
             IntervalsWithMargins,
             IntervalsWithDamping,
             IntervalsWithMarginsCertificate,
+            ToleranceWithMargins,
+            ToleranceWithDamping,
+            ToleranceWithDampingDiscrete,
         ];
         (!KNOWN.contains(&self)).then_some(&COMPLEX)
     }

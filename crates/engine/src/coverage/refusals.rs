@@ -16,8 +16,8 @@ pub(crate) static COMPLEX: Refusal = Refusal::new(
 );
 pub(crate) static COMPLEX_REQUIRED: Refusal = Refusal::new(
     Code::Complex,
-    "requirements over values of several parameters are not known of loops with complex coefficients",
-    "of one parameter they are ('intervals --param NAME'), and at a point ('verdict'); stability alone has maps and tolerances ('--no-require'); in real form, with two signals for each complex one, the loop has all of them",
+    "requirements over boxes of values are not known of loops with complex coefficients",
+    "of one parameter they are ('intervals --param NAME', a tolerance of one name), and at a point ('verdict'); stability alone has maps and tolerances ('--no-require'); in real form, with two signals for each complex one, the loop has all of them",
 );
 pub(crate) static COMPLEX_DELAY_MARGIN: Refusal = Refusal::new(
     Code::Complex,
