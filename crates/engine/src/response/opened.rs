@@ -126,10 +126,6 @@ fn with_gain(
         Some(at) => (kept.to_vec(), at),
         None => (kept.iter().cloned().chain([name.to_owned()]).collect(), kept.len()),
     };
-    let value = |name: &str| {
-        let constant = || problem.model().constant(name).and_then(|c| c.number.clone());
-        problem.set().iter().find(|(n, _)| n == name).map(|(_, value)| value.clone()).or_else(constant)
-    };
     let others: Vec<(String, Rational)> = problem.set().iter().filter(|(n, _)| n != name).cloned().collect();
     let Evaluated { polynomial, complex, sample_time, symbols, .. } =
         problem.model().evaluate(&names, &others, budget)?;
@@ -137,11 +133,10 @@ fn with_gain(
     let is_inside = |f: &MultiPoly| f.degree_in(at) > 0;
     let is_in_time = sample_time.iter().any(|t| is_inside(t.numerator()) || is_inside(t.denominator()));
     // Where the divisor of the connection of blocks vanishes the highest coefficient does: such a factor at the gain is not stable either way.
-    let is_highest = |f: &MultiPoly| {
-        let rest = |highest: &MultiPoly| f.div_exact(&f.gcd(highest)).expect("a gcd divides");
-        let order = re.coeffs().len().max(im.coeffs().len()).saturating_sub(1);
-        [&re, &im].map(|p| p.coeff(order)).iter().any(|highest| !highest.is_zero() && !is_inside(&rest(highest)))
-    };
+    let order = re.coeffs().len().max(im.coeffs().len()).saturating_sub(1);
+    let highest = [&re, &im].map(|p| p.coeff(order));
+    let rest = |f: &MultiPoly, highest: &MultiPoly| f.div_exact(&f.gcd(highest)).expect("a gcd divides");
+    let is_highest = |f: &MultiPoly| highest.iter().any(|c| !c.is_zero() && !is_inside(&rest(f, c)));
     let divisors = || polynomial.poles.iter().chain([&denominator]).filter(|f| is_inside(f));
     if is_in_time || !divisors().all(is_highest) {
         return Err(refused("it is in the sample time, or in a divisor other than that of the connection of blocks"));
@@ -157,7 +152,7 @@ fn with_gain(
     // What stands in the place of the parameter, which has no variable then.
     let factor = match own {
         Some(_) => (MultiPoly::variable(at), Rational::ONE),
-        None => match value(name).filter(|value| !value.is_zero()) {
+        None => match value_of(problem, name).filter(|value| !value.is_zero()) {
             Some(value) => (MultiPoly::one(), value),
             None => return Err(refused("it has no value, or is zero")),
         },
@@ -176,6 +171,12 @@ fn with_gain(
         None => undefined.substitute(at, &factor.1).0,
     };
     Ok((Of::Polynomials { open, back, undefined: beside(undefined) }, sample_time, symbols))
+}
+
+/// The value that a parameter or a constant has.
+fn value_of(problem: &Problem, name: &str) -> Option<Rational> {
+    let constant = || problem.model().constant(name).and_then(|c| c.number.clone());
+    problem.set().iter().find(|(n, _)| n == name).map(|(_, value)| value.clone()).or_else(constant)
 }
 
 /// The real and the imaginary parts of a characteristic polynomial times the common denominator of all coefficients, and that.
