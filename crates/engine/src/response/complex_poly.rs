@@ -145,6 +145,15 @@ impl<R: Domain> ComplexPoly<R> {
     }
 }
 
+/// Divides polynomials on the axis by all that their parts have in common, and returns that.
+pub(super) fn take_common<R: Domain>(parts: &mut Vec<ComplexPoly<R>>) -> Poly<R> {
+    let all = parts.iter().flat_map(|p| [&p.re, &p.im]);
+    let common = all.fold(Poly::zero(), |g: Poly<R>, p| g.gcd(p));
+    let divided = |p: &Poly<R>| p.div_exact(&common).expect("a gcd divides");
+    *parts = parts.iter().map(|p| ComplexPoly { re: divided(&p.re), im: divided(&p.im) }).collect();
+    common
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

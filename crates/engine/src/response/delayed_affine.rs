@@ -5,9 +5,8 @@
 //! parameter. It is eliminated: what is left is a function of the frequency, its cosine and its sine, whose zeros are isolated as those of the margins are.
 
 use super::any_quotient::AnyQuotient;
-use super::complex_poly::ComplexPoly;
+use super::complex_poly::{ComplexPoly, take_common};
 use super::delayed_axis::{DelayedAxis, without_squares_of_sine};
-use super::delayed_factors::take_common;
 use super::delayed_peak::{DelayedQuotient, frequencies_of};
 use super::enclosed::{enclosed, within};
 use super::ground::{Constants, Ground};

@@ -7,7 +7,7 @@
 
 use super::Frequencies;
 use super::complex_loop::lowest_zero;
-use super::complex_poly::ComplexPoly;
+use super::complex_poly::{ComplexPoly, take_common};
 use super::delayed_axis::DelayedAxis;
 use super::delayed_cells::{Cut, FactorCells, Happening, between};
 use super::delayed_peak::{DelayedQuotient, frequencies_of};
@@ -388,15 +388,6 @@ impl Reached {
         }
         Ok(None)
     }
-}
-
-/// Divides polynomials on the axis by all that their parts have in common, and returns that.
-pub(super) fn take_common<R: Domain>(parts: &mut Vec<ComplexPoly<R>>) -> Poly<R> {
-    let all = parts.iter().flat_map(|p| [&p.re, &p.im]);
-    let common = all.fold(Poly::zero(), |g: Poly<R>, p| g.gcd(p));
-    let divided = |p: &Poly<R>| p.div_exact(&common).expect("a gcd divides");
-    *parts = parts.iter().map(|p| ComplexPoly { re: divided(&p.re), im: divided(&p.im) }).collect();
-    common
 }
 
 fn is_stable(family: &FamilyLoop, value: &Rational, budget: &Budget) -> Result<bool, Error> {
