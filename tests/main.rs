@@ -77,7 +77,9 @@ mod loops {
 /// Loops with complex coefficients, and plants that are held in another frame.
 mod complex {
     mod dead_time;
+    mod delayed_gains;
     mod delayed_margins;
+    mod delayed_required_sets;
     mod frames;
     mod jury;
     mod laws;
@@ -85,6 +87,7 @@ mod complex {
     mod margins;
     pub(crate) mod oracle;
     mod random;
+    mod required_sets;
     pub(crate) mod table;
 }
 

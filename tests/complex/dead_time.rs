@@ -109,7 +109,7 @@ fn the_rightmost_roots_of_a_complex_loop() {
     assert!(!both.contains("twice") && !both.contains("2 times"), "{both}");
 }
 
-/// Of `D conj(D)` the root at `s = 0` is double where the gain begins.
+/// Of `D conj(D)` the root at `s = 0` is double where the gain begins: `D` itself is looked at.
 #[test]
 fn a_gain_that_begins_at_zero() {
     let loop_of = |gain: &str| {
@@ -118,10 +118,11 @@ fn a_gain_that_begins_at_zero() {
         )
     };
     let (found, _) = set(&loop_of("exp(j/10)"), "K");
-    let [open] = found.undecided() else { panic!("{:?}", found.undecided()) };
-    assert_eq!(open.lower, Some(0.into()));
+    let ([], [interval]) = (found.undecided(), found.intervals()) else { panic!("{found:?}") };
+    let [lower, upper] = [&interval.lower, &interval.upper].map(|end| end.as_ref().unwrap());
+    assert_eq!((lower.value.exact(), lower.causes.to_string()), (Some(0.into()), "s=0+domain".into()));
     // The modulus of s (s + 1) at s = -0.7975507 j.
-    assert_eq!(found.intervals()[0].upper.as_ref().unwrap().value.decimal(11), "1.0201440191");
+    assert_eq!(upper.value.decimal(11), "1.0201440191");
 }
 
 /// Of `D conj(D)` there are twice as many: a verdict is about `D`.

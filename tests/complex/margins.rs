@@ -81,7 +81,7 @@ impl Open {
     }
 
     /// Angles, or frequencies, of a grid.
-    fn grid(&self) -> impl Iterator<Item = f64> + '_ {
+    pub fn grid(&self) -> impl Iterator<Item = f64> + '_ {
         const POINTS: i32 = 4000;
         let angle = |k: i32| f64::from(k) * std::f64::consts::PI / f64::from(POINTS);
         let places =

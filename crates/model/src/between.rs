@@ -5,7 +5,6 @@ use super::definition::Model;
 use super::evaluated::Answer;
 use super::open_loop::Opened;
 use crate::error::{Code, Diagnostic, Error};
-use crate::refusals::COMPLEX_BETWEEN;
 use jurist_algebra::limits::Budget;
 
 /// An input and an output of the closed loop.
@@ -50,17 +49,19 @@ impl Model {
             return Err(no_transfer_of_several_rates());
         }
         let (system, sample_time, symbols) = self.connected(answer, budget)?;
-        if system.is_complex {
-            return Err(COMPLEX_BETWEEN.diagnostic(&[]).into());
-        }
-        let (i, j) = system.ports(&between.input, &between.output)?;
-        let n = system.a.rows();
+        // Of a complex loop a signal is two, the real and the imaginary part.
+        let (i, j) = match system.is_complex {
+            true => system.complex_ports(&between.input, &between.output)?,
+            false => system.ports(&between.input, &between.output)?,
+        };
+        let (n, of) = (system.a.rows(), |k: usize| if system.is_complex { 2 * k..2 * k + 2 } else { k..k + 1 });
+        let (rows, columns) = (of(i), of(j));
         let system = ClosedLoop {
-            e: system.e.block(0..n, j..j + 1),
-            c: system.c.block(i..i + 1, 0..n),
-            d: system.d.block(i..i + 1, j..j + 1),
-            inputs: vec![between.input.clone()],
-            outputs: vec![between.output.clone()],
+            e: system.e.block(0..n, columns.clone()),
+            c: system.c.block(rows.clone(), 0..n),
+            d: system.d.block(rows.clone(), columns.clone()),
+            inputs: system.inputs[columns].to_vec(),
+            outputs: system.outputs[rows].to_vec(),
             ..system
         };
         Ok(Opened { system, sample_time, symbols, is_closed: true })

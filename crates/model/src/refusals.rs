@@ -8,10 +8,3 @@ pub static NO_FIXED_ORDER: Refusal = Refusal::new(
     "the dead time of '{name}' is no fixed number of samples",
     "give it as a multiple of the sample time (delay = \"1.5*T\"), or set all that it depends on",
 );
-
-/// The closed loop between two signals is asked for as a system with real coefficients.
-pub(crate) static COMPLEX_BETWEEN: Refusal = Refusal::new(
-    Code::Complex,
-    "a bound of a peak gain cannot be asked of a loop with complex coefficients",
-    "'jurist norm' says the peak gain at a point; in real form, with two signals for each complex one, the loop has such bounds",
-);

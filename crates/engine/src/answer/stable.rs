@@ -192,7 +192,10 @@ impl Problem {
                 return Ok(Answer::new(Arc::clone(self), set));
             }
             if let Some(delayed) = self.delayed(budget)? {
-                let set = super::dead_time::stable_set_with_dead_time(self.parameter(), delayed, budget)?;
+                let set = match self.stable_set_of_complex_gain(delayed, budget)? {
+                    Some(set) => set,
+                    None => super::dead_time::stable_set_with_dead_time(self.parameter(), delayed, budget)?,
+                };
                 return Ok(Answer::new(Arc::clone(self), set));
             }
             if !self.algebra_over_symbols(budget)?.symbols().is_empty() {

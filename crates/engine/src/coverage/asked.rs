@@ -242,7 +242,7 @@ impl Asked {
     /// ```
     pub fn of_complex_loop(self) -> Option<&'static Refusal> {
         use Asked::*;
-        const KNOWN: [Asked; 35] = [
+        const KNOWN: [Asked; 41] = [
             Verdict,
             VerdictInRegion,
             Intervals,
@@ -278,6 +278,12 @@ impl Asked {
             BoxMapCertificate,
             ToleranceCertificate,
             VerdictWithMarginsCertificate,
+            IntervalsWithMargins,
+            IntervalsWithDamping,
+            IntervalsWithMarginsCertificate,
+            ToleranceWithMargins,
+            ToleranceWithDamping,
+            ToleranceWithDampingDiscrete,
         ];
         (!KNOWN.contains(&self)).then_some(&COMPLEX)
     }

@@ -19,7 +19,9 @@ const COMPLEX_LOOPS: &str = "
 
 A loop with the imaginary unit in it, or with a plant that is held in another frame, has a characteristic polynomial `D` with complex coefficients. Its
 real and imaginary parts are over one of the rings above, and so is `D conj(D)`, whose roots are those of `D` and their conjugates. That is asked
-in the same way, roots are counted once, and `D` tells on which side of the real axis the one is that limits the loop. These questions are answered:
+in the same way, roots are counted once, and `D` tells on which side of the real axis the one is that limits the loop. With dead time the values of a gain follow from
+the crossings of `D` itself, at frequencies of both signs. Requirements on margins over values of a parameter are decided with dead time where one factor of the open loop has it, and numerator
+and denominator beside it have the parameter to the first power at most; in tolerances they are known of one name. These questions are answered:
 
 ";
 

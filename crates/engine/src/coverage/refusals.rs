@@ -16,8 +16,18 @@ pub(crate) static COMPLEX: Refusal = Refusal::new(
 );
 pub(crate) static COMPLEX_REQUIRED: Refusal = Refusal::new(
     Code::Complex,
-    "requirements over values of parameters are not known of loops with complex coefficients",
-    "at one point they are: 'jurist verdict' with '--set'; stability alone has sets, maps and tolerances ('--no-require'); in real form, with two signals for each complex one, the loop has all of them",
+    "requirements over boxes of values are not known of loops with complex coefficients",
+    "of one parameter they are ('intervals --param NAME', a tolerance of one name), and at a point ('verdict'); stability alone has maps and tolerances ('--no-require'); in real form, with two signals for each complex one, the loop has all of them",
+);
+pub(crate) static COMPLEX_DELAY_MARGIN: Refusal = Refusal::new(
+    Code::Complex,
+    "a delay margin over values of a parameter is not known of loops with complex coefficients",
+    "at one point it is: 'jurist verdict' with '--set'; a dead time at the cut may be a parameter of its own, exp(-x*s), of which 'intervals --param x' says how much is borne",
+);
+pub(crate) static COMPLEX_REQUIRED_WITH_DELAY: Refusal = Refusal::new(
+    Code::Complex,
+    "requirements over values of this parameter are not known: they are where one factor of the open loop has the dead time, and numerator and denominator beside it have the parameter to the first power at most",
+    "at one point they are: 'jurist verdict' with '--set'; stability alone has a set ('--no-require')",
 );
 pub(crate) static COMPLEX_FOR_ALL: Refusal = Refusal::new(
     Code::Complex,

@@ -53,7 +53,7 @@ fn over_integers(
         return Ok(None);
     }
     let part = |k: usize| (0..=d.formal_degree).map(move |i| Rational::from(p.coeff(i).coeff(k)));
-    let (below, above) = integral(part(0).collect(), part(1).map(|c| c * nominal).collect());
+    let [below, above] = integral([part(0).collect(), part(1).map(|c| c * nominal).collect()]);
     let poles = d.poles.iter().map(side).chain([parametric.denominator().clone(), shared]);
     let poles = poles.filter(|p| !p.is_constant()).map(|p| in_factor(&p, nominal)).collect();
     Ok(Some((Over::Integers(Parts::new(Integers, below, above, poles, problem.shape())), None)))
@@ -99,19 +99,26 @@ fn over_complex(
     if whole.re.iter().chain(&whole.im).any(|f| f.denominator().degree_in(0) > 0) {
         return Ok(None);
     }
+    let Some(lists) = affine_parts(whole, nominal) else { return Ok(None) };
+    let beside = |c: &MultiPoly| c.map_variables(|i| i.saturating_sub(1));
+    let poles = poles.iter().filter(|p| p.degree_in(0) > 0).map(|p| in_factor(&p.as_poly_in(0).map(beside), nominal));
+    Over::of_complex(lists, poles.collect(), symbols, problem.shape()).map(Some)
+}
+
+/// The real and the imaginary parts of `D0`, and of `N` times a number, of a polynomial `D0 + k N` in the parameter `k` (variable 0), without denominators;
+/// `None` of another one.
+pub(super) fn affine_parts(whole: &ComplexPolynomial, factor: &Rational) -> Option<[Vec<RationalFunction>; 4]> {
     let beside = |c: &MultiPoly| c.map_variables(|i| i.saturating_sub(1));
     let cleared = without_denominators([whole.re.clone(), whole.im.clone()]);
     let parts = cleared.map(|p| p.coeffs().iter().map(|c| c.as_poly_in(0).map(beside)).collect::<Vec<_>>());
     let all = || parts.iter().flatten();
     if all().any(|c| c.coeffs().len() > 2) || all().all(|c| c.coeff(0).is_zero()) {
-        return Ok(None);
+        return None;
     }
-    let factor = RationalFunction::from(nominal.clone());
+    let factor = RationalFunction::from(factor.clone());
     let below = |part: &[Poly<MultiPoly>]| part.iter().map(|c| c.coeff(0).into()).collect();
     let above = |part: &[Poly<MultiPoly>]| part.iter().map(|c| &RationalFunction::from(c.coeff(1)) * &factor).collect();
-    let lists = [below(&parts[0]), below(&parts[1]), above(&parts[0]), above(&parts[1])];
-    let poles = poles.iter().filter(|p| p.degree_in(0) > 0).map(|p| in_factor(&p.as_poly_in(0).map(beside), nominal));
-    Over::of_complex(lists, poles.collect(), symbols, problem.shape()).map(Some)
+    Some([below(&parts[0]), below(&parts[1]), above(&parts[0]), above(&parts[1])])
 }
 
 pub(super) fn by_gain(problem: &Problem, name: &str, budget: &Budget) -> Result<WithTimes, Error> {

@@ -1,6 +1,7 @@
 //! A stable interval cut into cells in each of which every requirement is met everywhere or nowhere.
 
-use super::family::{Boundaries, Family};
+use super::boundaries::Boundaries;
+use super::family::Family;
 use super::met::AtPoint;
 use super::requirement::{Requirement, Rule};
 use super::{RequiredEnd, RequiredInterval, RequiredSet};

@@ -50,7 +50,7 @@ impl Over {
 
 impl<G: Ground> Parts<G> {
     /// From the real and the imaginary parts of the denominator's coefficients, and of the numerator's.
-    fn complex(
+    pub(super) fn complex(
         ground: G,
         [re, im, numerator_re, numerator_im]: [Poly<G::Number>; 4],
         poles: Vec<Poly<G::Number>>,
@@ -65,7 +65,7 @@ impl<G: Ground> Parts<G> {
 
 impl<R: Domain> Reduced<R> {
     /// A common factor of both polynomials is one of all four products, and all that these have in common is its square.
-    fn complex(numerator: &ComplexPoly<R>, denominator: &ComplexPoly<R>, shape: Shape) -> Reduced<R> {
+    pub(super) fn complex(numerator: &ComplexPoly<R>, denominator: &ComplexPoly<R>, shape: Shape) -> Reduced<R> {
         let degree = numerator.len().max(denominator.len()) - 1;
         let [n, d] = [numerator, denominator].map(|p| p.along(degree, shape));
         let [real, imaginary] = n.times_conjugate(&d);
@@ -138,7 +138,7 @@ pub(crate) fn root_on_boundary(
     Ok(Some(pair.on_side(side)))
 }
 
-pub(super) fn lowest_root<G: Ground>(
+fn lowest_root<G: Ground>(
     ground: &G,
     p: ComplexPoly<G::Number>,
     shape: Shape,
@@ -149,14 +149,23 @@ pub(super) fn lowest_root<G: Ground>(
     }
     let along = p.along(p.len() - 1, shape);
     let common = budget.enter(|| along.re.gcd(&along.im))?;
-    let zeros = ground.zeros(&common, &Range::all(), budget)?;
+    lowest_zero(ground, &common, budget)
+}
+
+/// The zero of smallest size of a polynomial in the variable of signed frequencies, of those that are not 0, and whether the opposite one is one, too.
+pub(super) fn lowest_zero<G: Ground>(
+    ground: &G,
+    p: &Poly<G::Number>,
+    budget: &Budget,
+) -> Result<Option<(Real, Side)>, Exhausted> {
+    let zeros = ground.zeros(p, &Range::all(), budget)?;
     let size = |t: &Real| {
         let (lo, hi) = t.refined_to_digits(DIGITS).enclosure();
         lo.midpoint(&hi).abs()
     };
     let lowest = budget.enter(|| zeros.into_iter().filter(|t| t.sign().is_ne()).min_by_key(size))?;
     let Some(t) = lowest else { return Ok(None) };
-    let both = budget.enter(|| common.gcd(&common.negated_argument()))?;
+    let both = budget.enter(|| p.gcd(&p.negated_argument()))?;
     let side = match budget.enter(|| t.sign())? {
         _ if ground.sign_at(&both, &t, budget)?.is_eq() => Side::Both,
         Ordering::Less => Side::Lower,

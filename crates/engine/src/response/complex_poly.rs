@@ -122,6 +122,16 @@ impl<R: Domain> ComplexPoly<R> {
         Some(self.coeff(self.len().checked_sub(1)?))
     }
 
+    /// `-p`.
+    pub fn negated(&self) -> Self {
+        ComplexPoly { re: Poly::zero().minus(&self.re), im: Poly::zero().minus(&self.im) }
+    }
+
+    /// The derivative.
+    pub fn derivative(&self) -> Self {
+        ComplexPoly { re: self.re.derivative(), im: self.im.derivative() }
+    }
+
     /// Times a real number.
     pub fn scaled(&self, by: &R) -> Self {
         ComplexPoly { re: self.re.scaled(by), im: self.im.scaled(by) }
@@ -133,6 +143,15 @@ impl<R: Domain> ComplexPoly<R> {
         let [re, im] = self.times_conjugate(&conjugate);
         ComplexPoly { re, im }
     }
+}
+
+/// Divides polynomials on the axis by all that their parts have in common, and returns that.
+pub(super) fn take_common<R: Domain>(parts: &mut Vec<ComplexPoly<R>>) -> Poly<R> {
+    let all = parts.iter().flat_map(|p| [&p.re, &p.im]);
+    let common = all.fold(Poly::zero(), |g: Poly<R>, p| g.gcd(p));
+    let divided = |p: &Poly<R>| p.div_exact(&common).expect("a gcd divides");
+    *parts = parts.iter().map(|p| ComplexPoly { re: divided(&p.re), im: divided(&p.im) }).collect();
+    common
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Requirements over values of parameters, of loops with complex coefficients: refused.
 
-use crate::coverage::refusals::COMPLEX_REQUIRED;
+use super::requirement::Requirement;
+use crate::coverage::refusals::{COMPLEX_DELAY_MARGIN, COMPLEX_REQUIRED};
 use crate::error::{Code, Error};
 use crate::problem::Problem;
 use jurist_algebra::limits::Budget;
@@ -14,6 +15,20 @@ impl Problem {
         match self.refuse_complex(budget) {
             Err(Error::Refused(found)) if found.code() == Code::Complex => Err(COMPLEX_REQUIRED.diagnostic(&[]).into()),
             known => known,
+        }
+    }
+
+    /// Refuses a delay margin over values of one parameter of a loop with complex coefficients.
+    ///
+    /// # Errors
+    /// `E-complex`; as [`Problem::algebra_over_symbols`].
+    pub(super) fn refuse_complex_set(&self, requirements: &[Requirement], budget: &Budget) -> Result<(), Error> {
+        if !self.is_written_complex() || !self.algebra_over_symbols(budget)?.is_complex() {
+            return Ok(());
+        }
+        match requirements.iter().any(Requirement::is_delay_margin) {
+            true => Err(COMPLEX_DELAY_MARGIN.diagnostic(&[]).into()),
+            false => Ok(()),
         }
     }
 }

@@ -6,9 +6,9 @@
 //! which the modulus of the open loop tells that there is nothing to find.
 
 use super::complex_poly::ComplexPoly;
-use super::crossings::COMPARED_BITS;
 use super::crossings::{Crossings, PhaseCrossing};
 use super::delayed_axis::DelayedAxis;
+use super::delayed_factors::DelayedFactors;
 use super::delayed_peak::DelayedQuotient;
 use super::enclosed::{enclosed, within};
 use super::ground::Ground;
@@ -21,6 +21,7 @@ use super::value::reciprocal;
 use super::{DelayMargin, DiskMargin, Extreme, OneSided, Place, Value};
 use crate::error::Error;
 use crate::problem::refused;
+use crate::stability::{Range, StableSet};
 use jurist_algebra::ball::{Ball, tan};
 use jurist_algebra::limits::{Budget, Exhausted, Stop, try_until_shown};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
@@ -66,7 +67,7 @@ impl<'a, G: Ground> DeadTime<'a, G> {
 
     /// An angular frequency beyond which the modulus of the open loop is below one over a number, or where it does not fall as far, below a number between its
     /// limit and one; and the square of what it is below.
-    pub(super) fn beyond(&self, listed: &Integer, budget: &Budget) -> Result<[Rational; 2], Error> {
+    fn beyond(&self, listed: &Integer, budget: &Budget) -> Result<[Rational; 2], Error> {
         let Some(level) = self.level(listed, budget)? else {
             let help = "such a loop bears no delay, and its gain margin is a limit of 'intervals'";
             return Err(refused(
@@ -81,7 +82,7 @@ impl<'a, G: Ground> DeadTime<'a, G> {
     }
 
     /// An angular frequency beyond all zeros of a polynomial in the variable of the frequencies.
-    pub(super) fn beyond_zeros(&self, p: &Poly<G::Number>, budget: &Budget) -> Result<Rational, Exhausted> {
+    fn beyond_zeros(&self, p: &Poly<G::Number>, budget: &Budget) -> Result<Rational, Exhausted> {
         let frequencies = self.parts.frequencies();
         let zeros = self.parts.ground.zeros(p, &frequencies.inner(), budget)?;
         let size = |x: &Real| {
@@ -141,29 +142,13 @@ impl<'a, G: Ground> DeadTime<'a, G> {
     }
 
     /// The frequencies other than 0 and up to a size at which the open loop is real, ascending, with the factors that make it -1 there.
-    pub(super) fn factors(&self, end: &Rational, budget: &Budget) -> Result<Vec<(Real, Real)>, Error> {
+    fn factors(&self, end: &Rational, budget: &Budget) -> Result<Vec<(Real, Real)>, Error> {
         let ((imaginary, common), real) = (self.twice_imaginary(budget)?, self.twice_real());
         let below = self.axis.even(&self.parts.reduced.denominator_squared).scaled_by(&Integer::from(-2));
         let zeros = self.axis.zeros(&imaginary, end, budget)?;
-        self.keep_clear(&zeros, &common, budget)?;
+        // At a pole or a zero a root stays near the axis as the factor falls to 0, or grows.
+        self.axis.keep_clear(&zeros, &common, self.parts.frequencies(), budget)?;
         Ok(zeros.into_iter().map(|omega| (omega.clone(), self.axis.quotient(&below, &real, &omega))).collect())
-    }
-
-    /// Whether the open loop has a pole or a zero where it would be real: then a root stays near the axis as the factor falls to 0, or grows.
-    fn keep_clear(&self, zeros: &[Real], common: &Poly<G::Number>, budget: &Budget) -> Result<(), Exhausted> {
-        let frequencies = self.parts.frequencies();
-        for pole in self.parts.ground.zeros(common, &frequencies.inner(), budget)? {
-            let pole = budget.enter(|| within(&pole, COMPARED_BITS))?;
-            let is_near = |omega: &Real| {
-                let omega = within(omega, COMPARED_BITS);
-                let x = if frequencies.are_signed() { omega } else { omega.mul(&omega, COMPARED_BITS).neg() };
-                x.lower() <= pole.upper() && x.upper() >= pole.lower()
-            };
-            if budget.enter(|| zeros.iter().any(is_near))? {
-                return Err(Exhausted::new(Stop::Separation, "the open loop at its pole on the axis"));
-            }
-        }
-        Ok(())
     }
 
     /// The margins of a stable loop.
@@ -252,6 +237,13 @@ impl<'a, G: Ground> DeadTime<'a, G> {
             found => found?,
         };
         Ok(GainMargin::of_set(set))
+    }
+
+    fn stable_factors(&self, budget: &Budget) -> Result<StableSet, Error> {
+        let parts = self.parts;
+        let family = parts.ground.family_of_factors(&parts.in_factor(), self.tau);
+        let (open, back) = (vec![parts.denominator.clone()], (parts.numerator.clone(), 1));
+        DelayedFactors::new(&parts.ground, self.tau.clone(), open, back, family).stable_set(&Range::all(), &[], budget)
     }
 
     /// The least angle of all crossings.

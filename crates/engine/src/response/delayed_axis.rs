@@ -1,7 +1,8 @@
 //! Functions of the angular frequency with `cos(tau omega)` and `sin(tau omega)` in them: variables 0, 1 and 2 of polynomials. Symbols of the coefficients
 //! follow.
 
-use super::enclosed::enclosed;
+use super::crossings::COMPARED_BITS;
+use super::enclosed::{enclosed, within};
 use super::ground::Ground;
 use super::{Frequencies, Place};
 use jurist_algebra::ball::Ball;
@@ -19,6 +20,13 @@ pub(super) struct DelayedAxis<G> {
     is_signed: bool,
     turning: Arc<MovingSymbols>,
 }
+
+/// The range of frequencies is cut at fractions of its end. A zero at a short number, as at the speed of a frame, has no sign there that enclosures tell: a prime
+/// in the end keeps such numbers inside of a part.
+const BEYOND: i64 = 1010;
+
+/// Digits by which a zero is told from the end.
+const DIGITS: usize = 20;
 
 /// So many variables are before the symbols of the coefficients.
 const BEFORE: usize = 3;
@@ -75,6 +83,42 @@ impl<G: Ground> DelayedAxis<G> {
         }
     }
 
+    /// The real and the imaginary part, polynomials in `omega`, times `exp(-j omega tau)` to some power.
+    pub fn turned(&self, [re, im]: &[Poly<G::Number>; 2], power: i64) -> [MultiPoly; 2] {
+        let (cos, sin) = (MultiPoly::variable(1), MultiPoly::variable(2));
+        let mut turn = [MultiPoly::one(), MultiPoly::zero()];
+        for _ in 0..power.abs() {
+            turn = [turn[0].times(&cos).minus(&turn[1].times(&sin)), turn[1].times(&cos).plus(&turn[0].times(&sin))]
+                .map(|p| without_squares_of_sine(&p));
+        }
+        let [cos, sin] = turn;
+        let sin = if power < 0 { sin.scaled_by(&-Integer::ONE) } else { sin };
+        let [re, im] = [re, im].map(|p| self.of_omega(p));
+        [re.times(&cos).plus(&im.times(&sin)), im.times(&cos).minus(&re.times(&sin))]
+    }
+
+    /// Ends where one of these frequencies may be a zero of a polynomial in the variable of some frequencies.
+    pub fn keep_clear(
+        &self,
+        omegas: &[Real],
+        p: &Poly<G::Number>,
+        frequencies: Frequencies,
+        budget: &Budget,
+    ) -> Result<(), Exhausted> {
+        for zero in self.ground.zeros(p, &frequencies.inner(), budget)? {
+            let zero = budget.enter(|| within(&zero, COMPARED_BITS))?;
+            let is_near = |omega: &Real| {
+                let omega = within(omega, COMPARED_BITS);
+                let x = if frequencies.are_signed() { omega } else { omega.mul(&omega, COMPARED_BITS).neg() };
+                x.lower() <= zero.upper() && x.upper() >= zero.lower()
+            };
+            if budget.enter(|| omegas.iter().any(is_near))? {
+                return Err(Exhausted::new(Stop::Separation, "the open loop at its pole on the axis"));
+            }
+        }
+        Ok(())
+    }
+
     /// The derivative by `omega`, times the denominator of the dead time.
     pub fn derivative(&self, p: &MultiPoly) -> MultiPoly {
         let (up, down) = (self.tau.numerator(), self.tau.denominator());
@@ -94,7 +138,9 @@ impl<G: Ground> DelayedAxis<G> {
     }
 
     fn zeros_above(&self, p: &MultiPoly, end: &Rational, budget: &Budget) -> Result<Vec<Real>, Exhausted> {
-        let found = self.turning.zeros_in(&p.clone().into(), &Rational::ZERO, end, end, budget)?;
+        let beyond = end * &Rational::new(BEYOND.into(), (BEYOND - 1).into());
+        let mut found = self.turning.zeros_in(&p.clone().into(), &Rational::ZERO, &beyond, &beyond, budget)?;
+        budget.enter(|| found.zeros.retain(|x| x.refined_to_digits(DIGITS).enclosure().0 < *end))?;
         match found.undecided.is_empty() {
             true => Ok(found.zeros),
             false => Err(Exhausted::new(Stop::Separation, "frequencies of a loop with dead time")),
@@ -108,7 +154,7 @@ impl<G: Ground> DelayedAxis<G> {
             return Place::Inside(omega);
         }
         Place::Inside(enclosed("minus the square of a frequency", move |bits| {
-            let omega = super::enclosed::within(&omega, bits);
+            let omega = within(&omega, bits);
             Some(omega.mul(&omega, bits).neg())
         }))
     }
@@ -131,6 +177,21 @@ impl<G: Ground> DelayedAxis<G> {
     pub fn quotient_at(&self, parts: [&MultiPoly; 2], omega: &Rational, bits: u64) -> Option<Enclosure> {
         quotient(&self.turning, parts, &Ball::between(omega, omega, bits))
     }
+}
+
+/// The same function of the frequency with the sine to the first power at most.
+pub(super) fn without_squares_of_sine(p: &MultiPoly) -> MultiPoly {
+    let square = MultiPoly::one().minus(&MultiPoly::variable(1).power(2));
+    let mut out = MultiPoly::zero();
+    for (monomial, c) in p.terms() {
+        let mut exponents = monomial.exponents().to_vec();
+        exponents.resize(exponents.len().max(3), 0);
+        let pairs = exponents[2] / 2;
+        exponents[2] %= 2;
+        let rest = MultiPoly::from_terms([(exponents, c.clone())]);
+        out = out.plus(&rest.times(&square.power(u64::from(pairs))));
+    }
+    out
 }
 
 /// A function at the opposite frequency.

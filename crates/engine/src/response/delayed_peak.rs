@@ -5,7 +5,7 @@
 
 use super::complex_poly::ComplexPoly;
 use super::crossings::COMPARED_BITS;
-use super::delayed_axis::DelayedAxis;
+use super::delayed_axis::{DelayedAxis, without_squares_of_sine};
 use super::enclosed::{greater, within};
 use super::ground::Ground;
 use super::{Extreme, Frequencies, Place, Value};
@@ -143,7 +143,7 @@ impl<G: Ground> DelayedQuotient<G> {
     }
 
     /// A frequency beyond which the modulus is below a value: there `A` and the delayed terms of `B` are outweighed.
-    fn end(&self, value: &Rational, budget: &Budget) -> Result<Rational, Exhausted> {
+    pub fn end(&self, value: &Rational, budget: &Budget) -> Result<Rational, Exhausted> {
         // Moduli of polynomials with their weights, those that are multiples of each other together.
         let mut weights = vec![(&self.below[0], Rational::ZERO)];
         let all = self.above.iter().map(|p| (p, Rational::ONE));
@@ -278,21 +278,23 @@ impl<G: Ground> DelayedQuotient<G> {
     /// The square of the modulus of `sum a_k z^k` at `s = j omega`: the sum of `2 Re(a_k conj(a_l) z^(k - l))`.
     fn square(&self, parts: &[ComplexPoly<G::Number>]) -> MultiPoly {
         let along: Vec<ComplexPoly<G::Number>> = parts.iter().map(along_axis).collect();
-        let (cos, sin) = (MultiPoly::variable(1), MultiPoly::variable(2));
-        let (mut turn, mut out) = ([MultiPoly::one(), MultiPoly::zero()], MultiPoly::zero());
+        let mut out = MultiPoly::zero();
         for m in 0..parts.len() {
             let (mut re, mut im) = (Poly::zero(), Poly::zero());
             for (a, b) in along[m..].iter().zip(&along) {
                 let [own_re, own_im] = a.times_conjugate(b);
                 (re, im) = (re.plus(&own_re), im.plus(&own_im));
             }
-            let [re, im] = [&re, &im].map(|p| self.axis.of_omega(p));
-            let term = re.times(&turn[0]).plus(&im.times(&turn[1]));
+            let [term, _] = self.axis.turned(&[re, im], m as i64);
             out = out.plus(&term.scaled_by(&Integer::from(if m == 0 { 1 } else { 2 })));
-            turn = [turn[0].times(&cos).minus(&turn[1].times(&sin)), turn[1].times(&cos).plus(&turn[0].times(&sin))]
-                .map(|p| without_squares_of_sine(&p));
         }
         without_squares_of_sine(&out)
+    }
+
+    /// The square of the modulus at a rational frequency, with some bits; `None` where they tell nothing.
+    pub fn square_at(&self, omega: &Rational, bits: u64) -> Option<Enclosure> {
+        let [above, below] = [&self.above, &self.below].map(|parts| self.square(parts));
+        self.axis.quotient_at([&above, &below], omega, bits)
     }
 
     /// The signs of the frequencies.
@@ -317,19 +319,4 @@ fn is_multiple<R: Domain>(p: &ComplexPoly<R>, own: &ComplexPoly<R>) -> bool {
 /// The polynomial at `s = j omega`.
 fn along_axis<R: Domain>(p: &ComplexPoly<R>) -> ComplexPoly<R> {
     p.along(0, Shape::LeftHalfPlane)
-}
-
-/// The same function of the frequency with the sine to the first power at most.
-fn without_squares_of_sine(p: &MultiPoly) -> MultiPoly {
-    let square = MultiPoly::one().minus(&MultiPoly::variable(1).power(2));
-    let mut out = MultiPoly::zero();
-    for (monomial, c) in p.terms() {
-        let mut exponents = monomial.exponents().to_vec();
-        exponents.resize(exponents.len().max(3), 0);
-        let pairs = exponents[2] / 2;
-        exponents[2] %= 2;
-        let rest = MultiPoly::from_terms([(exponents, c.clone())]);
-        out = out.plus(&rest.times(&square.power(u64::from(pairs))));
-    }
-    out
 }

@@ -1,6 +1,7 @@
 //! Transfer functions with dead time in more than a factor of the numerator.
 
 use super::complex_poly::ComplexPoly;
+use super::delayed_factors::DelayedFactors;
 use super::delayed_peak::{DelayedQuotient, frequencies_of};
 use super::ground::{Constants, Integers};
 use super::parts::without_denominators;
@@ -8,9 +9,11 @@ use super::{Extreme, Frequencies};
 use crate::error::Error;
 use crate::model::Symbols;
 use crate::problem::{BaseDelay, base_delay};
+use crate::stability::dead_time::FamilyLoop;
+use crate::stability::{Range, StableSet};
 use jurist_algebra::limits::{Budget, Exhausted};
-use jurist_algebra::number::Rational;
-use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction};
+use jurist_algebra::number::{Integer, Rational};
+use jurist_algebra::poly::{Domain, MultiPoly, Poly, RationalFunction, UniPoly};
 
 /// Two polynomials in `s` and `exp(-tau s)`: the coefficients of `exp(-tau s)^k` at `[k]`, polynomials in constants.
 pub(super) struct DelayedTransfer {
@@ -41,19 +44,57 @@ impl DelayedTransfer {
         frequencies_of(self.parts.iter().flatten())
     }
 
+    /// The factors `k` in a range for which the denominator plus `k` times the numerator is stable, as [`DelayedFactors::stable_set`]; `None` where the numerator has
+    /// more than one power of the exponential. The family is that sum.
+    ///
+    /// # Errors
+    /// As [`DelayedFactors::stable_set`].
+    pub fn stable_factors(
+        &self,
+        family: FamilyLoop,
+        range: &Range,
+        poles: &[UniPoly],
+        budget: &Budget,
+    ) -> Result<Option<StableSet>, Error> {
+        let is_first = |parts: &[ComplexPoly<MultiPoly>]| parts.first().is_some_and(|p| !p.is_zero());
+        let powers: Vec<usize> = (0..self.parts[1].len()).filter(|&k| !self.parts[1][k].is_zero()).collect();
+        let [power] = powers[..] else { return Ok(None) };
+        if !is_first(&self.parts[0]) {
+            return Ok(None);
+        }
+        let tau = || self.tau.clone();
+        let found = match self.in_numbers() {
+            Some([open, mut back]) => {
+                let back = (back.swap_remove(power), power);
+                DelayedFactors::new(&Integers, tau(), open, back, family).stable_set(range, poles, budget)
+            }
+            None => {
+                let [open, back] = &self.parts;
+                let back = (back[power].clone(), power);
+                DelayedFactors::new(&self.ground, tau(), open.clone(), back, family).stable_set(range, poles, budget)
+            }
+        };
+        found.map(Some)
+    }
+
+    /// The parts where all coefficients are numbers.
+    fn in_numbers(&self) -> Option<[Vec<ComplexPoly<Integer>>; 2]> {
+        let number = |c: &MultiPoly| c.as_constant();
+        let numbers = |p: &Poly<MultiPoly>| p.coeffs().iter().map(number).collect::<Option<_>>().map(Poly::new);
+        let both = |p: &ComplexPoly<MultiPoly>| Some(ComplexPoly { re: numbers(&p.re)?, im: numbers(&p.im)? });
+        let all = |parts: &Vec<ComplexPoly<MultiPoly>>| parts.iter().map(both).collect::<Option<Vec<_>>>();
+        Some([all(&self.parts[0])?, all(&self.parts[1])?])
+    }
+
     /// The extreme of the square of the modulus, as [`DelayedQuotient::peak`].
     ///
     /// # Errors
     /// As [`DelayedQuotient::peak`].
     pub fn peak(&self, budget: &Budget) -> Result<Extreme, Exhausted> {
-        let number = |c: &MultiPoly| c.as_constant();
-        let numbers = |p: &Poly<MultiPoly>| p.coeffs().iter().map(number).collect::<Option<_>>().map(Poly::new);
-        let both = |p: &ComplexPoly<MultiPoly>| Some(ComplexPoly { re: numbers(&p.re)?, im: numbers(&p.im)? });
-        let all = |parts: &Vec<ComplexPoly<MultiPoly>>| parts.iter().map(both).collect::<Option<Vec<_>>>();
         let [below, above] = &self.parts;
-        match (all(below), all(above)) {
-            (Some(below), Some(above)) => DelayedQuotient::new(&Integers, self.tau.clone(), above, below).peak(budget),
-            _ => DelayedQuotient::new(&self.ground, self.tau.clone(), above.clone(), below.clone()).peak(budget),
+        match self.in_numbers() {
+            Some([below, above]) => DelayedQuotient::new(&Integers, self.tau.clone(), above, below).peak(budget),
+            None => DelayedQuotient::new(&self.ground, self.tau.clone(), above.clone(), below.clone()).peak(budget),
         }
     }
 }

@@ -1,7 +1,8 @@
 //! Numbers of a loop that are to be as good as possible: requirements whose number is not given.
 
+use super::boundaries::Elimination;
 use super::disk::degrees;
-use super::family::{Elimination, Family};
+use super::family::Family;
 use super::margins::Margins;
 use super::required_set::not_decided;
 use super::requirement::{Circle, Found, Requirement, Rule};

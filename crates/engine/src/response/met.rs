@@ -255,7 +255,12 @@ impl Problem {
     }
 
     /// Whether a stable loop has a margin at its cut.
-    fn has_margin(&self, open_loop: &OpenLoop, requirement: &Requirement, budget: &Budget) -> Result<bool, Error> {
+    pub(super) fn has_margin(
+        &self,
+        open_loop: &OpenLoop,
+        requirement: &Requirement,
+        budget: &Budget,
+    ) -> Result<bool, Error> {
         match (requirement.rule(), open_loop.dead_time()) {
             _ if open_loop.is_zero() => Ok(true),
             (Rule::DeadTime(least), _) => self.bears_dead_time(open_loop, least, budget),

@@ -152,39 +152,38 @@ impl OpenLoop {
         (0..symbols.len()).any(|i| matches!(symbols.definition(i), Definition::Enclosed(_)))
     }
 
-    /// From its polynomials.
-    pub(crate) fn from_parts(
-        cut: Cut,
-        denominator: UniPoly,
-        numerator: UniPoly,
-        shape: Shape,
-        sample_time: Option<Rational>,
-    ) -> OpenLoop {
-        let over = Over::Integers(Parts::new(Integers, denominator, numerator, Vec::new(), shape));
-        OpenLoop { cut, over, shape, sample_time, dead_time: None }
-    }
-
     /// From coefficients that are known by enclosures.
     #[cfg(test)]
     pub(super) fn enclosed(cut: Cut, found: EnclosedQuotient, shape: Shape) -> OpenLoop {
         OpenLoop { cut, shape, sample_time: None, over: Over::of_enclosed(found, shape), dead_time: None }
     }
 
-    /// From polynomials whose coefficients are polynomials in symbols.
-    pub(crate) fn over_symbols(
+    /// From the real and the imaginary parts of the denominator's coefficients, and of the numerator's, polynomials in symbols.
+    pub(super) fn over_symbols(
         cut: Cut,
-        (denominator, numerator): (Poly<MultiPoly>, Poly<MultiPoly>),
+        lists: [Poly<MultiPoly>; 4],
         symbols: &Arc<Symbols>,
         shape: Shape,
         sample_time: Option<Rational>,
     ) -> OpenLoop {
-        if symbols.is_empty() {
-            let numbers = |p: Poly<MultiPoly>| -> Vec<Rational> { p.coeffs().iter().map(|c| c.eval(&[])).collect() };
-            let (denominator, numerator) = integral(numbers(denominator), numbers(numerator));
-            return OpenLoop::from_parts(cut, denominator, numerator, shape, sample_time);
-        }
-        let ground = Constants(Arc::clone(symbols));
-        let over = Over::Constants(Parts::new(ground, denominator, numerator, Vec::new(), shape));
+        let is_real = lists[1].is_zero() && lists[3].is_zero();
+        let over = if symbols.is_empty() {
+            let lists = integral(lists.map(|p| p.coeffs().iter().map(|c| c.eval(&[])).collect()));
+            Over::Integers(if is_real {
+                let [denominator, _, numerator, _] = lists;
+                Parts::new(Integers, denominator, numerator, Vec::new(), shape)
+            } else {
+                Parts::complex(Integers, lists, Vec::new(), shape)
+            })
+        } else {
+            let ground = Constants(Arc::clone(symbols));
+            Over::Constants(if is_real {
+                let [denominator, _, numerator, _] = lists;
+                Parts::new(ground, denominator, numerator, Vec::new(), shape)
+            } else {
+                Parts::complex(ground, lists, Vec::new(), shape)
+            })
+        };
         OpenLoop { cut, over, shape, sample_time, dead_time: None }
     }
 
@@ -429,7 +428,14 @@ fn opened_exactly(problem: &Problem, cut: &Cut, budget: &Budget) -> Result<WithT
     let shape = problem.shape();
     let over = if system.is_complex {
         let [denominator, numerator] = system.complex_transfer(0, system.inputs.len() / 2 - 1, budget)?;
-        let lists = [denominator.re, denominator.im, negated(&numerator.re), negated(&numerator.im)];
+        let lists = match is_closed {
+            // L = T/(1 - T)
+            true => {
+                let open = denominator.minus(&numerator);
+                [open.re, open.im, numerator.re, numerator.im]
+            }
+            false => [denominator.re, denominator.im, negated(&numerator.re), negated(&numerator.im)],
+        };
         budget.enter(|| Over::of_complex(lists, Vec::new(), &symbols, shape))??
     } else {
         let (mut denominator, mut numerator) = returned(&system, budget)?;

@@ -1,8 +1,10 @@
 //! Requirements on margins in one parameter where the loop contains functions that are not rational, such as a plant behind a hold.
 
+use super::any_quotient::AnyQuotient;
+use super::boundaries::Elimination;
 use super::candidates::Candidates;
 use super::cells::{beyond, edge, outward, parts_beside};
-use super::family::{Elimination, Quotient, plus_multiple, plus_multiple_of};
+use super::family::{plus_multiple, plus_multiple_of};
 use super::loop_functions::number_asked;
 use super::met::AtPoint;
 use super::open_loop::OpenLoop;
@@ -26,7 +28,7 @@ pub(super) struct SymbolicFamily<'a> {
     /// With the whole region of stability, whatever smaller one is asked for.
     problem: &'a Problem,
     cut: Cut,
-    quotient: Quotient<MultiPoly>,
+    quotient: AnyQuotient<MultiPoly>,
     undefined: MultiPoly,
     symbols: MovingSymbols,
 }
@@ -89,7 +91,7 @@ impl<'a> SymbolicFamily<'a> {
         if opened.symbols.is_empty() {
             return Ok(None);
         }
-        let (quotient, undefined) = opened.quotient(MultiPoly::clone, budget)?;
+        let (quotient, undefined) = opened.any_quotient(MultiPoly::clone, budget)?;
         let symbols = moving_symbols(&opened.symbols)?;
         Ok(Some(SymbolicFamily { problem, cut, quotient, undefined, symbols }))
     }
@@ -104,7 +106,9 @@ impl<'a> SymbolicFamily<'a> {
         let mut found = RequiredSet { undecided: stable.undecided().to_vec(), ..RequiredSet::default() };
         let of = |requirement: &Requirement| {
             let symbols = self.symbols_of(requirement);
-            OverBoxes::new(&self.quotient, &self.undefined, requirement.rule(), symbols)
+            // Of complex loops intervals are not asked as a whole.
+            let AnyQuotient::Real(quotient) = &self.quotient else { return None };
+            OverBoxes::new(quotient, &self.undefined, requirement.rule(), symbols)
         };
         let boxes: Option<Vec<OverBoxes>> = budget.enter(|| requirements.iter().map(of).collect())?;
         let wanted = Wanted { requirements, boxes: boxes.unwrap_or_default(), budget };

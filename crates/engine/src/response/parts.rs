@@ -93,7 +93,7 @@ impl<G: Ground> Parts<G> {
 }
 
 impl<R: Domain> Reduced<R> {
-    fn of(numerator: &Poly<R>, denominator: &Poly<R>, shape: Shape) -> Reduced<R> {
+    pub(super) fn of(numerator: &Poly<R>, denominator: &Poly<R>, shape: Shape) -> Reduced<R> {
         let common = numerator.gcd(denominator);
         let divided = |p: &Poly<R>| p.div_exact(&common).expect("a gcd divides");
         let (numerator, denominator) = (divided(numerator), divided(denominator));
@@ -181,19 +181,14 @@ pub(super) fn without_denominators<const N: usize>(lists: [Vec<RationalFunction>
     lists.map(|list| Poly::new(if content.is_zero() { list } else { list.iter().map(divided).collect() }))
 }
 
-/// Two polynomials with integer coefficients, primitive together.
-pub(crate) fn integral(a: Vec<Rational>, b: Vec<Rational>) -> (UniPoly, UniPoly) {
-    let split = a.len();
-    let all: Vec<Rational> = a.into_iter().chain(b).collect();
-    let denominator = all.iter().fold(Integer::ONE, |l, c| l.lcm(&c.denominator()));
+/// Polynomials with integer coefficients, primitive together.
+pub(crate) fn integral<const N: usize>(lists: [Vec<Rational>; N]) -> [UniPoly; N] {
+    let all = || lists.iter().flatten();
+    let denominator = all().fold(Integer::ONE, |l, c| l.lcm(&c.denominator()));
     let cleared = |c: &Rational| c.numerator() * denominator.div_exact(&c.denominator());
-    let mut all: Vec<Integer> = all.iter().map(cleared).collect();
-    let content = all.iter().fold(Integer::ZERO, |g, c| g.gcd(c));
-    if !content.is_zero() {
-        all = all.iter().map(|c| c.div_exact(&content)).collect();
-    }
-    let b = all.split_off(split);
-    (Poly::new(all), Poly::new(b))
+    let content = all().fold(Integer::ZERO, |g, c| g.gcd(&cleared(c)));
+    let divided = |c: &Rational| if content.is_zero() { Integer::ZERO } else { cleared(c).div_exact(&content) };
+    lists.each_ref().map(|list| Poly::new(list.iter().map(divided).collect()))
 }
 
 #[cfg(test)]

@@ -134,7 +134,7 @@ impl Problem {
             let numbers = |all: &[RationalFunction]| all.iter().map(RationalFunction::as_constant).collect();
             let both: [Option<Vec<Rational>>; 2] = [numbers(&numerator), numbers(&d.coefficients)];
             let [Some(above), Some(below)] = both else { panic!("every parameter has a value") };
-            let (above, below) = integral(above, below);
+            let [above, below] = integral([above, below]);
             return Ok(ImpulseResponse::of_integers(&above, &below));
         }
         let port = Port::of(closed_loop, symbols, i, j);

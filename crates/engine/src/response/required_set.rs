@@ -1,7 +1,8 @@
 //! For which values of a parameter a loop is stable and meets its requirements.
 
+use super::boundaries::Boundaries;
 use super::cells::Cells;
-use super::family::{Boundaries, Family};
+use super::family::Family;
 use super::for_all::AllOf;
 use super::gain_family::GainFamily;
 use super::margins::Margins;
@@ -211,7 +212,7 @@ impl Problem {
         budget: &Budget,
     ) -> Result<Answer<RequiredSet>, Error> {
         if !requirements.is_empty() {
-            self.refuse_complex_requirements(budget)?;
+            self.refuse_complex_set(requirements, budget)?;
             self.refuse_undamped(requirements, budget)?;
         }
         budget.enter(|| {
@@ -257,6 +258,9 @@ impl Problem {
         }
         if !self.algebra_over_symbols(budget)?.symbols().delays().is_empty() {
             budget.step("boundaries of the requirements");
+            if self.algebra_over_symbols(budget)?.is_complex() {
+                return whole.required_of_delayed_complex(requirements, stable, at, budget);
+            }
             return whole.required_in_boxes(requirements, stable, at, budget);
         }
         let cut = requirements[0].cut(self, at)?;

@@ -28,7 +28,7 @@ impl ComplexPolynomial {
     }
 
     /// `p - q` of two polynomials with as many coefficients.
-    pub(crate) fn minus(&self, other: &ComplexPolynomial) -> ComplexPolynomial {
+    pub fn minus(&self, other: &ComplexPolynomial) -> ComplexPolynomial {
         let difference = |a: &[RationalFunction], b: &[RationalFunction]| a.iter().zip(b).map(|(a, b)| a - b).collect();
         ComplexPolynomial { re: difference(&self.re, &other.re), im: difference(&self.im, &other.im) }
     }

@@ -29,7 +29,10 @@ impl<F: Family> FamilyBox<'_, F> {
         let [side] = self.sides else { return Ok(None) };
         // Requirements over constants have long families.
         let is_plain = self.truth.is_exact() || request.requirements.is_empty();
-        if self.p.as_polynomial().is_some() && is_plain || request.limit.is_some() || !side.grows() {
+        // Of complex loops boxes know no requirements.
+        let needs_line = !request.requirements.is_empty() && self.problem.is_complex();
+        let is_of_boxes = self.p.as_polynomial().is_some() && is_plain && !needs_line;
+        if is_of_boxes || request.limit.is_some() || !side.grows() {
             return Ok(None);
         }
         let domain_factor = self.problem.domain_factor(self.sides);
