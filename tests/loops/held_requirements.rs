@@ -72,6 +72,17 @@ fn the_slowest_sampling_with_this_phase_margin() {
 }
 
 /// A double integrator: a large gain is too fast for the hold, and with a small one the crossing is where both integrators lag.
+/// Over two decades more short intervals are looked at than the search had: all of them stayed undecided, and the nominal value with them.
+#[test]
+#[ignore = "long: CI runs it"]
+fn a_margin_over_two_decades_of_the_sample_time_is_decided() {
+    let requirement = Requirement::phase_margin(&number("30")).unwrap();
+    let answer = required(&example("two-mass-drive"), "T", ["1/100000", "1/1000"], &requirement);
+    let set = answer.value();
+    assert!(set.undecided.is_empty() && set.intervals.len() == 1, "{set:?}");
+    assert!(["1/99999", "1/4000", "99999/100000000"].iter().all(|value| set.contains(&number(value))));
+}
+
 #[test]
 fn a_window_of_gains_between_two_angles() {
     let text = r#"
