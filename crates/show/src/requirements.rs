@@ -116,7 +116,7 @@ impl Text for RequirementMet {
     /// `phase_margin >= 45 deg: met (57.07)`.
     fn text(&self, digits: usize) -> String {
         // A gain margin is found as a factor, whatever it was asked in.
-        let unit = if self.requirement.required().ends_with("dB") { " as a factor" } else { "" };
+        let unit = if self.requirement.required().contains(" dB") { " as a factor" } else { "" };
         let value = required_value(self, digits).map(|v| format!(" ({v}{unit})")).unwrap_or_default();
         let verdict = if self.met { "met" } else { "not met" };
         format!("{}: {verdict}{value}", self.requirement.text())

@@ -1,9 +1,10 @@
 //! The gain margin: stable for all factors at the cut from `1/g` to `g`.
 
-use super::{Found, Meaning, Requirement, RequirementKind, RequirementOption, Rule, refused};
+use super::{Found, Meaning, ROUNDED, Requirement, RequirementKind, RequirementOption, Rule, as_written, refused};
 use crate::error::Error;
 use crate::model::requirements::GAIN_MARGIN;
 use crate::response::{Margins, StableMargins};
+use jurist_algebra::ball::{Ball, exp};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::{Enclosure, Integer, Rational};
 use jurist_algebra::poly::{Poly, RealAlgebraic, SquareFree, UniPoly, isolate_real_roots};
@@ -42,12 +43,13 @@ impl Requirement {
         Ok(of(factor.to_string(), RealAlgebraic::from_rational(factor.clone())))
     }
 
-    /// By decibels above 0: the factor `10^(d/20)`, an algebraic number.
+    /// By decibels above 0: the factor `10^(d/20)`, an algebraic number. One of a high degree, as of 6.5 dB, is rounded up by less than 1e-30, and the text of
+    /// the requirement says so.
     ///
     /// Cost: isolation of the roots of `x^q - 10^p`, `d/20 = p/q`.
     ///
     /// # Errors
-    /// `E-require` for another number, and where it is a root of too high a degree.
+    /// `E-require` for another number.
     pub fn gain_margin_in_decibels(decibels: &Rational, budget: &Budget) -> Result<Requirement, Error> {
         if !decibels.sign().is_gt() {
             return Err(refused("a gain margin is a factor above 1, or decibels above 0"));
@@ -56,7 +58,11 @@ impl Requirement {
         let degree = exponent.denominator().to_i64().filter(|d| *d as usize <= super::MOST_DEGREE);
         let above = exponent.numerator().to_i64().filter(|n| *n < 1000);
         let (Some(degree), Some(above)) = (degree, above) else {
-            return Err(refused("these decibels are no root of a small degree: give them in whole numbers"));
+            if exponent >= Rational::from(1000) {
+                return Err(refused("a gain margin is below 20000 dB"));
+            }
+            let factor = RealAlgebraic::from_rational(rounded_factor(&exponent));
+            return Ok(of(format!("{} dB{ROUNDED}", as_written(decibels)), factor));
         };
         let mut coefficients = vec![Integer::ZERO; degree as usize + 1];
         coefficients[0] = -Integer::from(10).pow(above as u64);
@@ -64,6 +70,13 @@ impl Requirement {
         let root = greatest_root(&Poly::new(coefficients), budget)?.expect("10 has a positive root");
         Ok(of(format!("{decibels} dB"), root))
     }
+}
+
+/// A number just above a power of ten, relative to it.
+fn rounded_factor(exponent: &Rational) -> Rational {
+    let bits = 128 + 4 * exponent.floor().to_i64().map_or(0, i64::unsigned_abs);
+    let logarithm = Enclosure::from_rational(Rational::from(10)).ln(bits).expect("ten is positive");
+    exp(&Ball::from_enclosure(&logarithm, bits).mul(&Ball::from_rational(exponent, bits))).upper()
 }
 
 /// The factor that is allowed for both ways.
@@ -90,6 +103,19 @@ fn greatest_root(p: &UniPoly, budget: &Budget) -> Result<Option<RealAlgebraic>, 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// `10^(13/40)`: the number that is decided is above it by less than 1e-30.
+    #[test]
+    fn other_decibels_are_rounded_up() {
+        let asked = "6.5".parse().unwrap();
+        let requirement = Requirement::gain_margin_in_decibels(&asked, &Budget::unlimited()).unwrap();
+        assert!(requirement.text().ends_with(ROUNDED), "{}", requirement.text());
+        let Rule::Factors(factor) = requirement.rule else { panic!("a gain margin") };
+        let factor = factor.exact().unwrap();
+        let known = Rational::from(10).pow(13).unwrap();
+        let less = &factor - &"1e-30".parse::<Rational>().unwrap();
+        assert!(factor.pow(40).unwrap() > known && less.pow(40).unwrap() < known);
+    }
 
     #[test]
     fn decibels_are_roots_of_powers_of_ten() {

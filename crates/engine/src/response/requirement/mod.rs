@@ -30,7 +30,7 @@ use crate::model::requirements::ALL as KEYS;
 use crate::model::{Between, Cut, Time};
 use crate::problem::{Problem, Region};
 use jurist_algebra::limits::Budget;
-use jurist_algebra::number::{Enclosure, Rational, parse_number};
+use jurist_algebra::number::{Enclosure, Rational, parse_number, to_decimal};
 use jurist_algebra::poly::RealAlgebraic;
 use jurist_algebra::real::Real;
 
@@ -198,7 +198,7 @@ impl Requirement {
     pub fn required_number(&self, digits: usize) -> Option<Rational> {
         match &self.rule {
             Rule::Factors(factor) => parse_number(&factor.decimal(digits)).ok(),
-            Rule::Turned { .. } => parse_number(self.kind.split(&self.asked).0).ok(),
+            Rule::Turned { .. } => parse_number(self.kind.split(self.asked.split(ROUNDED).next()?).0).ok(),
             Rule::Circle(circle) => Some(circle.asked().clone()),
             Rule::DeadTime(least) => Some(least.clone()),
             Rule::Sector(_) | Rule::Modulus { .. } => None,
@@ -288,6 +288,21 @@ impl Requirement {
 
 /// Polynomials of greater degree are not made of an angle or of decibels.
 const MOST_DEGREE: usize = 24;
+
+/// What is said of a number that is rounded, since the exact one is of a higher degree or not algebraic.
+const ROUNDED: &str = " (rounded up by less than 1e-30)";
+
+/// A number as it was written: a decimal where that is short.
+fn as_written(number: &Rational) -> String {
+    let decimal = to_decimal(number, DIGITS_WRITTEN);
+    match parse_number(&decimal) {
+        Ok(same) if same == *number => decimal,
+        _ => number.to_string(),
+    }
+}
+
+/// Decimals of more digits stay fractions.
+const DIGITS_WRITTEN: usize = 20;
 
 fn refused(message: &str) -> Error {
     Diagnostic::error(Code::Require, message).into()
