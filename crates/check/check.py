@@ -4627,6 +4627,7 @@ def check_cells(model, document, statement, values, extent):
 # ---------------------------------------------------------------- words
 
 DIGITS, FEW, SHORT, WHOLE = 12, 3, 12, 15  # of a decimal, at least of an enclosure, of a fraction, an integer
+MOST_DIGITS = 3072  # No more are written where ends of a set would look the same.
 PLAIN = range(-5, 12)  # powers of ten without exponent
 
 def is_short(q):
@@ -4655,20 +4656,37 @@ def layout(digits, power, dots=""):
     whole = every[:leading + 1].ljust(leading + 1, "0")
     return f"{sign}{whole}" + (f".{every[leading + 1:]}" if len(every) > leading + 1 else "") + dots
 
-def exact(q):
+def exact(q, count=DIGITS):
     """A number: its fraction if that is short; its decimal; or the first digits of that and three dots."""
     if is_short(q):
         return str(q)
-    return decimal_of(q)
+    return decimal_of(q, count)
 
-def with_decimal(q):
-    """An end of a set: a short fraction has its decimal behind it."""
-    shown = exact(q)
-    return f"{shown} ({decimal_of(q)})" if "/" in shown else shown
+def with_decimal(q, count):
+    """An end of a set, to so many digits: a short fraction has its decimal behind it."""
+    shown = exact(q, count)
+    return f"{shown} ({decimal_of(q, count)})" if "/" in shown else shown
 
-def decimal_of(q):
+def digits_apart(ends):
+    """The digits that tell the ends of a set apart, ascending and each between two numbers: those that are always written, unless two neighbours look the same."""
+    ends, count = [tuple(e) for e in ends], DIGITS
+    while count <= MOST_DIGITS:
+        texts = [told(e, count) for e in ends]
+        if not any(a == b and low != high and low[1] <= high[0] for a, b, low, high in zip(texts, texts[1:], ends, ends[1:])):
+            return count
+        count *= 2
+    return DIGITS
+
+def told(e, count):
+    """The digits of an end without what says nothing more: dots, and zeros at the end."""
+    low, high = e
+    text = shared_digits(low, high, count) if low != high else decimal_of(low, count) if low else "0"
+    mantissa, _, power = text.replace("...", "").partition("e")
+    return (mantissa.rstrip("0").rstrip(".") if "." in mantissa else mantissa) + "e" + power
+
+def decimal_of(q, count):
     """The decimal of a number other than 0, or the first digits of it and three dots."""
-    power = exponent(q) - DIGITS + 1
+    power = exponent(q) - count + 1
     digits = over_power(abs(q), power)
     text = layout(int(digits), power, "" if digits.denominator == 1 else "...")
     return "-" + text if q < 0 else text
@@ -4688,11 +4706,11 @@ def outward(low, high):
     leading = max(e for e in map(exponent, (low, high)) if e is not None)
     return rounded(low, leading, False), rounded(high, leading, True)
 
-def shared_digits(low, high):
-    """A number inside of an open interval: the first digits that all numbers in it have; where these are few, the interval."""
+def shared_digits(low, high, most):
+    """A number inside of an open interval: the first digits that all numbers in it have, so many at most; where these are few, the interval."""
     near, far = sorted((abs(low), abs(high)))
     if low >= 0 < near or high <= 0 < near:
-        for count in range(DIGITS, FEW - 1, -1):
+        for count in range(most, FEW - 1, -1):
             power = exponent(near) - count + 1
             if power > 0 and exponent(near) in PLAIN:
                 break  # zeros would stand in the place of digits that are not known
@@ -4722,12 +4740,12 @@ def ranged(name, low, high):
 def root_counts(inside, on, outside, infinite):
     return f"{inside} roots inside, {on} on the boundary, {outside} outside, {infinite} infinite."
 
-def end_in_words(e, parameter):
-    """An end of an interval, and for an irrational one what it is; None where it is infinite."""
+def end_in_words(e, parameter, count):
+    """An end of an interval to so many digits, and for an irrational one what it is; None where it is infinite."""
     if e is None or isinstance(e, Fraction):
-        return (None if e is None else with_decimal(e)), None
+        return (None if e is None else with_decimal(e, count)), None
     if isinstance(e[0], Fraction):
-        return shared_digits(*e), "a dead time with roots on the axis"
+        return shared_digits(*e, DIGITS), "a dead time with roots on the axis"
     if any(k >> 2 * FIELD for k in e[0]):
         of = "a polynomial over exponentials in 'stable'"
     else:
@@ -4736,13 +4754,15 @@ def end_in_words(e, parameter):
         of = of.replace("+ -", "- ")
         if len(of) > 200:
             of = f"a polynomial of degree {e[0].degree(1)} in 'stable'"
-    return shared_digits(*e[1]), f"a root of {of}"
+    return shared_digits(*e[1], count), f"a root of {of}"
 
 def of_intervals(parameter, values, discrete, extent, low, high, stable):
     sentence = f"For all real {ranged(parameter, low, high)}{and_with(values)}, the loop is stable{within(discrete, extent)}"
     pieces, origins = [], []
+    ends = [e for interval in stable for e in interval if isinstance(e, Fraction) or e and not isinstance(e[0], Fraction)]
+    count = digits_apart([(e, e) if isinstance(e, Fraction) else e[1] for e in ends])
     for interval in stable:
-        (lower, below), (upper, above) = (end_in_words(e, parameter) for e in interval)
+        (lower, below), (upper, above) = (end_in_words(e, parameter, count) for e in interval)
         for number, origin in (lower, below), (upper, above):
             if origin and f"{number} is {origin}" not in origins:
                 origins.append(f"{number} is {origin}")

@@ -39,6 +39,28 @@ const TOUCHING_CERTIFICATE: &str = r#"{
            {"split": [], "sample": "1/2", "stable": true}]
 }"#;
 
+/// Ends that are `1e-30` apart looked the same in the statement: rational ones, and roots.
+#[test]
+fn the_statement_tells_near_ends_apart() {
+    for (function, statement) in [
+        ("s + (K - 1)*(1.000000000000000000000000000001 - K)*1e60", "1 < K < 1.000000000000000000000000000001."),
+        (
+            "s - (K^2 - 2)*(K^2 - 2.000000000000000000000000000001)*1e60",
+            "1.41421356237309504880168872420969807856967187537... < K < 1.41421356237309504880168872421005163196026514913...,",
+        ),
+    ] {
+        let text = format!("time = 'continuous'\nparameters.K = {{}}\nloop.characteristic = '{function}'");
+        let answer = read(&text).ask().free("K").stable_set(&Budget::unlimited()).unwrap();
+        let certificate = answer.certificate(&Budget::unlimited()).unwrap();
+        checkers::accept(&text, &certificate);
+        let proved = check(&text, &certificate, &limits()).unwrap().statement;
+        assert!(proved.contains(statement), "{proved}");
+        if let Some(by_python) = checkers::python(&text, &certificate) {
+            assert_eq!(by_python.unwrap(), proved);
+        }
+    }
+}
+
 #[test]
 fn a_touching_point_is_excluded_by_its_witness() {
     assert!(check(TOUCHING, TOUCHING_CERTIFICATE, &limits()).is_ok());

@@ -13,7 +13,7 @@ use super::roots::{count_of_positive_roots, places_by_axis};
 use super::statement::{Extent, count, list, number, object, pair, polynomial, polynomials};
 use super::symbols::Table;
 use super::univariate::Uni;
-use super::words::shared_digits;
+use super::words::{DIGITS, shared_digits};
 use super::{Proved, Rejection, Step, is_same_time, model};
 use crate::format::Json;
 use num_traits::{One, Signed, Zero};
@@ -341,7 +341,7 @@ fn in_words(limits: &[(Limit, Limit)]) -> Json {
     let end = |limit: &Limit| match limit {
         Limit::Infinite => Json::Null,
         Limit::Number(q) => q.to_string().into(),
-        Limit::Switch(_, _, lo, hi) => Json::Object(vec![("switch".to_owned(), shared_digits(lo, hi).into())]),
+        Limit::Switch(_, _, lo, hi) => Json::Object(vec![("switch".to_owned(), shared_digits(lo, hi, DIGITS).into())]),
     };
     let interval = |(lower, upper): &(Limit, Limit)| {
         Json::Object(vec![("lower".to_owned(), end(lower)), ("upper".to_owned(), end(upper))])

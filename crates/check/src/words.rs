@@ -4,8 +4,11 @@
 use super::number::{Q, Z};
 use num_traits::{Signed, Zero};
 
-/// So many digits of a decimal are written.
-const DIGITS: i64 = 12;
+/// So many digits of a decimal are written, more where ends of a set would look the same.
+pub(super) const DIGITS: i64 = 12;
+
+/// No more are written.
+const MOST_DIGITS: i64 = 3072;
 
 /// An enclosure that tells fewer digits is written by its ends.
 const FEW: i64 = 3;
@@ -21,11 +24,15 @@ const PLAIN: std::ops::Range<i64> = -5..12;
 
 /// A number: its fraction if that is short; its decimal; or the first digits of that and three dots.
 pub(super) fn exact(q: &Q) -> String {
+    exact_to(q, DIGITS)
+}
+
+fn exact_to(q: &Q, digits: i64) -> String {
     let fraction = q.to_string();
     if fraction.len() <= SHORT || q.is_integer() && fraction.len() <= WHOLE {
         return fraction;
     }
-    decimal(q)
+    decimal(q, digits)
 }
 
 /// Names with their values.
@@ -41,15 +48,42 @@ pub(super) fn with_values(set: &[(String, Q)]) -> String {
     }
 }
 
-/// An end of a set: a short fraction has its decimal behind it.
-pub(super) fn with_decimal(q: &Q) -> String {
-    let shown = exact(q);
-    if shown.contains('/') { format!("{shown} ({})", decimal(q)) } else { shown }
+/// An end of a set, to so many digits: a short fraction has its decimal behind it.
+pub(super) fn with_decimal(q: &Q, digits: i64) -> String {
+    let shown = exact_to(q, digits);
+    if shown.contains('/') { format!("{shown} ({})", decimal(q, digits)) } else { shown }
+}
+
+/// The digits that tell the ends of a set apart, ascending and each between two numbers: those that are always written, unless two neighbours look the same.
+pub(super) fn digits_apart(ends: &[[Q; 2]]) -> i64 {
+    let are_apart = |[a, b]: &[Q; 2], [c, d]: &[Q; 2]| [a, b] != [c, d] && b <= c;
+    let mut digits = DIGITS;
+    while digits <= MOST_DIGITS {
+        let texts: Vec<_> = ends.iter().map(|[low, high]| told(low, high, digits)).collect();
+        if !(1..ends.len()).any(|i| texts[i - 1] == texts[i] && are_apart(&ends[i - 1], &ends[i])) {
+            return digits;
+        }
+        digits *= 2;
+    }
+    DIGITS
+}
+
+/// The digits of an end without what says nothing more: dots, and zeros at the end.
+fn told(low: &Q, high: &Q, digits: i64) -> String {
+    let text = match low == high {
+        true if low.is_zero() => "0".to_owned(),
+        true => decimal(low, digits),
+        false => shared_digits(low, high, digits),
+    };
+    let text = text.replace("...", "");
+    let (mantissa, power) = text.split_once('e').unwrap_or((&text, ""));
+    let mantissa = if mantissa.contains('.') { mantissa.trim_end_matches('0').trim_end_matches('.') } else { mantissa };
+    format!("{mantissa}e{power}")
 }
 
 /// The decimal of a number other than 0, or the first digits of it and three dots.
-fn decimal(q: &Q) -> String {
-    let power = exponent(q) - DIGITS + 1;
+fn decimal(q: &Q, digits: i64) -> String {
+    let power = exponent(q) - digits + 1;
     let digits = over_power(&q.abs(), power);
     let sign = if q.is_negative() { "-" } else { "" };
     let dots = if digits.is_integer() { "" } else { "..." };
@@ -67,12 +101,12 @@ pub(super) fn outward(low: &Q, high: &Q) -> [String; 2] {
     [rounded(low, power, false), rounded(high, power, true)]
 }
 
-/// A number inside of an open interval: the first digits that all numbers in it have, and three dots; where these are few, the interval.
-pub(super) fn shared_digits(low: &Q, high: &Q) -> String {
+/// A number inside of an open interval: the first digits that all numbers in it have, so many at most, and three dots; where these are few, the interval.
+pub(super) fn shared_digits(low: &Q, high: &Q, digits: i64) -> String {
     let (sign, near, far) = if high <= &Q::zero() { ("-", -high, -low) } else { ("", low.clone(), high.clone()) };
     if near > Q::zero() {
         let leading = exponent(&near);
-        for count in (FEW..=DIGITS).rev() {
+        for count in (FEW..=digits).rev() {
             let power = leading - count + 1;
             let digits = over_power(&near, power).floor();
             // Zeros would stand in the place of digits that are not known.
@@ -155,9 +189,21 @@ mod tests {
             ("6", "6"),
         ];
         for (number, shown) in cases {
-            assert_eq!(with_decimal(&number.parse().unwrap()), shown);
+            assert_eq!(with_decimal(&number.parse().unwrap(), DIGITS), shown);
         }
-        assert_eq!(with_decimal(&Q::zero()), "0");
+        assert_eq!(with_decimal(&Q::zero(), DIGITS), "0");
+    }
+
+    #[test]
+    fn ends_that_would_look_the_same_have_more_digits() {
+        let end = |text: &str| [q(text), q(text)];
+        let near = "1000000000000000000000000000001/1000000000000000000000000000000";
+        assert_eq!(digits_apart(&[end("1"), end(near)]), 48);
+        assert_eq!(with_decimal(&q(near), 48), "1.000000000000000000000000000001");
+        assert_eq!(digits_apart(&[end("1"), end("1"), end("2")]), DIGITS);
+        // Enclosures that tell no more digits.
+        let wide = |low: &str| [q(low), q("1415/1000")];
+        assert_eq!(digits_apart(&[wide("1414/1000"), wide("14141/10000")]), DIGITS);
     }
 
     #[test]
@@ -194,7 +240,7 @@ mod tests {
             ("0", "1/1000", "[a number between 0 and 1/1000]"),
             ("-1", "1", "[a number between -1 and 1]"),
         ] {
-            assert_eq!(shared_digits(&q(low), &q(high)), words);
+            assert_eq!(shared_digits(&q(low), &q(high), DIGITS), words);
         }
     }
 

@@ -7,7 +7,7 @@ use crate::statement::{
     Domain, End, Extent, end as read_end, extent, identifier, interval, list, object, polynomial, text, values,
 };
 use crate::verdict::within;
-use crate::words::{exact, shared_digits, with_decimal, with_values};
+use crate::words::{digits_apart, exact, shared_digits, with_decimal, with_values};
 use num_traits::Zero;
 use std::fmt::Write;
 
@@ -60,13 +60,15 @@ impl<'j> Statement<'j> {
             return out;
         }
         out.push_str(" exactly for ");
+        let ends = intervals.iter().flat_map(|interval| ["lower", "upper"].map(|key| interval.get(key)));
+        let digits = digits_apart(&ends.flatten().filter_map(enclosed).collect::<Vec<_>>());
         let mut origins: Vec<String> = Vec::new();
         for (i, interval) in intervals.iter().enumerate() {
             if i > 0 {
                 out.push_str(" or ");
             }
             let [lower, upper] = ["lower", "upper"].map(|key| {
-                let (number, origin) = interval.get(key).and_then(|e| end(e, parameter))?;
+                let (number, origin) = interval.get(key).and_then(|e| end(e, parameter, digits))?;
                 origins.extend(origin.map(|o| format!("{number} is {o}")).filter(|o| !origins.contains(o)));
                 Some(number)
             });
@@ -88,14 +90,23 @@ impl<'j> Statement<'j> {
 /// Polynomials that take more characters than this are not written out.
 const SHOWN: usize = 200;
 
-/// An end as a number, and for an irrational one what it is; `None` for an infinite one.
-fn end(json: &Json, parameter: &str) -> Option<(String, Option<String>)> {
+/// The numbers between which an end is; `None` for an infinite one, and for a dead time, whose digits are given.
+fn enclosed(json: &Json) -> Option<[Q; 2]> {
+    match read_end(json, |_: &Json, _: &str| Ok(())).ok()? {
+        End::Infinite => None,
+        End::Rational(q) => Some([q.clone(), q]),
+        End::Root((), a, b) => Some([a, b]),
+    }
+}
+
+/// An end as a number to so many digits, and for an irrational one what it is; `None` for an infinite one.
+fn end(json: &Json, parameter: &str, digits: i64) -> Option<(String, Option<String>)> {
     if let Some(Json::Text(number)) = json.get("switch") {
         return Some((number.clone(), Some("a dead time with roots on the axis".into())));
     }
     let (f, a, b) = match read_end(json, |p: &Json, _: &str| Ok(p.clone())).ok()? {
         End::Infinite => return None,
-        End::Rational(q) => return Some((with_decimal(&q), None)),
+        End::Rational(q) => return Some((with_decimal(&q, digits), None)),
         End::Root(f, a, b) => (f, a, b),
     };
     let polynomial = match polynomial(&f, "") {
@@ -114,5 +125,5 @@ fn end(json: &Json, parameter: &str) -> Option<(String, Option<String>)> {
             }
         }
     };
-    Some((shared_digits(&a, &b), Some(format!("a root of {polynomial}"))))
+    Some((shared_digits(&a, &b, digits), Some(format!("a root of {polynomial}"))))
 }
