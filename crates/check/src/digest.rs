@@ -38,7 +38,12 @@ const ASIDE: [&str; 3] = ["expect", "ship", "tune"];
 
 /// The text without the sections that change nothing of the loop, what is expected of it and how it is stored: without the lines from one that
 /// begins with the name of such a section in brackets to the next that begins with another `[`.
-pub(super) fn loop_alone(text: &str) -> String {
+///
+/// ```
+/// let model = "loop.characteristic = 's + K'\n[expect]\nK = 'K > 0'\n[parameters]\nK = {}\n";
+/// assert_eq!(jurist_check::loop_alone(model), "loop.characteristic = 's + K'\n[parameters]\nK = {}\n");
+/// ```
+pub fn loop_alone(text: &str) -> String {
     let mut is_left_out = false;
     let lines = text.split_inclusive('\n').filter(|line| {
         let line = line.trim_start_matches([' ', '\t']);

@@ -12,7 +12,6 @@ mod cofactors;
 mod complex;
 mod coq;
 mod dead_time;
-mod digest;
 mod emit;
 mod enclosed;
 mod for_all;

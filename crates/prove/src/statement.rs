@@ -1,9 +1,9 @@
 //! What every certificate says in the same words: its model, its statement, the identity of its pair.
 
 use super::cofactors::Identity;
-use super::digest::{loop_alone, sha256};
 use super::no_certificate;
 use jurist_algebra::number::Rational;
+use jurist_check::{loop_alone, sha256};
 use jurist_engine::answer::PointVerdict;
 use jurist_engine::problem::{Bound, Problem, Region};
 use jurist_model::error::Error;

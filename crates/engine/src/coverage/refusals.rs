@@ -22,7 +22,7 @@ pub(crate) static COMPLEX_REQUIRED: Refusal = Refusal::new(
 pub(crate) static COMPLEX_DELAY_MARGIN: Refusal = Refusal::new(
     Code::Complex,
     "a delay margin over values of a parameter is not known of loops with complex coefficients",
-    "at one point it is: 'jurist verdict' with '--set'; a dead time at the cut may be a parameter of its own, exp(-x*s), of which 'intervals --param x' says how much is borne",
+    "'jurist verdict' with '--set' decides the delay margin at one point; or write exp(-x*s) at the cut, and 'intervals --param x' finds the dead times x for which the loop is stable",
 );
 pub(crate) static COMPLEX_REQUIRED_WITH_DELAY: Refusal = Refusal::new(
     Code::Complex,

@@ -25,7 +25,7 @@ pub(super) struct DelayedAxis<G> {
 /// in the end keeps such numbers inside of a part.
 const BEYOND: i64 = 1010;
 
-/// Digits by which a zero is told from the end.
+/// A zero is enclosed to so many digits before it is compared with the end of the frequencies.
 const DIGITS: usize = 20;
 
 /// So many variables are before the symbols of the coefficients.

@@ -51,7 +51,7 @@ fn sizes(x: &Enclosure) -> [Rational; 2] {
     if low < high { [low, high] } else { [high, low] }
 }
 
-/// The factors of a range, outside of which the loop is not stable, and what happens in it.
+/// A range of factors that contains all stable ones, with the factors at which the set of stable factors may begin or end.
 pub(super) struct FactorCells {
     pub range: Range,
     pub cuts: Vec<Cut>,
@@ -60,7 +60,7 @@ pub(super) struct FactorCells {
 }
 
 impl FactorCells {
-    /// Cuts at the ends of what is asked for, and where the difference operator ceases to be stable.
+    /// Adds the ends of the domain as cuts, and the factors at which the difference operator ceases to be stable.
     pub fn cut_at_ends(&mut self, asked: &Range, neutral: Option<&Real>, bits: u64) {
         for end in [&asked.lower, &asked.upper].into_iter().flatten() {
             self.cuts.push(Cut::new(Real::from(end.clone()), Happening::Domain, bits));
@@ -146,7 +146,7 @@ impl FactorCells {
     }
 }
 
-/// Bits by which two frequencies are told apart; the lower one is named.
+/// Frequencies are enclosed with so many bits before they are compared; an answer names the lowest one.
 const BITS_OF_FREQUENCY: u64 = 64;
 
 /// The less or the greater of two numbers that enclosures do not tell apart.
