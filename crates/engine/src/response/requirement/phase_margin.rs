@@ -117,7 +117,7 @@ mod tests {
     /// The angle that is decided is the one that is asked or greater by less than 1e-30 degrees, also close to 0 and to 180 degrees.
     #[test]
     fn other_angles_are_rounded_up() {
-        for asked in ["47.3", "47", "0.001", "179.999", "89.99999999999", "0.00000000000000001"] {
+        for asked in ["47.3", "47", "1", "179", "0.001", "179.999", "89.99999999999", "0.00000000000000001"] {
             let degrees: Rational = asked.parse().unwrap();
             let requirement = Requirement::phase_margin(&degrees).unwrap();
             assert_eq!(requirement.required_number(0).unwrap(), degrees);
