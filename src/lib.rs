@@ -37,7 +37,7 @@
 //! | [`Question::map`] | [`Map`] | the stable regions in the plane of two parameters |
 //! | [`Question::margins`] | [`Margins`] | gain, phase, delay, modulus and disk margins of the loop cut at a signal |
 //! | [`Question::norm`] | [`Norm`] | the peak gain of a closed-loop transfer function |
-//! | [`Question::peak_to_peak`] | [`PeakToPeak`] | how far bounded inputs drive an output, in discrete time |
+//! | [`Question::peak_to_peak`] | [`PeakToPeak`] | how far bounded inputs drive an output |
 //! | [`Question::analyze`] | [`Analysis`] | the verdict, and the stable set of each parameter |
 //!
 //! An answer writes itself for people (trait [`Text`]), for programs (trait [`Document`]), for checkers (trait [`Certificate`]), for Coq (trait [`Theorem`]) and for SMT solvers ([`smt2()`]); [`check()`]

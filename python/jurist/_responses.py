@@ -131,7 +131,7 @@ class ResponseQuestions(Asker):
     def peak_to_peak(
         self, input: str, output: str, values: Mapping[str, Exact] | None = None, **question: Unpack[Waiting]
     ) -> PeakToPeak:
-        """The peak-to-peak gain (l1 norm) from an input to an output in discrete time: how far bounded inputs can drive the output.
+        """The peak-to-peak gain (l1 norm) from an input to an output: how far bounded inputs can drive the output.
 
         Examples
         --------

@@ -121,11 +121,30 @@ fn loops_behind_a_hold_have_the_gain_of_a_simulation() {
     }
 }
 
+/// `k/(s (s + 1))` with unity feedback has a pair of poles: the gain is `coth(pi zeta/(2 sqrt(1 - zeta^2)))`.
+#[test]
+fn a_continuous_pair_has_the_gain_of_its_overshoots() {
+    for k in [1, 4, 30] {
+        let run = jurist(&["norm", &format!("{k}/(s*(s + 1))"), "r", "y", "--l1"]);
+        let damping = 0.5 / f64::from(k).sqrt();
+        let known = 1.0 / f64::tanh(std::f64::consts::PI * damping / (2.0 * (1.0 - damping * damping).sqrt()));
+        let value = run.stdout.split("from r to y: ").nth(1).unwrap().lines().next().unwrap().parse::<f64>().unwrap();
+        assert!(run.status == 0 && (value - known).abs() < 1e-10 * known, "{known}: {}", run.stdout);
+    }
+}
+
+/// The constant `sqrt(2)` is enclosed: `sqrt(2)/(s + 1)` in the loop has the gain `sqrt(2)/(1 + sqrt(2))`.
+#[test]
+fn a_continuous_loop_over_constants_has_its_gain() {
+    let run = jurist(&["norm", "sqrt(2)/(s + 1)", "r", "y", "--l1", "--json"]);
+    let document: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
+    assert_eq!(document["l1"]["decimal"], "0.585786437627", "{}", run.stdout);
+}
+
 #[test]
 fn what_has_no_peak_to_peak_gain_is_refused_in_words() {
     for (arguments, code, word) in [
-        (&["norm", "1/(s + 1)", "r", "y", "--l1"][..], "E-discretize", "discretize"),
-        (&["norm", "exp(-s)/(s + 1)", "r", "y", "--l1"], "E-discretize", "continuous"),
+        (&["norm", "exp(-s)/(s + 1)", "r", "y", "--l1"][..], "E-dead-time", "dead time"),
         (&["norm", "examples/drive-two-rates.toml", "omega_ref", "omega", "--l1"], "E-rate-margin", "several rates"),
         (&["norm", "1/(z - 1/2)", "r", "x", "--l1"], "E-unknown-signal", "'x'"),
     ] {

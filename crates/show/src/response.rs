@@ -10,7 +10,7 @@ use crate::Text;
 use jurist_algebra::number::{Enclosure, Rational, enclosed_decimal, to_decimal};
 use jurist_algebra::real::Real;
 use jurist_engine::answer::{Answer, Frequency};
-use jurist_engine::model::Cut;
+use jurist_engine::model::{Cut, Time};
 use jurist_engine::problem::Problem;
 use jurist_engine::response::{
     self, DelayMargin, Direction, Extreme, GainCrossing, HeldDelay, Margins, Norm, OneSided, PeakToPeak, PhaseMargin,
@@ -315,7 +315,14 @@ impl Text for Answer<PeakToPeak> {
             Some(_) => (String::new(), "it is a rational number, which '--json' writes\n".to_owned()),
             None => (
                 String::new(),
-                format!("{} samples of the impulse response, and a bound of all that follow\n", gain.terms),
+                match problem.time() {
+                    Time::Discrete => {
+                        format!("{} samples of the impulse response, and a bound of all that follow\n", gain.terms)
+                    }
+                    Time::Continuous => {
+                        format!("{} steps along the impulse response, and a bound of all that follows\n", gain.terms)
+                    }
+                },
             ),
         };
         format!(

@@ -20,7 +20,7 @@ pub(in crate::cli) struct Options {
     /// A model file, '-' for standard input, or a loop in one line (left out: the built-in drive); an input and an output of the loop
     #[arg(value_names = ["MODEL", "INPUT", "OUTPUT"], num_args = 2..=3, required = true)]
     pub names: Vec<OsString>,
-    /// The peak-to-peak gain (l1 norm) instead, of a loop in discrete time: how far bounded inputs can drive the output from rest
+    /// The peak-to-peak gain (l1 norm) instead: how far bounded inputs can drive the output from rest
     #[arg(long)]
     pub l1: bool,
     #[command(flatten)]

@@ -201,6 +201,11 @@ pub(super) static ENCLOSED_IMPULSES: Method = Method::new(
     "Samples are computed in fixed point from coefficients that are enclosed with more bits until the digits are certain; the bound of all errors has theirs. A power of the companion matrix has a norm below a half, which bounds what follows after a block of samples.",
     "stability::ImpulseResponse",
 );
+pub(super) static RESPONSE: Method = Method::new(
+    "integral of the absolute impulse response",
+    "The response and its derivatives are followed in short steps, in fixed point with a proved bound of all errors. Where Taylor's polynomial and its rest show one sign, the integral is a difference of the step response; other pieces are halved. A power of the step has a norm below a half, which bounds what follows.",
+    "stability::ImpulseResponse",
+);
 pub(super) static PEAKS: Method = Method::new(
     "greatest modulus on the boundary",
     "The square of the modulus is a rational function of the half-size variable; the zeros of its derivative are isolated exactly or with enclosed constants, and the greatest of its values is taken.",

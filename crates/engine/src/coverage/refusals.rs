@@ -61,11 +61,6 @@ pub(crate) static INSIDE: Refusal = Refusal::new(
     "'{name}' is inside of functions, as behind a hold: there is no exact map",
     "maps with '{name}' are made of boxes: '--method boxes' with windows of both axes",
 );
-pub(crate) static NOT_OF_SAMPLES: Refusal = Refusal::new(
-    Code::Discretize,
-    "the peak-to-peak gain (l1 norm) is known in discrete time only, and this loop is continuous",
-    "write time = \"discrete\" and 'discretize' at the continuous blocks; the peak over frequencies is 'jurist norm' without '--l1'",
-);
 pub(crate) static ONE_FACTOR: Refusal = Refusal::new(
     Code::DeadTime,
     "with dead time this is known where one factor of the open loop has it, and all else is rational",

@@ -74,7 +74,7 @@ static ROWS: &[Row] = &[
     at_a_point(Asked::Margins, "margins", [A(&FREQUENCIES), A(&FREQUENCIES), OPEN_LOOP, OPEN_LOOP]).called("margins"),
     at_a_point(Asked::Norm, "norm", [A(&PEAKS), A(&PEAKS), A(&DELAYED_PEAKS), A(&DELAYED_PEAKS)]).called("norm"),
     at_a_point(Asked::PeakToPeak, "norm --l1", [A(&IMPULSES), A(&ENCLOSED_IMPULSES), NO_DELAY, NO_DELAY]).in_time(Time::Discrete),
-    Row::new(Asked::PeakToPeakContinuous, "norm --l1", [R(&NOT_OF_SAMPLES); 7]).in_time(Time::Continuous),
+    at_a_point(Asked::PeakToPeakContinuous, "norm --l1", [A(&RESPONSE), A(&RESPONSE), NO_DELAY, NO_DELAY]).in_time(Time::Continuous),
     at_a_point(Asked::Bode, "bode", [A(&FREQUENCIES), A(&FREQUENCIES), OPEN_LOOP, OPEN_LOOP]).called("bode"),
     at_a_point(Asked::Nyquist, "nyquist", [A(&FREQUENCIES), A(&FREQUENCIES), OPEN_LOOP, OPEN_LOOP]).called("nyquist"),
     at_a_point(Asked::Simulate, "simulate", [A(&FLOATING), A(&FLOATING), A(&FLOATING), A(&FLOATING)]).called("simulate"),

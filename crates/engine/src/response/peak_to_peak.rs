@@ -1,9 +1,9 @@
-//! The peak-to-peak gain of a closed-loop transfer function in discrete time.
+//! The peak-to-peak gain of a closed-loop transfer function.
 
 use super::norm::of_one_rate;
 use super::parts::integral;
 use crate::answer::{Answer, PointVerdict, Verdict};
-use crate::coverage::refusals::NOT_OF_SAMPLES;
+use crate::coverage::CoefficientRing;
 use crate::error::Error;
 use crate::model::{ClosedLoop, Symbols, Time, quotient_at};
 use crate::problem::{Problem, Question, Region};
@@ -14,7 +14,8 @@ use jurist_algebra::number::Rational;
 use jurist_algebra::poly::{Domain, MultiPoly, RationalFunction};
 use std::sync::Arc;
 
-/// The peak-to-peak gain of a closed-loop transfer function `H = sum h_k z^-k`: the sum of the `|h_k|`, its l1 norm.
+/// The peak-to-peak gain of a closed-loop transfer function, its l1 norm: the sum of the `|h_k|` of `H = sum h_k z^-k`, and in continuous time
+/// the integral of the modulus of the impulse response.
 ///
 /// From rest `max |y| <= gain max |u|`, and no smaller number does.
 ///
@@ -45,19 +46,21 @@ pub struct PeakToPeak {
     pub verdict: PointVerdict,
     /// The gain of a stable loop, between two numbers or exactly.
     pub gain: Option<AbsoluteSum>,
+    time: Time,
     response: Option<ImpulseResponse>,
 }
 
 impl PeakToPeak {
     /// The signs of the first samples of the impulse response, 1, -1 or 0: an input of `u_(k-i) = sign h_i` gives from rest the greatest `y_k`
-    /// that inputs of modulus 1 can. Nothing of a loop that is not stable.
+    /// that inputs of modulus 1 can. Nothing of a loop that is not stable, and of one in continuous time.
     ///
     /// Cost: that of [`ImpulseResponse::signs`].
     ///
     /// # Errors
     /// [`Exhausted`] when the budget runs out.
     pub fn signs(&self, count: usize, budget: &Budget) -> Result<Vec<i8>, Exhausted> {
-        self.response.as_ref().map_or(Ok(Vec::new()), |response| response.signs(count, budget))
+        let sampled = self.response.as_ref().filter(|_| self.time == Time::Discrete);
+        sampled.map_or(Ok(Vec::new()), |response| response.signs(count, budget))
     }
 }
 
@@ -88,11 +91,11 @@ impl Problem {
     /// It is that of the closed loop whatever the region of the question. Further pairs of the same problem share its closed loop, its verdict's
     /// algebra and its characteristic polynomial.
     ///
-    /// Cost: a verdict, and [`ImpulseResponse::absolute_sum`]. A rational loop takes one characteristic polynomial for the numerator, another
+    /// Cost: a verdict, and [`ImpulseResponse::absolute_sum`] or [`ImpulseResponse::absolute_integral`]. A rational loop takes one characteristic polynomial for the numerator, another
     /// one two enclosed ones for each number of bits, of which there are about three.
     ///
     /// # Errors
-    /// [`Error::Refused`] with `E-discretize` in continuous time, `E-rate-margin` where the loop has several rates, `E-unknown-signal`, and as
+    /// [`Error::Refused`] with `E-dead-time` where the loop has one in continuous time, `E-rate-margin` where the loop has several rates, `E-unknown-signal`, and as
     /// [`Problem::closed_loop`]; [`Error::Undefined`]; [`Error::Stopped`] when the budget runs out, and where no number of bits tells a
     /// transfer function that is not rational from zero.
     ///
@@ -105,22 +108,26 @@ impl Problem {
         digits: usize,
         budget: &Budget,
     ) -> Result<Answer<PeakToPeak>, Error> {
-        if self.time() == Time::Continuous {
-            return Err(NOT_OF_SAMPLES.diagnostic(&[]).into());
-        }
         of_one_rate(self)?;
         self.refuse_complex(budget)?;
         let plain = self.without_region();
         let verdict = plain.verdict(budget)?.into_value();
         let (mut gain, mut response) = (None, None);
-        let ports = plain.closed_loop_in_numbers(budget)?.0.ports(input, output)?;
+        let (closed_loop, symbols, _) = plain.closed_loop_in_numbers(budget)?;
+        if !symbols.delays().is_empty() {
+            return Err(CoefficientRing::of(symbols).not_rational(symbols).into());
+        }
+        let ports = closed_loop.ports(input, output)?;
         if verdict.verdict == Verdict::Stable {
             let own = budget.enter(|| plain.impulse_response(ports, budget))??;
-            gain = Some(own.absolute_sum(digits, budget)?);
+            gain = Some(match self.time() {
+                Time::Discrete => own.absolute_sum(digits, budget),
+                Time::Continuous => own.absolute_integral(digits, budget),
+            }?);
             response = Some(own);
         }
         let (input, output) = (input.to_owned(), output.to_owned());
-        Ok(Answer::new(Arc::clone(self), PeakToPeak { input, output, verdict, gain, response }))
+        Ok(Answer::new(Arc::clone(self), PeakToPeak { input, output, verdict, gain, time: self.time(), response }))
     }
 
     /// The impulse response from an input to an output of a stable loop without a smaller region.

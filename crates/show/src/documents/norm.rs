@@ -48,7 +48,7 @@ pub struct NormFound {
     pub l1: Option<PeakToPeakFound>,
 }
 
-/// The sum of the absolute values of the impulse response: from rest `max |output| <= l1 max |input|`, and no smaller number does.
+/// The sum (in continuous time the integral) of the absolute values of the impulse response: from rest `max |output| <= l1 max |input|`, and no smaller number does.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PeakToPeakFound {
@@ -58,7 +58,7 @@ pub struct PeakToPeakFound {
     pub exact: Option<Exact>,
     /// Lower and upper bound; equal where `exact` is not `null`.
     pub enclosure: Enclosure,
-    /// How many samples of the impulse response were computed.
+    /// How many samples of the impulse response were computed; in continuous time how many steps.
     pub terms: usize,
 }
 

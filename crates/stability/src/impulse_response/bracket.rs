@@ -2,7 +2,7 @@
 
 use super::AbsoluteSum;
 use super::coefficients::Monic;
-use super::powers::Powers;
+use super::powers::{Powers, Rounded};
 use super::recursion::{Samples, SlidingMaximum};
 use crate::precisions::IMPULSE_RESPONSE;
 use jurist_algebra::limits::{Exhausted, until_shown};
@@ -29,7 +29,7 @@ enum Attempt {
 impl<'a> Brackets<'a> {
     /// Finds the power whose norm is below a half; without end where the denominator is not stable.
     pub fn new(coefficients: &'a dyn Fn(u64) -> Option<Monic>) -> Brackets<'a> {
-        let powers = until_shown(IMPULSE_RESPONSE.first, |bits| Powers::of(&coefficients(bits)?));
+        let powers = until_shown(IMPULSE_RESPONSE.first, |bits| Powers::of(Rounded::companion(&coefficients(bits)?)));
         Brackets { coefficients, powers }
     }
 
@@ -92,7 +92,7 @@ impl<'a> Brackets<'a> {
 
 /// A bound of the sum, above it by a factor of about the order at most; `None` where the coefficients have too few bits.
 pub(super) fn rough_bound(monic: &Monic) -> Option<Rational> {
-    let powers = Powers::of(monic)?;
+    let powers = Powers::of(Rounded::companion(monic))?;
     Some(Rational::dyadic(&Walk::new(monic, &powers).after_block().upper, monic.bits()))
 }
 
@@ -147,7 +147,8 @@ impl<'p> Walk<'p> {
     }
 }
 
-fn found(lower: &Integer, upper: &Integer, bits: u64, count: u64) -> AbsoluteSum {
+/// The bracket as rational numbers.
+pub(super) fn found(lower: &Integer, upper: &Integer, bits: u64, count: u64) -> AbsoluteSum {
     let [lower, upper] = [lower, upper].map(|units| Rational::dyadic(units, bits));
     AbsoluteSum { lower, upper, exact: None, terms: usize::try_from(count).unwrap_or(usize::MAX) }
 }

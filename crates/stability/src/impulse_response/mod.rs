@@ -1,4 +1,6 @@
-//! The impulse response of a stable transfer function in `z`, and the sum of its absolute values.
+//! The impulse response of a stable transfer function, and the sum or the integral of its absolute values.
+//!
+//! Of a transfer function in `s` the integral has a module of its own (`integral`); the rest of this is of samples.
 //!
 //! `H = N/D = sum h_k z^-k`. The sum `|h_0| + |h_1| + ...` is the norm of `H` as a map of bounded signals: from rest
 //! `sup |y| <= sum |h_k| sup |u|`, and no smaller number does, as the input `u_(k-i) = sign h_i` shows.
@@ -11,6 +13,7 @@
 
 mod bracket;
 mod coefficients;
+mod integral;
 mod one_sign;
 mod powers;
 mod recursion;
@@ -28,7 +31,7 @@ use jurist_algebra::poly::{Domain, UniPoly};
 use std::fmt;
 use std::sync::Arc;
 
-/// The impulse response of a transfer function `N/D` in `z` whose poles are all inside of the unit circle.
+/// The impulse response of a transfer function `N/D`: in `z` with all poles inside of the unit circle, or in `s` with all of them left of the axis.
 ///
 /// ```
 /// use jurist_algebra::limits::Budget;
@@ -60,7 +63,7 @@ impl fmt::Debug for Over {
     }
 }
 
-/// The sum of the absolute values of an impulse response, between two numbers.
+/// The sum, or the integral, of the absolute values of an impulse response, between two numbers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct AbsoluteSum {
@@ -70,7 +73,7 @@ pub struct AbsoluteSum {
     pub upper: Rational,
     /// The sum itself, where it is proved to be this rational number; then both bounds are equal to it.
     pub exact: Option<Rational>,
-    /// How many samples were computed, from `h_0` on.
+    /// How many samples were computed, from `h_0` on; of an integral how many steps of time.
     pub terms: usize,
 }
 
@@ -83,8 +86,8 @@ impl AbsoluteSum {
 impl ImpulseResponse {
     /// Of a quotient of polynomials with integer coefficients; common factors are divided out.
     ///
-    /// What is left of the denominator has to have all its roots inside of the unit circle, as
-    /// [`is_stable`](crate::is_stable) proves: else the sum is not finite, and only a budget ends its computation.
+    /// What is left of the denominator has to be stable, as [`is_stable`](crate::is_stable) proves: else the sum is not finite, and only a budget
+    /// ends its computation.
     ///
     /// Cost: that of a greatest common divisor.
     ///
@@ -92,7 +95,7 @@ impl ImpulseResponse {
     /// When the denominator is zero, or of a lower degree than the numerator.
     pub fn of_integers(numerator: &UniPoly, denominator: &UniPoly) -> ImpulseResponse {
         assert!(!denominator.is_zero(), "a transfer function has a denominator");
-        assert!(numerator.coeffs().len() <= denominator.coeffs().len(), "a transfer function of samples is proper");
+        assert!(numerator.coeffs().len() <= denominator.coeffs().len(), "a bounded transfer function is proper");
         let common = numerator.gcd(denominator);
         let divided = |p: &UniPoly| p.div_exact(&common).expect("a gcd divides");
         ImpulseResponse { over: Over::Integers { numerator: divided(numerator), denominator: divided(denominator) } }
@@ -123,12 +126,13 @@ impl ImpulseResponse {
         ImpulseResponse { over: Over::Enclosed(Arc::new(coefficients)) }
     }
 
-    /// That is 0 at all samples.
+    /// That is 0 at all times.
     pub fn zero() -> ImpulseResponse {
         ImpulseResponse::of_integers(&UniPoly::zero(), &UniPoly::one())
     }
 
-    /// The sum of the absolute values: exactly, or between two numbers that differ by at most `10^-(digits + 2)` of it.
+    /// The sum of the absolute values of the samples, of a transfer function in `z`: exactly, or between two numbers that differ by at most
+    /// `10^-(digits + 2)` of it.
     ///
     /// It is a rational number for certain where all poles are 0, and where one real pole is greater in modulus than the others
     /// and few samples come before its sign (or, of a negative pole, its alternation) is that of all that follow.
@@ -150,7 +154,39 @@ impl ImpulseResponse {
         })?
     }
 
-    /// The signs of the first samples: 1, -1, and 0 where a sample is zero or so small beside the others that thirty digits do not tell.
+    /// The integral of the absolute value, of a transfer function in `s`, and that of what is direct: between two numbers that differ by at most
+    /// `10^-(digits + 2)` of it. Exactly only of a constant.
+    ///
+    /// ```
+    /// use jurist_algebra::limits::Budget;
+    /// use jurist_algebra::poly::UniPoly;
+    /// use jurist_stability::ImpulseResponse;
+    /// // 1/(s^2 + s + 1): coth(pi/(2 sqrt(3))), as of all pairs of poles with a damping of 1/2.
+    /// let pair = ImpulseResponse::of_integers(&UniPoly::from_i64(&[1]), &UniPoly::from_i64(&[1, 1, 1]));
+    /// let gain = pair.absolute_integral(9, &Budget::unlimited())?;
+    /// assert!(gain.lower > "1.3895".parse().unwrap() && gain.upper < "1.3896".parse().unwrap());
+    /// # Ok::<(), jurist_algebra::limits::Exhausted>(())
+    /// ```
+    ///
+    /// Cost: with `r` for the greatest modulus of a pole over the least distance of one from the axis, `O(r n digits)` steps of `n` products, of integers of
+    /// `O(digits)` bits; at each zero of the response `O(digits)` steps more.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out, and where no number of bits tells the integral from zero.
+    pub fn absolute_integral(&self, digits: usize, budget: &Budget) -> Result<AbsoluteSum, Exhausted> {
+        budget.step("impulse response");
+        budget.enter(|| {
+            if let Over::Integers { numerator, denominator } = &self.over
+                && denominator.coeffs().len() == 1
+            {
+                let direct = Rational::new(numerator.coeff(0), denominator.coeff(0));
+                return Ok(AbsoluteSum::exactly(direct.abs(), 0));
+            }
+            integral::integral(&|bits| self.monic(bits), digits)
+        })?
+    }
+
+    /// The signs of the first samples, of a transfer function in `z`: 1, -1, and 0 where a sample is zero or so small beside the others that thirty digits do not tell.
     ///
     /// From rest the input `u_(k-i) = sign h_i` makes the output `|h_0| + ... + |h_k|` at step `k`: the greatest that inputs of
     /// modulus 1 can.

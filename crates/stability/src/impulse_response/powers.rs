@@ -1,10 +1,11 @@
-//! Norms of powers of a companion matrix.
+//! Norms of powers of a matrix.
 //!
 //! The norm is the greatest sum of absolute values in a row, for which `||A B|| <= ||A|| ||B||`. With `p = 2^m` each `i < p` is a sum
 //! of different `2^j` with `j < m`, so `||A^0|| + ... + ||A^(p-1)|| <= (1 + ||A||) (1 + ||A^2||) ... (1 + ||A^(p/2)||)`; and with
 //! `||A^p|| = c < 1` the sum of all norms is at most `1/(1 - c)` times that.
 
 use super::coefficients::Monic;
+use jurist_algebra::ball::BallMatrix;
 use jurist_algebra::limits::checkpoint;
 use jurist_algebra::number::Integer;
 
@@ -21,11 +22,10 @@ pub(super) struct Powers {
 }
 
 impl Powers {
-    /// `None` where the coefficients have too few bits.
-    pub fn of(coefficients: &Monic) -> Option<Powers> {
-        let bits = coefficients.bits();
+    /// `None` where the matrix is known with too few bits.
+    pub fn of(mut matrix: Rounded) -> Option<Powers> {
+        let bits = matrix.bits;
         let one = Integer::ONE << bits;
-        let mut matrix = Rounded::companion(coefficients);
         let (mut exponent, mut total) = (1u64, Integer::ONE);
         loop {
             let norm = matrix.norm();
@@ -51,7 +51,8 @@ impl Powers {
 }
 
 /// A square matrix of integers over `2^bits`, and a bound of the norm of its error in the same units.
-struct Rounded {
+#[derive(Clone, Debug)]
+pub(super) struct Rounded {
     entries: Vec<Integer>,
     size: usize,
     bits: u64,
@@ -59,8 +60,35 @@ struct Rounded {
 }
 
 impl Rounded {
+    /// The middles of the entries.
+    pub fn of(matrix: &BallMatrix, bits: u64) -> Rounded {
+        let size = matrix.size();
+        let places = (0..size).flat_map(|i| (0..size).map(move |j| (i, j)));
+        let entries = places.map(|(i, j)| matrix.at(i, j).middle_units()).collect();
+        let widths = |i| (0..size).fold(Integer::ZERO, |sum, j| sum + matrix.at(i, j).width_units());
+        Rounded { entries, size, bits, error: (0..size).map(widths).max().unwrap_or(Integer::ZERO) }
+    }
+
+    /// The product with a vector in the same units, each entry rounded down.
+    pub fn times(&self, vector: &[Integer]) -> Vec<Integer> {
+        checkpoint((self.size * self.size) as u64 * (2 + self.bits / 32));
+        let row = |row: &[Integer]| {
+            let mut sum = Integer::ZERO;
+            for (a, x) in row.iter().zip(vector) {
+                sum.add_mul_assign(a, x);
+            }
+            sum >> self.bits
+        };
+        self.entries.chunks(self.size.max(1)).map(row).collect()
+    }
+
+    /// A bound of the error of [`Self::times`], from a bound of the vector's norm.
+    pub fn error_of(&self, norm: &Integer) -> Integer {
+        ceiling_shift(&(&self.error * norm), self.bits) + Integer::ONE
+    }
+
     /// Row `i` shifts the window, the last one is the recursion.
-    fn companion(coefficients: &Monic) -> Rounded {
+    pub fn companion(coefficients: &Monic) -> Rounded {
         let (n, bits) = (coefficients.order(), coefficients.bits());
         let mut entries = vec![Integer::ZERO; n * n];
         for i in 1..n {

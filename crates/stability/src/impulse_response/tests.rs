@@ -212,3 +212,125 @@ proptest! {
         }
     }
 }
+
+/// Stable denominators in `s`: real roots and pairs of any damping, and a numerator of at most their degree.
+fn continuous() -> impl Strategy<Value = [UniPoly; 2]> {
+    let real = (1i64..30, 1i64..10).prop_map(|(a, b)| UniPoly::from_i64(&[a, b]));
+    let pair = (1i64..10, 0i64..20).prop_map(|(a, b)| UniPoly::from_i64(&[a * a + b * b, 2 * a, 1]));
+    let factors = proptest::collection::vec(prop_oneof![real, pair], 1..4);
+    (factors, proptest::collection::vec(-9i64..10, 1..7)).prop_map(|(factors, mut n)| {
+        let d = factors.iter().fold(UniPoly::one(), |p, q| p.times(q));
+        n.truncate(d.coeffs().len());
+        [UniPoly::from_i64(&n), d]
+    })
+}
+
+fn integral_of(n: &UniPoly, d: &UniPoly, digits: usize) -> AbsoluteSum {
+    ImpulseResponse::of_integers(n, d).absolute_integral(digits, &Budget::unlimited()).unwrap()
+}
+
+fn integral(n: &[i64], d: &[i64], digits: usize) -> String {
+    let found = integral_of(&UniPoly::from_i64(n), &UniPoly::from_i64(d), digits);
+    assert!(found.exact.is_some() || &found.upper - &found.lower <= found.lower.clone() * rational("1/1000"));
+    jurist_algebra::number::enclosed_decimal(&found.lower, &found.upper, digits)
+        .unwrap_or_else(|| to_decimal(&found.lower.midpoint(&found.upper), digits))
+}
+
+#[test]
+fn integrals_that_are_known_are_found() {
+    // Nothing, a constant, one pole, equal poles, a factor that is not stable and cancels.
+    assert_eq!(integral(&[], &[1, 2], 9), "0");
+    assert_eq!(integral(&[-3], &[7], 3), "0.429");
+    assert_eq!(integral(&[2], &[1, 2], 12), "2.00000000000");
+    assert_eq!(integral(&[-1], &[1, 4, 6, 4, 1], 12), "1.00000000000");
+    assert_eq!(integral(&[-1, 1], &[-1, 0, 1], 12), "1.00000000000");
+    // (1 - s)/(1 + s) is -1 and twice a lag: 1 + 2. (2 - s)/(1 + s) is -1 and three times a lag.
+    assert_eq!(integral(&[1, -1], &[1, 1], 12), "3.00000000000");
+    assert_eq!(integral(&[2, -1], &[1, 1], 12), "4.00000000000");
+    // s/(s + 1)^2 is (1 - t) exp(-t): 2/e. 1/(s + 1) - 1/(s + 2) is of one sign.
+    assert_eq!(integral(&[0, 1], &[1, 2, 1], 20), "0.73575888234288464319");
+    assert_eq!(integral(&[1], &[2, 3, 1], 12), "0.500000000000");
+    // (s^2 + 1)/(s + 1)^3 is exp(-t) (t - 1)^2, whose zero touches: 1.
+    assert_eq!(integral(&[1, 0, 1], &[1, 3, 3, 1], 15), "1.00000000000000");
+}
+
+#[test]
+fn a_pair_has_the_integral_of_its_overshoots() {
+    // 1/(s^2 + s + 1): coth(pi/(2 sqrt(3))); time in other units is the same.
+    let known = "1.389582";
+    assert_eq!(integral(&[1], &[1, 1, 1], 7), known);
+    assert_eq!(integral(&[1_000_000_000_000], &[1_000_000_000_000, 1_000_000, 1], 7), known);
+    assert_eq!(integral(&[1], &[1, 1_000_000, 1_000_000_000_000], 7), known);
+}
+
+#[test]
+fn poles_far_from_each_other_have_their_integral() {
+    // 1/((s + 1)(s/1000 + 1)) - 2/(s + 1) has the integral of its gain at 0, which is 1: the response is negative from its start.
+    assert_eq!(integral(&[-1000, -2], &[1000, 1001, 1], 12), "1.00000000000");
+    let response = ImpulseResponse::of_integers(&UniPoly::from_i64(&[1]), &UniPoly::from_i64(&[1, 1_000_000_000, 1]));
+    assert!(response.absolute_integral(9, &Budget::with_work(1_000_000)).is_err());
+}
+
+/// The step response sampled at many times: its differences have a sum that is not above its variation, which is the integral.
+fn variation_of_samples(n: &UniPoly, d: &UniPoly) -> f64 {
+    let number = |p: &UniPoly, k: usize| Rational::from(p.coeff(k)).to_f64_approximate();
+    let order = d.coeffs().len() - 1;
+    let (lead, mut x) = (number(d, order), vec![0.0; order]);
+    let direct = number(n, order) / lead;
+    let rate: f64 = (0..order).map(|k| (number(d, k) / lead).abs().powf(1.0 / (order - k) as f64)).fold(0.0, f64::max);
+    let step = 0.005 / rate;
+    let slope = |x: &[f64]| -> Vec<f64> {
+        let last = 1.0 - (0..order).map(|k| number(d, k) / lead * x[k]).sum::<f64>();
+        x[1..].iter().copied().chain([last]).collect()
+    };
+    let output =
+        |x: &[f64]| (0..order).map(|k| (number(n, k) / lead - direct * number(d, k) / lead) * x[k]).sum::<f64>();
+    let (mut sum, mut before) = (direct.abs(), 0.0);
+    for _ in 0..60_000 {
+        let moved = |k: &[f64], h: f64| x.iter().zip(k).map(|(x, k)| x + h * k).collect::<Vec<_>>();
+        let a = slope(&x);
+        let b = slope(&moved(&a, step / 2.0));
+        let c = slope(&moved(&b, step / 2.0));
+        let d = slope(&moved(&c, step));
+        for (i, x) in x.iter_mut().enumerate() {
+            *x += step / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]);
+        }
+        let now = output(&x);
+        sum += f64::abs(now - before);
+        before = now;
+    }
+    sum
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(if std::env::var_os("JURIST_THOROUGH").is_some() { 100 } else { 3 }))]
+
+    #[test]
+    fn the_integral_is_the_variation_of_the_step_response([n, d] in continuous()) {
+        let found = integral_of(&n, &d, 8);
+        let middle = found.lower.midpoint(&found.upper).to_f64_approximate();
+        let sampled = variation_of_samples(&n, &d);
+        prop_assert!((middle - sampled).abs() <= 2e-4 * middle, "{n:?} {d:?}: {middle} {sampled}");
+        prop_assert!(n.is_zero() || &(&found.upper - &found.lower) * &Rational::from(10i64.pow(10)) <= found.lower);
+    }
+
+    #[test]
+    fn more_digits_are_inside_and_gains_are_below([n, d] in continuous()) {
+        let (few, many) = (integral_of(&n, &d, 4), integral_of(&n, &d, 20));
+        prop_assert!(few.lower <= many.upper && many.lower <= few.upper);
+        let [low, high] = [(0, 0), (d.coeffs().len() - 1, d.coeffs().len() - 1)]
+            .map(|(i, j)| Rational::new(n.coeff(i), d.coeff(j)).abs());
+        prop_assert!(low <= many.upper && high <= many.upper);
+    }
+
+    #[test]
+    fn other_units_of_time_and_of_the_output_change_nothing_else([n, d] in continuous(), c in 1i64..9) {
+        let faster = |p: &UniPoly| {
+            let scaled = p.coeffs().iter().enumerate().map(|(k, x)| x * &Integer::from(3).pow(k as u64));
+            UniPoly::new(scaled.collect())
+        };
+        let (plain, other) = (integral_of(&n, &d, 10), integral_of(&faster(&n).scaled(&Integer::from(-c)), &faster(&d), 10));
+        let factor = Rational::from(c);
+        prop_assert!(&plain.lower * &factor <= other.upper && other.lower <= &plain.upper * &factor);
+    }
+}
