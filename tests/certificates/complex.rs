@@ -122,6 +122,7 @@ fn random_loops_and_their_mirror_images_have_one_certificate() {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn changed_certificates_of_complex_loops_are_rejected() {
     for (k, text) in models().iter().enumerate().filter(|(k, _)| [0, 1, 2, 4, 12].contains(k) && is_tried(*k, 2)) {
         let certificate = emitted(text, "K");

@@ -62,6 +62,7 @@ fn cells(json: &Json) -> Vec<Vec<(usize, usize)>> {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn maps_of_examples_are_certified_in_either_order() {
     let examples = [
         ("drive", "T", "K_pwm"),
@@ -163,6 +164,7 @@ fn maps_of_every_form_of_loop_are_certified() {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn maps_of_generated_loops_are_certified() {
     let mut random = Random::new(11);
     let mut several = 0;

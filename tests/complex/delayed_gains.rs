@@ -80,6 +80,7 @@ fn ends_of_domains() {
 
 /// Roots of either sign cross at one gain: the set is that of the real loop, but for the frequencies.
 #[test]
+#[ignore = "long: CI runs it"]
 fn real_loops_seen_from_frames() {
     for (real, seen) in [
         ("s + K*exp(-s/2)", "s - 2*j + K*exp(j)*exp(-s/2)"),
@@ -174,6 +175,7 @@ fn value(end: &End) -> f64 {
 
 /// Inside of the intervals and outside, near the ends and in the middle, the argument's turns tell the same.
 #[test]
+#[ignore = "long: CI runs it"]
 fn random_loops_agree_with_turns_of_the_argument() {
     let count = std::env::var("JURIST_COMPLEX_LOOPS").ok().and_then(|n| n.parse().ok());
     let count = count.unwrap_or(thorough::count(5, 40));

@@ -55,6 +55,7 @@ fn written(set: &RequiredSet) -> Vec<String> {
 
 /// `K exp(-s/2)/(s - j)` has the modulus one at `1 + K` and `1 - K`: of the phase `(1 + K)/2` is taken by the dead time.
 #[test]
+#[ignore = "long: CI runs it"]
 fn an_integrator_in_a_frame_by_hand() {
     let text = loop_of("K*exp(-s/2)/(s - j)");
     let all = asked();
@@ -74,6 +75,7 @@ fn an_integrator_in_a_frame_by_hand() {
 
 /// Each value is there twice, at two frequencies.
 #[test]
+#[ignore = "long: CI runs it"]
 fn real_loops_seen_from_frames() {
     let cases = [
         ("K*exp(-s/2)/s", "K*exp(j)*exp(-s/2)/(s - 2*j)"),
@@ -97,6 +99,7 @@ fn is_met(text: &str, requirement: &Requirement, k: &Rational) -> bool {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn random_loops_agree_with_verdicts() {
     let count = std::env::var("JURIST_COMPLEX_LOOPS").ok().and_then(|n| n.parse().ok());
     let count = count.unwrap_or(thorough::count(1, 2));

@@ -90,6 +90,7 @@ fn agree(function: &str, inner: &Inner) {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn the_set_is_that_of_the_values_of_the_function() {
     let mut random = Random::new(20_261_129);
     for i in 0..count(4, 12) {
@@ -146,6 +147,7 @@ fn square_roots_have_no_series_at_zero() {
 
 /// Two functions of one parameter, in coefficients and beside the parameter itself: points are decided one by one.
 #[test]
+#[ignore = "long: CI runs it"]
 fn sets_beside_functions_agree_with_decisions_at_points() {
     let mut seen = [0, 0];
     for function in [

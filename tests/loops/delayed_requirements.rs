@@ -85,6 +85,7 @@ fn an_end_at_the_frequency_zero_is_exact() {
 
 /// On both sides of each end, and at chance.
 #[test]
+#[ignore = "long: CI runs it"]
 fn sets_agree_with_decisions_at_points() {
     let mut random = Random::new(43);
     let loops = [

@@ -90,6 +90,7 @@ fn the_drive_with_its_speed_loop_slower_than_its_current_loop() {
 
 /// Ends that enclosures found had no frequency: 2.111250332 rad in ten samples are 336.0 Hz, an alias of 1664 Hz.
 #[test]
+#[ignore = "long: CI runs it"]
 fn ends_of_several_rates_have_their_frequency() {
     for (name, frequency) in [("K_pwm", 336.0159), ("K_ps", 0.8077485 / (2e-3 * std::f64::consts::PI))] {
         let run = jurist_with_input(&["intervals", "-", "--param", name, "--json"], drive(10, "zoh").as_bytes());
@@ -126,6 +127,7 @@ fn a_rule_of_a_slow_controller_has_its_own_period() {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn margins_are_those_of_signals_that_are_used_once() {
     let budget = Budget::unlimited();
     let model = read(&drive(10, "zoh"));

@@ -81,6 +81,7 @@ pub(super) fn decided(model: &Model, names: [&str; 2], point: &[Rational; 2], re
 
 /// Rational loops, in both times, against stable sets of factors and rotations.
 #[test]
+#[ignore = "long: CI runs it"]
 fn boxes_of_rational_loops_agree_with_a_second_decision() {
     let mut random = Random::new(37);
     let loops = [

@@ -157,6 +157,7 @@ fn every_rounding_holds(answer: &ShipAnswer) -> Option<bool> {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn fewest_bits_are_those_that_a_search_finds() {
     let random = &mut Random::new(43);
     for _ in 0..count(1, 6) {

@@ -246,6 +246,7 @@ proptest! {
 
     /// Lags of the second order, real or oscillating, with all constants, gain and sample time uncertain.
     #[test]
+    #[ignore = "long: CI runs it"]
     fn points_of_the_proved_box_are_stable_and_the_witness_is_not(
         a in 5i64..40, b in 1i64..30, gain in 1i64..8, percent in 5i64..30, shares in prop::collection::vec(0u64..=1000, 16),
     ) {

@@ -68,6 +68,7 @@ const MARGINS: [(&str, &str); 8] = [
 
 /// Of one parameter the box grows to the end of the set in which the requirement is met.
 #[test]
+#[ignore = "long: CI runs it"]
 fn the_box_of_one_gain_grows_to_the_end_of_its_required_set() {
     let model = load(SERVO);
     for (name, text) in MARGINS {

@@ -148,6 +148,7 @@ proptest! {
 
     /// A smaller box is not better, and a requirement beyond the optimum cannot be met.
     #[test]
+    #[ignore = "long: CI runs it"]
     fn bounds_and_requirements_beyond_the_best(poles in poles(false), low in -20_i64..20, width in 1_i64..40) {
         let model = loop_of("continuous", "s", None, &poles);
         let whole = answer(&model, "max modulus_margin", [None, None], Requirements::default());

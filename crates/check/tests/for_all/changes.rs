@@ -171,6 +171,7 @@ fn changed(certificate: &str, draw: &mut Draw) -> String {
 
 /// `JURIST_CHANGES=1000` looks at so many changes.
 #[test]
+#[ignore = "long: CI runs it"]
 fn what_is_accepted_of_changed_certificates_is_true() {
     let count = std::env::var("JURIST_CHANGES").ok().and_then(|n| n.parse().ok()).unwrap_or(if is_thorough() {
         60
@@ -255,6 +256,7 @@ fn random(draw: &mut Draw) -> (Plant, Asked) {
 
 /// `JURIST_LOOPS=1000` looks at so many loops; all of the usual ones are looked at with `JURIST_THOROUGH`, as in CI.
 #[test]
+#[ignore = "long: CI runs it"]
 fn what_is_said_of_random_loops_is_true() {
     let usual = if is_thorough() { 40 } else { 8 };
     let count = std::env::var("JURIST_LOOPS").ok().and_then(|n| n.parse().ok()).unwrap_or(usual);

@@ -133,6 +133,7 @@ fn changed(certificate: &str, draw: &mut Draw) -> String {
 
 /// `JURIST_CHANGES=1000` looks at so many changes.
 #[test]
+#[ignore = "long: CI runs it"]
 fn what_is_accepted_of_changed_certificates_of_gains_is_true() {
     let count = std::env::var("JURIST_CHANGES").ok().and_then(|n| n.parse().ok()).unwrap_or(60);
     let mut draw = Draw(5);

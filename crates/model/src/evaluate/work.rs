@@ -90,6 +90,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "long: CI runs it"]
     fn a_number_is_refused_by_the_work_it_takes() {
         let term = digits(20_000);
         let refused = |terms: usize| {

@@ -150,6 +150,7 @@ fn compared(program: &PathBuf, runs: &[Run]) -> usize {
 }
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn c_computes_what_the_exact_run_computes() {
     if Command::new("cc").arg("--version").output().is_err() {
         println!("there is no cc: code in C is not compiled");
@@ -234,6 +235,7 @@ const RUST_MAIN: &str = "fn main() {
 ";
 
 #[test]
+#[ignore = "long: CI runs it"]
 fn rust_computes_what_the_exact_run_computes() {
     let (runs, folder) = (runs(), folder("emit_rust"));
     // The modules have no standard library.

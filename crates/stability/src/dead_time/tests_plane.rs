@@ -271,6 +271,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
     #[test]
+    #[ignore = "long: CI runs it"]
     fn points_of_boxes_have_their_count(
         first in prop::collection::vec(coefficient(), 2..4),
         second in prop::collection::vec(coefficient(), 1..3),

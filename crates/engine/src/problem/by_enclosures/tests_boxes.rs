@@ -128,6 +128,7 @@ fn open_loops_by_values_are_the_exact_ones() {
 
 /// A map and a box of tolerances by values; exact algebra tells the points, and where it is short all boxes.
 #[test]
+#[ignore = "long: CI runs it"]
 fn boxes_by_values_are_those_of_exact_coefficients() {
     let budget = Budget::unlimited();
     let model = model(&[("3", "1/5"), ("5", "3/10")], " + ");
@@ -211,6 +212,7 @@ fn a_root_at_rest_is_told_by_numbers() {
 
 /// The ends of a sample time and of constants of the plant by values, as exact polynomials have them; beside a bounded part nothing is said.
 #[test]
+#[ignore = "long: CI runs it"]
 fn stable_sets_by_values_are_those_of_exact_coefficients() {
     let budget = Budget::unlimited();
     let model = model(&[("3", "1/5"), ("5", "3/10")], " + ");
