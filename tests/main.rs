@@ -114,6 +114,7 @@ mod maps {
     mod program;
     mod required;
     mod required_boxes;
+    mod samples;
 }
 
 /// Any number of parameters: boxes of tolerances.

@@ -217,7 +217,7 @@ impl Problem {
             if !Arc::ptr_eq(self, &in_boxes) {
                 return self.boxes_by_values(&in_boxes, request, budget);
             }
-            let ring = CoefficientRing::of(self.algebra_over_symbols(budget)?.symbols());
+            let ring = self.coefficient_ring(budget)?;
             let is_exact = Asked::ExactMap.over(ring).is_answered();
             let window = self.window_over(ring, request, budget);
             // A rational loop that is undefined everywhere needs no boxes.
@@ -283,6 +283,10 @@ impl Problem {
         digits: usize,
         budget: &Budget,
     ) -> Result<MapOrBoxes, Error> {
+        if !requirements.is_empty() {
+            // A loop whose order varies has maps, but no requirements on them.
+            self.in_boxes(budget)?.algebra_over_symbols(budget)?;
+        }
         let by = |method: MapMethod, budget: &Budget| match self.map_by(method, request, digits, budget)? {
             found if requirements.is_empty() => Ok(found),
             MapOrBoxes::Exact(map) => {
@@ -398,7 +402,16 @@ impl Problem {
             CoefficientRing::DeadTime if self.region().decay().is_some() => {
                 self.boxes_of_family(&window?, goal, budget)
             }
-            CoefficientRing::DeadTime | CoefficientRing::DeadTimeBesideFunctions | CoefficientRing::VaryingOrder => {
+            CoefficientRing::VaryingOrder => {
+                let window = window?;
+                let parts = self.parts_by_samples(&window, budget)?;
+                let boxes = |(window, part): (Window, Problem)| {
+                    part.boxes_over(part.coefficient_ring(budget)?, Ok(window), goal, budget)
+                };
+                let boxes = parts.into_iter().map(boxes).collect::<Result<Vec<_>, _>>()?;
+                Ok(BoxMap::joined(window, boxes))
+            }
+            CoefficientRing::DeadTime | CoefficientRing::DeadTimeBesideFunctions => {
                 let plane = self.delayed_plane(budget)?.expect("a loop with dead time");
                 Ok(plane.boxes(&window?, goal, &share())?)
             }

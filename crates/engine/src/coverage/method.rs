@@ -89,6 +89,11 @@ pub(super) static SAMPLES: Method = Method::new(
     "The domain is divided where the dead time is a whole number of samples; between two such values the order is fixed, and the loop is one with functions of the parameter.",
     "problem::Problem::stable_set_by_samples",
 );
+pub(super) static SAMPLE_BOXES: Method = Method::new(
+    "boxes of one order after another",
+    "The window is divided where the dead time is a whole number of samples; between two such lines the order is fixed, and the part is cut into boxes as that of a loop with functions of the parameters.",
+    "answer::Problem::map_by",
+);
 pub(super) static TABLE: Method = Method::new(
     "Jury's or Routh's table",
     "The classical table, and its conditions solved; the answer is compared with the zeros of the boundary polynomials.",

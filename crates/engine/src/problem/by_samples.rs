@@ -5,6 +5,8 @@ use super::evaluation::Algebra;
 use super::presupposed::inside;
 use super::{Free, Problem};
 use crate::error::Error;
+use crate::error::{Code, Diagnostic};
+use crate::stability::plane::boxes::Window;
 use crate::stability::{Cause, End, Range, StableSet, UndecidedBracket, stable_set_of_parts};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::number::Rational;
@@ -93,6 +95,46 @@ impl Problem {
         Ok(Some(set))
     }
 
+    /// A window of two free names in parts of one order each, with the problem of each part, where a dead time varies against its sample time.
+    ///
+    /// Cost: that of [`Problem::algebra_over_symbols`] for each part.
+    ///
+    /// # Errors
+    /// As [`Problem::algebra_over_symbols`]; [`Error::Refused`] where the whole numbers of samples are not at rational values of one of the names,
+    /// where a dead time is negative in the window, and where it has too many whole samples there.
+    pub(crate) fn parts_by_samples(&self, window: &Window, budget: &Budget) -> Result<Vec<(Window, Problem)>, Error> {
+        let near = |window: &Window| [&window.x, &window.y].map(|[low, high]| low.midpoint(high));
+        let usual = near(window);
+        let ratios = budget.enter(|| Algebra::near(self, &usual, budget))??.symbols().varying_samples().to_vec();
+        let axis = usize::from(ratios.iter().all(|ratio| ratio.variables() == [1]));
+        let of_axis = |ratio: &RationalFunction| {
+            (ratio.variables() == [axis]).then(|| ratio.map_variables(|_| 0).expect("it has one variable"))
+        };
+        let side = [&window.x, &window.y][axis];
+        let range = Range::between(Some(side[0].clone()), Some(side[1].clone()));
+        let found = ratios.iter().map(of_axis).collect::<Option<Vec<_>>>();
+        let found = found.and_then(|ratios| Some((breaks(&ratios, &range, &usual[axis])?, ratios)));
+        let Some((mut ends, ratios)) = found else {
+            let [x, y] = self.axes().map(|axis| axis.name.as_str());
+            let message = format!("'{x}' and '{y}' decide together how many samples a dead time is");
+            let help = "set one of them, or give the dead time as a multiple of the sample time (delay = \"1.5*T\")";
+            return Err(Diagnostic::error(Code::Function, message).help(help).into());
+        };
+        ends.insert(0, side[0].clone());
+        ends.push(side[1].clone());
+        let part = |ends: &[Rational]| {
+            let middle = ends[0].midpoint(&ends[1]);
+            if !ratios.iter().all(|ratio| is_looked_at(ratio, &middle, &usual[axis])) {
+                return Err(too_many_samples(&self.axes()[axis].name));
+            }
+            let mut part = window.clone();
+            *[&mut part.x, &mut part.y][axis] = [ends[0].clone(), ends[1].clone()];
+            let algebra = budget.enter(|| Algebra::near(self, &near(&part), budget))??;
+            Ok((part, self.with_algebra(algebra)))
+        };
+        ends.windows(2).map(part).collect()
+    }
+
     /// Whether the model is undefined at a value of the one free parameter, as where a sample stands on an edge of a pulse.
     fn is_undefined_at(&self, value: &Rational, budget: &Budget) -> Result<bool, Error> {
         let mut values = self.set().to_vec();
@@ -102,6 +144,12 @@ impl Problem {
             found => found.map(|_| false),
         }
     }
+}
+
+fn too_many_samples(name: &str) -> Error {
+    let message =
+        format!("in the window of '{name}' a dead time is negative, or has many more whole samples than in its middle");
+    Diagnostic::error(Code::Usage, message).help(format!("ask about less of it: '-x {name}=LOW..HIGH'")).into()
 }
 
 fn is_at(end: &End, x: &Rational) -> bool {

@@ -114,6 +114,20 @@ impl BoxMap {
         BoxMap::new(window.clone(), Vec::new(), vec![whole], None)
     }
 
+    /// The boxes of parts that tile a window, without curves.
+    ///
+    /// ```
+    /// use jurist_stability::plane::boxes::{BoxMap, Window};
+    /// let side = |from: i64| [from, from + 1].map(jurist_algebra::number::Rational::from);
+    /// let parts = [0, 1].map(|from| BoxMap::nowhere_stable(&Window { x: side(from), y: side(0) }));
+    /// let whole = Window { x: [0, 2].map(jurist_algebra::number::Rational::from), y: side(0) };
+    /// assert_eq!(BoxMap::joined(whole, parts.into()).areas.unstable, 2.into());
+    /// ```
+    pub fn joined(window: Window, parts: Vec<BoxMap>) -> BoxMap {
+        let stopped = parts.iter().find_map(|part| part.stopped.clone());
+        BoxMap::new(window, Vec::new(), parts.into_iter().flat_map(|part| part.boxes).collect(), stopped)
+    }
+
     /// Boxes that tile a window, in any order.
     fn new(window: Window, curves: Vec<Curve>, mut boxes: Vec<PlaneBox>, stopped: Option<Stop>) -> BoxMap {
         boxes.sort_by_cached_key(|b| (b.window.x[0].clone(), b.window.y[0].clone()));
