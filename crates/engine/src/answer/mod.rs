@@ -17,6 +17,7 @@ mod roots_of_complex;
 mod sensitivity;
 mod sides;
 mod stable;
+mod stays;
 mod table;
 mod tolerance;
 mod verdict;
