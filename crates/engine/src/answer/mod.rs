@@ -14,6 +14,7 @@ mod plan;
 mod rightmost;
 mod roots;
 mod roots_of_complex;
+mod roots_on_boundary;
 mod sensitivity;
 mod sides;
 mod stable;
