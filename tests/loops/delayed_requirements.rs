@@ -100,6 +100,17 @@ fn many_turns_of_the_dead_time_are_looked_at() {
     }
 }
 
+/// The peak lies a hundred times below the frequencies up to which is looked. Its end stayed undecided in a bracket of 3e-12.
+#[test]
+#[ignore = "long: CI runs it"]
+fn an_end_far_below_the_other_frequencies_is_found() {
+    let model = series("K*(1 + 1/(59/10*s) + 9/10*s/(s/20 + 1))", "1/s*exp(-1/5*s)");
+    let found = set(&model, &[Requirement::complementary_peak(number("2")).unwrap()]);
+    assert!(found.undecided.len() <= 1 && found.intervals.len() == 1, "{:?}", found.undecided);
+    assert!(found.undecided.iter().all(|bracket| bracket.upper < Some(number("1e-12"))));
+    assert_eq!(found.intervals[0].lower.as_ref().unwrap().value().decimal(12), "0.0622812870101");
+}
+
 /// On both sides of each end, and at chance.
 #[test]
 fn sets_agree_with_decisions_at_points() {

@@ -37,6 +37,9 @@ const MOST_HALVINGS: u32 = 72;
 const CROSSING_HALVINGS: u32 = 36;
 const DISTANCE_HALVINGS: u32 = 18;
 
+/// Far below the frequencies up to which is looked a piece is halved until its frequency is this many times as large as it is wide.
+const WIDTHS_OF_FREQUENCY: i64 = 1 << 14;
+
 /// Where it is known that not all points of a box are seen to meet the requirement, so many pieces more are looked at for a crossing that
 /// none of them allows.
 const MOST_HOPELESS: usize = 96;
@@ -265,6 +268,7 @@ impl<A: Along> Asked<A> {
         let halvings = if self.crossing.is_some() { CROSSING_HALVINGS } else { DISTANCE_HALVINGS };
         let mut open: Vec<[Rational; 2]> = Vec::new();
         let most = 4 * (MOST_PIECES + self.more_pieces());
+        let widths = Rational::from(WIDTHS_OF_FREQUENCY);
         let look = |cell: &mut Cell<A::Piece>, tally: Tally| {
             if tally.looks() >= most {
                 return Ok(Look::Open(()));
@@ -275,7 +279,9 @@ impl<A: Along> Asked<A> {
             if !matches!(self.told(cell), Crossing::Unknown | Crossing::Forbidden) {
                 return Ok(Look::Decided(()));
             }
-            if cell.halvings < halvings {
+            let [lower, upper] = &cell.ends;
+            let is_wide = cell.halvings < CROSSING_HALVINGS && &(upper - lower) * &widths > *lower;
+            if cell.halvings < halvings || is_wide && !lower.is_zero() {
                 return Ok(Look::Cut(0));
             }
             open.push(cell.ends.clone());
