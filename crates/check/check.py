@@ -2376,7 +2376,8 @@ def check_tolerance(model, document, statement, values, discrete, extent):
         found = [len(own) - 1, *found, 0 if undefined else len(own) - 1 - sum(found)]
         found = half_of(found) if doubled else found
         need([*map(count, counts)] == found, f"beyond: the counts are {found}")
-        need(undefined or found[1] < found[0], "beyond: the point is stable")
+        is_zero = not undefined and len(own) == 1 and ring.vanish(own, point)  # no roots to count, and not stable
+        need(undefined or is_zero or found[1] < found[0], "beyond: the point is stable")
         of = "within the tolerances" if limit is None else f"the range of {limit} alone"
         sentence += f" At {at_values(dict(zip(names, point)))}, {of} times {exact(own_factor)}, it is not: "
         inside, on, outside, infinite = found[1:]

@@ -126,6 +126,20 @@ fn boxes_of_every_form_of_loop_are_certified() {
     }
 }
 
+/// Where the polynomial itself vanishes no root can be counted, also where its degree is 0 everywhere: the point is not stable all the same.
+#[test]
+fn a_point_at_which_the_polynomial_vanishes_is_beyond() {
+    let tolerance = "K = { nominal = 2, tolerance = '20%' }";
+    for (time, characteristic) in [("discrete", "K - 1"), ("continuous", "K - 1"), ("continuous", "(K - 1)*(s + 3)")] {
+        let text = model(time, tolerance, characteristic);
+        accept(&text, &emitted(&text));
+    }
+    // A constant other than zero is stable.
+    let text = model("discrete", tolerance, "K - 1");
+    let wrong = emitted(&text).replace("\"point\": [\"1\"]", "\"point\": [\"3/2\"]");
+    reject(&text, &wrong, Step::Stable);
+}
+
 #[test]
 fn boxes_in_other_regions_are_certified() {
     let request = |text: &str| ToleranceRequest::of_model(&read(text));

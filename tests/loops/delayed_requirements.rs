@@ -83,6 +83,34 @@ fn an_end_at_the_frequency_zero_is_exact() {
     assert_eq!(value.exact(), Some(number("3/2")));
 }
 
+/// The dead time turns a flat open loop round many times before it is small: every turn comes near to -1. All but the smallest gains stayed undecided
+/// once. The ends are those of `|1 + L|` and `|L/(1 + L)|` on a fine grid of frequencies.
+#[test]
+#[ignore = "long: CI runs it"]
+fn many_turns_of_the_dead_time_are_looked_at() {
+    let model = series("K*(1 + 1/(113/20*s) + 3/5*s/(s/20 + 1))", "(7/4*s + 1)/((1/4*s + 1)*(s + 1))*exp(-17/10*s)");
+    for (requirement, end) in [
+        (Requirement::modulus_margin(number("1/2")).unwrap(), "0.130966520105"),
+        (Requirement::complementary_peak(number("3/2")).unwrap(), "0.157159787864"),
+        (Requirement::gain_margin(&number("2")).unwrap(), "0.130966610874"),
+    ] {
+        let found = set(&model, &[requirement]);
+        assert!(found.undecided.is_empty() && found.intervals.len() == 1, "{:?}", found.undecided);
+        assert_eq!(found.intervals[0].upper.as_ref().unwrap().value().decimal(12), end);
+    }
+}
+
+/// The peak lies a hundred times below the frequencies up to which is looked. Its end stayed undecided in a bracket of 3e-12.
+#[test]
+#[ignore = "long: CI runs it"]
+fn an_end_far_below_the_other_frequencies_is_found() {
+    let model = series("K*(1 + 1/(59/10*s) + 9/10*s/(s/20 + 1))", "1/s*exp(-1/5*s)");
+    let found = set(&model, &[Requirement::complementary_peak(number("2")).unwrap()]);
+    assert!(found.undecided.len() <= 1 && found.intervals.len() == 1, "{:?}", found.undecided);
+    assert!(found.undecided.iter().all(|bracket| bracket.upper < Some(number("1e-12"))));
+    assert_eq!(found.intervals[0].lower.as_ref().unwrap().value().decimal(12), "0.0622812870101");
+}
+
 /// On both sides of each end, and at chance.
 #[test]
 #[ignore = "long: CI runs it"]

@@ -108,6 +108,27 @@ fn singular_polynomials() {
     assert!(matches!(zero, Err(Error::Undefined(_))));
 }
 
+/// How many roots are on the boundary is known exactly: those whose discs are on it are on it, and nothing is "within" of 0.
+#[test]
+fn roots_on_the_boundary_are_on_it() {
+    let shown = |found: Answer<Roots>| -> Vec<String> { found.value().list.iter().map(|root| root.text(12)).collect() };
+    let axis = roots(continuous("(s^2 + 2)^2*(s^2 + k)*(s + 1)", "nominal = 3").ask());
+    for root in &axis.value().list[..2] {
+        assert_eq!(root.real(), Enclosure::from_rational(number("0")));
+        assert_eq!(root.damping(60), Some(Enclosure::from_rational(number("0"))));
+    }
+    let expected = ["0 +- 1.73205080757 j", "0 +- 1.41421356237 j (2 times)", "-1"];
+    assert_eq!(shown(axis), expected);
+    let circle = roots(discrete("(z^2 - 1)*(z^2 - z + 1)*(2*z - k)", "nominal = 1").ask());
+    for root in &circle.value().list[..3] {
+        assert_eq!(root.magnitude(60), Enclosure::from_rational(number("1")));
+    }
+    assert_eq!(shown(circle)[..3], ["1", "0.500000000000 +- 0.866025403784 j", "-1"]);
+    // Next to the axis is not on it.
+    let beside = roots(continuous("s^2 + k*s + 1", "nominal = 1").ask().set("k", number("1e-40")));
+    assert!(beside.value().list[0].real().upper().is_negative());
+}
+
 /// -1 +- j sqrt(3) has the natural frequency 2 and the damping 1/2; its exponential is a root of the same loop sampled.
 #[test]
 fn damping_and_natural_frequency_by_hand() {

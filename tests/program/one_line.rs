@@ -198,3 +198,20 @@ fn a_title_says_no_name_twice() {
     assert_eq!(title("T")["title"], "K/(s*(s+1)) behind a hold");
     assert_eq!(title("2*T")["title"], "K/(s*(s+1)) behind a hold, T = 2*T");
 }
+
+/// A denominator inside of a fraction is a mode of its own. Where it keeps the loop from being stable, the answer names the root.
+#[test]
+fn a_root_that_stays_is_named() {
+    for (line, root) in [
+        ("K*(1+1/s)/(s+1/s)", "s = 0"),
+        ("K*(1+1/s)*exp(-6/5*s)/(s+1+K*(1+1/s)*(1-exp(-s)))", "s = 0"),
+        ("(z-1)*(z-K)", "z = 1"),
+        ("(z+1)*(z-K)", "z = -1"),
+    ] {
+        let run = jurist(&[line, "--param", "K"]);
+        assert!(run.stdout.contains(&format!("K: stable nowhere: a root stays at {root}\n")), "{}", run.stdout);
+    }
+    for line in ["s^2 + K", "z^2 - 2*K*z + 1"] {
+        assert!(jurist(&[line, "--param", "K"]).stdout.contains("K: stable nowhere\n"), "{line}");
+    }
+}

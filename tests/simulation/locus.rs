@@ -96,6 +96,21 @@ fn a_degree_that_is_lost_makes_a_gap_and_not_a_jump() {
     assert!(locus.to_csv("k").starts_with("k,re_1,im_1,re_2,im_2\n"));
 }
 
+/// Both roots of `(z - k)^2`, and those of `(z - k)(z - k - 10^-30)`, go together: no step is halved for their sake.
+#[test]
+fn roots_that_go_together_are_followed_in_few_steps() {
+    let tiny: Rational = "1e-30".parse().unwrap();
+    for apart in [ratio(0, 1), tiny] {
+        let of = |k: &Rational| {
+            let other = k + &apart;
+            let p = jurist_algebra::poly::Poly::new(vec![k * &other, -(k + &other), ratio(1, 1)]);
+            Some(UniPoly::from_rational_poly(&p).1)
+        };
+        let locus = trace_root_locus(of, &plain_options(), &Budget::unlimited()).unwrap();
+        assert!(locus.samples().count() < 2000, "{}", locus.samples().count());
+    }
+}
+
 #[test]
 fn a_budget_ends_the_tracing() {
     let none = spent();

@@ -40,6 +40,30 @@ fn the_drive_in_words() {
     }
 }
 
+/// At `l = 0` two roots are at infinity, and beyond one of them is right of the axis: the words are those of the point.
+#[test]
+fn roots_at_infinity_are_called_that() {
+    let crane = "l*s^4 + 3*l*s^3 + (l + 40)*s^2 + 27*s + 5";
+    let run = jurist(&["tolerance", crane, "--set", "l=12", "--tol", "l=8..16"]);
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    assert!(run.stdout.contains("infinity, 2 roots at infinity there\n"), "{}", run.stdout);
+    assert!(!run.stdout.contains("just beyond"), "{}", run.stdout);
+}
+
+/// Nothing bounds the factor, or the values above: no number that is only where the search ended looks like a limit.
+#[test]
+fn where_no_end_was_found_the_words_say_so() {
+    let run = jurist(&["tolerance", "s + 1 + a^2", "--set", "a=1", "--tol", "a=50%", "--exact"]);
+    assert!(run.stdout.contains("they can grow    1024 <= factor; no worse point was found\n"), "{}", run.stdout);
+    let words = "note: the factor is not proved as an exact number: no point was found that bounds it";
+    assert!(run.stderr.contains(words), "{}", run.stderr);
+    let asked = ["tolerance", "s + K*b", "--set", "K=1", "--set", "b=1", "--tol", "b=10%", "--limit", "K"];
+    let run = jurist(&asked);
+    assert!(run.stdout.contains("    above 1025: no value was found that is not stable\n"), "{}", run.stdout);
+    let run = jurist(&[&asked[..], &["--domain", "K=..8"]].concat());
+    assert!(run.stdout.contains("; its domain ends at 8\n"), "{}", run.stdout);
+}
+
 #[test]
 fn the_drive_as_a_document() {
     let document = document(&["tolerance", "--tol", EIGHT], 0);

@@ -100,6 +100,14 @@ fn the_loss_of_a_bracket_is_an_upper_one() {
     assert!(status == 0 && share > 0.0 && share < 11.5, "{out}");
 }
 
+/// Next to zero a share of the best value says nothing: it was 59400 % once.
+#[test]
+fn next_to_zero_a_bracket_has_no_share() {
+    let (status, out, _) =
+        told(&["(s+a)*(s+k)", "--free", "k", "--bound", "k=0..10", "--objective", "min k", "--for-all", "a=1..2"]);
+    assert!(status == 0 && out.contains("type in k = ") && !out.contains('%'), "{out}");
+}
+
 /// Wherever the work ends, what is known is said.
 #[test]
 #[ignore = "long: CI runs it"]

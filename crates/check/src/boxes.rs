@@ -247,7 +247,9 @@ impl Statement {
         if beyond.counts != [n, inside, on, outside, infinite] {
             return Err(verdict::told_counts([n, inside, on, outside, infinite]));
         }
-        if !is_undefined && on + outside + infinite == 0 {
+        // The zero polynomial of degree 0 has no roots to count, and is not stable.
+        let is_zero = !is_undefined && n == 0 && ground.vanish_at(d, &beyond.point, clock)?;
+        if !is_undefined && !is_zero && on + outside + infinite == 0 {
             return Err("the point beyond is stable".into());
         }
         Ok(())

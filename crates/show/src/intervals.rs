@@ -1,6 +1,7 @@
 //! The stable set of one parameter.
 
 use super::layout::{Columns, fraction, headline, named_values, short, visible};
+use super::map::never_stable_text;
 use super::margins::margin;
 use super::{real, region};
 use crate::Text;
@@ -59,7 +60,10 @@ pub fn answer_lines(problem: &Problem, set: Result<&StableSet, &Exhausted>, digi
             format!("{asked}: {goal} nowhere, undefined for every {name}\n")
         }
         Ok(set) if set.is_empty() => {
-            format!("{asked}: {goal} {}\n{}", nowhere(set.undecided()), undecided_lines(set.undecided(), digits))
+            let why = problem.root_that_stays().filter(|_| set.undecided().is_empty());
+            let why = why.map(|cause| never_stable_text(cause.name())).unwrap_or_default();
+            let undecided = undecided_lines(set.undecided(), digits);
+            format!("{asked}: {goal} {}{why}\n{undecided}", nowhere(set.undecided()))
         }
         Ok(set) => {
             let mut out = format!("{asked}: {goal} for\n");

@@ -179,7 +179,7 @@ impl Shown<'_> {
                 let _ = writeln!(out, "{label} {lower} < factor <= {}", at_least(upper, digits));
             }
             None => {
-                let _ = writeln!(out, "they can grow    {lower} <= factor at least; no worse point was found");
+                let _ = writeln!(out, "they can grow    {lower} <= factor; no worse point was found");
             }
         }
         if let Some(exact) = &self.answer.exact {
@@ -224,7 +224,7 @@ impl Shown<'_> {
         }
     }
 
-    /// `, 2 roots outside just beyond`
+    /// `, 2 roots outside just beyond`; `, 1 root at infinity there` where the degree is lost.
     fn beyond(&self, witness: &Witness) -> String {
         let Some(at) = &witness.at else { return String::new() };
         let own = PointVerdict::of_witness(witness, self.problem);
@@ -232,14 +232,21 @@ impl Shown<'_> {
             return match (right, on) {
                 (Some(0), 0) => String::new(),
                 (Some(0), _) => ", on the boundary there".to_owned(),
-                (Some(n), _) => format!(", {n} {} to the right just beyond", if n == 1 { "root" } else { "roots" }),
+                (Some(n), _) => format!(", {} to the right just beyond", number_of_roots(n)),
                 (None, _) => ", infinitely many roots to the right just beyond".to_owned(),
             };
         }
         match (at, own.count) {
-            (AtPoint::Defined { .. }, Some(count)) if count.outside + own.infinite > 0 => {
-                let n = count.outside + own.infinite;
-                format!(", {n} {} outside just beyond", if n == 1 { "root" } else { "roots" })
+            (AtPoint::Defined { .. }, Some(count)) if own.infinite > 0 => {
+                let beside = if count.outside > 0 {
+                    format!(", {} outside", number_of_roots(count.outside))
+                } else {
+                    String::new()
+                };
+                format!("{beside}, {} at infinity there", number_of_roots(own.infinite))
+            }
+            (AtPoint::Defined { .. }, Some(count)) if count.outside > 0 => {
+                format!(", {} outside just beyond", number_of_roots(count.outside))
             }
             (AtPoint::Defined { .. }, Some(count)) if count.on > 0 => format!(", {} on the boundary there", count.on),
             (AtPoint::Undefined, _) => ", undefined there".to_owned(),
@@ -294,7 +301,10 @@ impl Shown<'_> {
             at_most(&upper.safe, digits)
         );
         for (side, is_upper) in [(lower, false), (upper, true)] {
-            let Some(value) = &side.unsafe_at else { continue };
+            let Some(value) = &side.unsafe_at else {
+                let _ = writeln!(out, "    {}", self.no_end(name, &side.safe, is_upper));
+                continue;
+            };
             let shown = if is_upper { at_least(value, digits) } else { at_most(value, digits) };
             let what = side.worst.as_ref().map(end_words).unwrap_or_default();
             let direction = side.factor.direction.as_deref().unwrap_or_default();
@@ -303,6 +313,27 @@ impl Shown<'_> {
         }
         out
     }
+
+    /// What is said of a side on which no value is known that is not stable.
+    fn no_end(&self, name: &str, safe: &Rational, is_upper: bool) -> String {
+        let domain = self.problem.free().iter().find(|free| free.name == name).map(|free| &free.domain);
+        let end = domain.and_then(|domain| if is_upper { domain.upper.as_ref() } else { domain.lower.as_ref() });
+        let digits = self.digits.min(12);
+        let shown = if is_upper { at_most(safe, digits) } else { at_least(safe, digits) };
+        let side = if is_upper { "above" } else { "below" };
+        match end {
+            Some(end) if end == safe => format!("{shown} is the end of its domain"),
+            Some(end) => {
+                format!("{side} {shown}: no value was found that is not stable; its domain ends at {}", short(end))
+            }
+            None => format!("{side} {shown}: no value was found that is not stable"),
+        }
+    }
+}
+
+/// `1 root`, `2 roots`.
+fn number_of_roots(n: usize) -> String {
+    format!("{n} {}", if n == 1 { "root" } else { "roots" })
 }
 
 /// `+`, `-` or `inside`.

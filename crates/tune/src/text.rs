@@ -273,8 +273,17 @@ impl TuneAnswer {
         };
         let best = Reading::of(&self.asked).enclosure(&best, 64)?.lower().clone();
         let lost = (&best - value).abs();
-        if lost.is_zero() { Some(lost) } else { lost.checked_div(&best.abs()) }
+        if lost.is_zero() {
+            return Some(lost);
+        }
+        // Next to zero a bracket knows of no share.
+        let knows_share = |lost: &Rational| is_exact_value(&optimum.value) || *lost < Rational::ONE;
+        lost.checked_div(&best.abs()).filter(knows_share)
     }
+}
+
+fn is_exact_value(value: &Best) -> bool {
+    matches!(value, Best::Exact(_))
 }
 
 /// A requirement that a region is, as a relation.

@@ -14,7 +14,7 @@ use crate::cli::requirements::RequirementOptions;
 use crate::cli::status::{Error, Outcome, Status};
 use crate::cli::written::certify;
 use clap::Args;
-use jurist_algebra::limits::Exhausted;
+use jurist_algebra::limits::{Exhausted, apart};
 use jurist_algebra::number::{Rational, to_decimal};
 use jurist_draw::figures::tolerance_figure;
 use jurist_engine::answer::{Answer, ToleranceAnswer, ToleranceRequest};
@@ -76,6 +76,9 @@ const MOST_DIGITS: u32 = 18;
 const NO_EXACT_NUMBER: &str =
     "the factor is not proved as an exact number; it is in the bracket, which is as narrow as --digits says, up to 18";
 
+/// The same where no point is known that bounds the factor.
+const NO_END: &str = "the factor is not proved as an exact number: no point was found that bounds it";
+
 impl Runs for Options {
     fn run(&self, context: &Context) -> Outcome {
         let output = &self.decision.output;
@@ -99,7 +102,7 @@ impl Runs for Options {
                 for name in request.tolerances.iter().map(|(name, _)| name).chain(ranges) {
                     open = open.without_value(name).free(name);
                 }
-                let problem = open.problem()?;
+                let problem = apart(|| open.problem())?;
                 let text = || Some(begun.rest_of(tolerance_text(&problem, Err(&stopped), digits)));
                 return context
                     .undecided(output, &stopped, text, || documents::Tolerance::new(&problem, Err(&stopped), digits));
@@ -112,9 +115,11 @@ impl Runs for Options {
                 visible(name)
             ));
         }
-        let has_no_number = self.exact && answer.value().factor.is_some() && answer.value().exact.is_none();
-        if has_no_number && !context.quiet {
-            note(&format!("note: {NO_EXACT_NUMBER}"));
+        if let (true, Some(factor), None, false) =
+            (self.exact, &answer.value().factor, &answer.value().exact, context.quiet)
+        {
+            let why = if factor.upper.is_some() { NO_EXACT_NUMBER } else { NO_END };
+            note(&format!("note: {why}"));
         }
         let question = request
             .requirements

@@ -89,6 +89,9 @@ const SHARE_OF_DISTANCE: f64 = 0.08;
 /// and by this share of the reach at most.
 const SHARE_OF_REACH: f64 = 0.02;
 
+/// Steps and separations of this share of the reach are not looked into.
+const FINEST_STEP: f64 = 1e-9;
+
 impl RootLocus {
     /// The branches, piece by piece.
     pub fn branches(&self) -> Vec<Branch> {
@@ -261,17 +264,20 @@ impl<F: Fn(&Rational) -> Option<UniPoly>> Tracer<'_, F> {
 
     fn is_smooth(&self, old: &[Complex<f64>], new: &[Complex<f64>]) -> bool {
         let o = self.options;
+        let finest = FINEST_STEP * o.reach;
         (0..old.len()).all(|i| {
             let moved = (new[i] - old[i]).norm();
+            // Roots that go together may be exchanged: nobody sees it.
+            let is_other = |&j: &usize| j != i && [old, new].iter().any(|list| (list[j] - list[i]).norm() > finest);
             let others = |list: &[Complex<f64>]| {
-                (0..list.len()).filter(|&j| j != i).map(|j| (list[j] - list[i]).norm()).fold(f64::INFINITY, f64::min)
+                (0..list.len()).filter(is_other).map(|j| (list[j] - list[i]).norm()).fold(f64::INFINITY, f64::min)
             };
             let separation = others(old).min(others(new));
             let distance = (old[i] - o.focus).norm().min((new[i] - o.focus).norm());
             if distance > 2.0 * o.reach {
                 return moved <= 0.5 * distance;
             }
-            moved <= (SHARE_OF_SEPARATION * separation).max(1e-9 * o.reach)
+            moved <= (SHARE_OF_SEPARATION * separation).max(finest)
                 && moved <= (SHARE_OF_DISTANCE * distance).min(SHARE_OF_REACH * o.reach).max(1e-6 * o.reach)
         })
     }

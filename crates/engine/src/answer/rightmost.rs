@@ -30,7 +30,7 @@ pub(super) fn rightmost(
         WithDelay::Over(constants) => rightmost_roots_over(constants, tau, wanted, narrow, budget).map(Some),
     };
     let found = found.map_err(not_counted)?.ok_or_else(|| ADVANCED.diagnostic(&[]))?;
-    let root = |disc| ClosedLoopRoot { disc, time: Time::Continuous, period: None };
+    let root = |disc| ClosedLoopRoot { disc, time: Time::Continuous, period: None, is_on_boundary: false };
     let beyond = BeyondRoots { wanted, others_left_of: found.others_left_of, chain: found.chain };
     let list = found.list.into_iter().map(root).collect();
     Ok(Roots { degree, infinite: 0, list, beyond: Some(beyond) })

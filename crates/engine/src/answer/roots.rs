@@ -3,10 +3,12 @@
 use super::Answer;
 use super::rightmost::{WithDelay, rightmost};
 use super::roots_of_complex::{rightmost_of_complex, roots_of_complex};
+use super::roots_on_boundary::{number, tell_boundary};
 use crate::error::Error;
 use crate::model::{Time, quotient_at};
 use crate::precisions::ROOTS;
 use crate::problem::{BaseDelay, DelayedLoop, Problem, exact_or_enclosed};
+use crate::stability::count_roots;
 use jurist_algebra::ball::Ball;
 use jurist_algebra::limits::{Budget, checkpoint};
 use jurist_algebra::number::{Enclosure, Rational};
@@ -66,12 +68,20 @@ pub struct ClosedLoopRoot {
     pub(super) time: Time,
     /// From one sample to the next, of a discrete loop that says it; of several rates the hyperperiod.
     pub(super) period: Option<Rational>,
+    /// Whether it is known to be on the unit circle, or on the imaginary axis.
+    pub(super) is_on_boundary: bool,
 }
 
 impl ClosedLoopRoot {
     /// The real part.
     pub fn real(&self) -> Enclosure {
-        around(&self.disc.re, &self.disc.radius)
+        match self.time {
+            Time::Continuous if self.is_on_boundary => Enclosure::from_rational(Rational::ZERO),
+            Time::Discrete if self.is_on_boundary && self.disc.im.is_zero() => {
+                Enclosure::from_rational(if self.disc.re.is_negative() { -Rational::ONE } else { Rational::ONE })
+            }
+            _ => around(&self.disc.re, &self.disc.radius),
+        }
     }
 
     /// The imaginary part: 0 of a real root, positive of a pair, of either sign of one complex root.
@@ -85,6 +95,9 @@ impl ClosedLoopRoot {
 
     /// The magnitude, computed with so many bits; its width is that of the disc.
     pub fn magnitude(&self, bits: u64) -> Enclosure {
+        if self.is_on_boundary && self.time == Time::Discrete {
+            return Enclosure::from_rational(Rational::ONE);
+        }
         let (re, im) = (self.real(), self.imaginary());
         if im.upper().is_zero() && im.lower().is_zero() {
             return absolute(&re);
@@ -146,6 +159,8 @@ impl ClosedLoopRoot {
     /// What the roots are ordered by, the slowest first.
     fn slowness(&self) -> Rational {
         match self.time {
+            Time::Continuous if self.is_on_boundary => Rational::ZERO,
+            Time::Discrete if self.is_on_boundary => Rational::ONE,
             Time::Continuous => self.disc.re.clone(),
             Time::Discrete => &self.disc.re * &self.disc.re + &self.disc.im * &self.disc.im,
         }
@@ -236,13 +251,18 @@ impl Problem {
             |budget| self.roots_by_matrix(&narrow, budget),
         )?;
         budget.step("enclosing the roots");
+        let mut exact = None;
         let discs = match polynomial {
             Polynomial::Exact(p) if p.coeffs().is_empty() => {
                 return Err(Error::Undefined(
                     "the characteristic polynomial is zero, so that every number is a root".into(),
                 ));
             }
-            Polynomial::Exact(p) => complex_roots(&p, &narrow, budget)?,
+            Polynomial::Exact(p) => {
+                let discs = complex_roots(&p, &narrow, budget)?;
+                exact = Some(p);
+                discs
+            }
             Polynomial::Enclosed(discs) => discs,
             Polynomial::Delayed(p, tau) => {
                 let with_conjugates = |radius: &Rational| rightmost(&p, &tau, wanted, radius, degree, budget);
@@ -254,9 +274,12 @@ impl Problem {
                 return Ok(Answer::new(Arc::clone(self), roots));
             }
         };
-        let found: usize = discs.iter().map(|d| if d.is_pair { 2 * d.count } else { d.count }).sum();
-        let root = |disc| ClosedLoopRoot { disc, time, period: period.clone() };
+        let found: usize = discs.iter().map(number).sum();
+        let root = |disc| ClosedLoopRoot { disc, time, period: period.clone(), is_on_boundary: false };
         let mut list: Vec<ClosedLoopRoot> = discs.into_iter().map(root).collect();
+        if let Some(p) = exact {
+            tell_boundary(&mut list, || budget.enter(|| count_roots(&p, self.shape()).on))?;
+        }
         list.sort_by_cached_key(|root| {
             std::cmp::Reverse((root.slowness(), root.disc.re.clone(), root.disc.im.clone()))
         });

@@ -11,6 +11,11 @@ use jurist_algebra::ball::{Ball, cos_sin};
 use jurist_algebra::number::{Integer, Rational};
 use std::sync::{Arc, OnceLock};
 
+/// For each radian by which the dead time turns so many pieces more are looked at, up to a number of radians as a power of two. Without them a PID loop
+/// that turns by 60 radians was left open over half of its stable gains after 4 s; with them it is decided in 3 s, with twice as many in 4 s.
+const PIECES_OF_RADIAN: usize = 8;
+const MOST_RADIANS: u64 = 8;
+
 /// Bits of cosines and sines.
 const WAVE_BITS: u64 = 44;
 
@@ -253,6 +258,10 @@ impl Along for AlongAxis {
     fn on(&self, ends: [&Rational; 2]) -> AxisPiece {
         AxisPiece::new(ends.map(Clone::clone), self.parts_on(ends), &self.turn, None)
     }
+
+    fn more_pieces(&self) -> usize {
+        PIECES_OF_RADIAN << self.turn.exponent.min(MOST_RADIANS)
+    }
 }
 
 impl OnPiece for AxisPiece {
@@ -266,6 +275,11 @@ impl OnPiece for AxisPiece {
 
     fn is_blurred(&self) -> bool {
         Patch::are_blurred(&self.parts)
+    }
+
+    /// On a long piece the cosine and the sine are any numbers.
+    fn is_coarse(&self) -> bool {
+        is_near(&self.ends[1]) && self.whole().1.is_none() && !self.parts[1..].iter().all(Patch::is_nothing)
     }
 }
 

@@ -37,6 +37,9 @@ const MOST_HALVINGS: u32 = 72;
 const CROSSING_HALVINGS: u32 = 36;
 const DISTANCE_HALVINGS: u32 = 18;
 
+/// Far below the frequencies up to which is looked a piece is halved until its frequency is this many times as large as it is wide.
+const WIDTHS_OF_FREQUENCY: i64 = 1 << 14;
+
 /// Where it is known that not all points of a box are seen to meet the requirement, so many pieces more are looked at for a crossing that
 /// none of them allows.
 const MOST_HOPELESS: usize = 96;
@@ -67,6 +70,11 @@ pub(super) trait Along {
 
     /// The function on a piece, or at a point where the ends are the same.
     fn on(&self, ends: [&Rational; 2]) -> Self::Piece;
+
+    /// So many pieces are looked at beside the usual ones.
+    fn more_pieces(&self) -> usize {
+        0
+    }
 }
 
 /// A function on a piece.
@@ -77,6 +85,10 @@ pub(super) trait OnPiece: Halves + Clone {
     fn first(&self) -> Self;
     /// Whether so many digits are lost that the piece is to be computed again.
     fn is_blurred(&self) -> bool;
+    /// Whether the piece is so long that not even the value at its end is told.
+    fn is_coarse(&self) -> bool {
+        false
+    }
 }
 
 /// What is known of a crossing on a piece.
@@ -135,6 +147,10 @@ impl<P: OnPiece> Cell<P> {
     fn is_blurred(&self) -> bool {
         self.crossing.iter().chain(&self.signs).any(P::is_blurred)
     }
+
+    fn is_coarse(&self) -> bool {
+        self.crossing.iter().chain(&self.signs).any(P::is_coarse)
+    }
 }
 
 impl<P: OnPiece> Halves for Cell<P> {
@@ -189,8 +205,10 @@ impl<A: Along> Asked<A> {
         let mut pieces: Vec<Piece> = Vec::new();
         // The number of the look that showed that not all points of the box meet the requirement, or that this is not seen.
         let mut hopeless = None;
+        let more = self.more_pieces();
         let look = |cell: &mut Cell<A::Piece>, tally: Tally| {
-            let most = hopeless.map_or(MOST_PIECES, |first| MOST_PIECES.min(first + MOST_HOPELESS));
+            let all = MOST_PIECES + more;
+            let most = hopeless.map_or(all, |first| all.min(first + MOST_HOPELESS + more));
             if tally.looks() >= most {
                 return Ok(Look::Open(None));
             }
@@ -202,7 +220,8 @@ impl<A: Along> Asked<A> {
                 return Ok(Look::Open(Some(false)));
             }
             if here == Crossing::Unknown && cell.halvings < MOST_HALVINGS {
-                if hopeless.is_none() && self.told(&cell.lower_end()) == Crossing::Unknown {
+                let is_hopeless = || !cell.is_coarse() && self.told(&cell.lower_end()) == Crossing::Unknown;
+                if hopeless.is_none() && is_hopeless() {
                     hopeless = Some(tally.looks());
                 }
                 return Ok(Look::Cut(0));
@@ -248,8 +267,10 @@ impl<A: Along> Asked<A> {
         // The least distance to a circle is looked for where it hardly changes.
         let halvings = if self.crossing.is_some() { CROSSING_HALVINGS } else { DISTANCE_HALVINGS };
         let mut open: Vec<[Rational; 2]> = Vec::new();
+        let most = 4 * (MOST_PIECES + self.more_pieces());
+        let widths = Rational::from(WIDTHS_OF_FREQUENCY);
         let look = |cell: &mut Cell<A::Piece>, tally: Tally| {
-            if tally.looks() >= 4 * MOST_PIECES {
+            if tally.looks() >= most {
                 return Ok(Look::Open(()));
             }
             if cell.is_blurred() {
@@ -258,7 +279,9 @@ impl<A: Along> Asked<A> {
             if !matches!(self.told(cell), Crossing::Unknown | Crossing::Forbidden) {
                 return Ok(Look::Decided(()));
             }
-            if cell.halvings < halvings {
+            let [lower, upper] = &cell.ends;
+            let is_wide = cell.halvings < CROSSING_HALVINGS && &(upper - lower) * &widths > *lower;
+            if cell.halvings < halvings || is_wide && !lower.is_zero() {
                 return Ok(Look::Cut(0));
             }
             open.push(cell.ends.clone());
@@ -275,6 +298,11 @@ impl<A: Along> Asked<A> {
             }
         }
         Some(out)
+    }
+
+    /// So many pieces are looked at beside the usual ones.
+    fn more_pieces(&self) -> usize {
+        self.crossing.iter().chain(&self.signs).map(A::more_pieces).max().unwrap_or(0)
     }
 
     fn cell(&self, ends: &[Rational; 2], halvings: u32) -> Cell<A::Piece> {

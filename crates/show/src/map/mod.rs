@@ -8,6 +8,7 @@ mod text;
 pub use body::{body_rows, body_sentences};
 pub use boxes::{for_all_text, map_boxes_text};
 pub use text::map_text;
+pub(super) use text::never_stable_text;
 
 use jurist_algebra::real::Real;
 use jurist_engine::problem::Free;

@@ -71,7 +71,7 @@ pub(super) fn axis_text(axis: &Free) -> String {
     }
 }
 
-pub(super) fn never_stable_text(cause: &str) -> &'static str {
+pub(crate) fn never_stable_text(cause: &str) -> &'static str {
     match cause {
         "undefined" => ": the loop is undefined for all values of both",
         "z=1" => ": a root stays at z = 1",

@@ -91,7 +91,7 @@ fn scale(figure: &LocusFigure<'_>, crossings: &[(f64, f64)]) -> f64 {
     let farthest_crossing = crossings.iter().map(size).fold(0.0, f64::max);
     // Marks are poles and zeros; where the gain begins at 0, a root of the first sample may be as near to 0 as it is small.
     let farthest_mark = marks(figure).map(|z| size(&z)).filter(|r| r.is_finite()).fold(0.0, f64::max);
-    let is_slow = |r: &f64| *r > farthest_mark * LEAST_SHARE;
+    let is_slow = |r: &f64| r.is_finite() && *r > farthest_mark * LEAST_SHARE;
     let of_marks = marks(figure).map(|z| size(&z)).filter(is_slow).min_by(f64::total_cmp);
     let first = figure.locus.samples().next();
     let of_roots = || first.and_then(|s| s.roots.iter().map(|z| z.norm()).filter(|r| *r > 0.0).min_by(f64::total_cmp));
@@ -166,6 +166,13 @@ mod tests {
     fn a_crossing_at_the_origin_does_not_shrink_the_picture() {
         let (whole, _, outside) = windows(Time::Continuous, &[(0.0, 0.0)], &[(-0.5, 0.87), (-0.5, -0.87), (0.0, 0.0)]);
         assert!(whole.half > 0.8 && outside == 0, "{whole:?}");
+    }
+
+    /// The root of `s + 10^500 K` is beyond the largest double.
+    #[test]
+    fn a_mark_beyond_all_doubles_says_nothing_of_the_size() {
+        let (whole, near, outside) = windows(Time::Continuous, &[(0.0, 0.0)], &[(f64::NEG_INFINITY, 0.0), (0.0, 0.0)]);
+        assert!(whole.half.is_finite() && near.half.is_finite() && outside == 1, "{whole:?}");
     }
 
     #[test]
