@@ -4,7 +4,7 @@ use super::{Answer, PointVerdict};
 use crate::error::{Code, Error};
 use crate::problem::{Problem, Question};
 use crate::stability::StableSet;
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, apart};
 use std::sync::Arc;
 
 /// The verdict at the nominal point and the stable set of each parameter, the others nominal; each is decided or has
@@ -75,7 +75,8 @@ impl Question {
         let mut sets = Vec::new();
         for parameter in &open {
             if without_value.iter().all(|missing| missing.name == parameter.name) {
-                let problem = self.clone().free(&parameter.name).problem()?;
+                // A part is named as well where the budget ended before it.
+                let problem = apart(|| self.clone().free(&parameter.name).problem())?;
                 let set = open_in_functions(Problem::stable_set(&problem, budget).map(Answer::into_value));
                 let set = stopped(set)?;
                 sets.push((problem, set));
