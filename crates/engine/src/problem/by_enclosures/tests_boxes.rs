@@ -51,7 +51,7 @@ fn free(model: &Arc<Model>, names: &[&str]) -> Arc<Problem> {
 }
 
 /// The coefficients of the monic polynomial at a point.
-fn at(algebra: &Algebra, point: &[&str]) -> Vec<Ball> {
+pub(super) fn at(algebra: &Algebra, point: &[&str]) -> Vec<Ball> {
     let symbols = parametric_symbols(algebra.symbols()).unwrap();
     let point: Vec<Series> = point.iter().map(|x| Series::constant(&Ball::from_rational(&number(x), 256), 1)).collect();
     let values = symbols.values(&point).unwrap();
