@@ -288,13 +288,15 @@ fn window(problem: &Problem, set: &LineSet<'_>) -> [Rational; 2] {
     }
 }
 
-/// The window of a set that says how far it was looked for.
+/// The window of a set that says how far it was looked for; where it says so of no end, one that contains the finite ends.
 fn looked_at(problem: &Problem, set: &LineSet<'_>) -> [Rational; 2] {
     let domain = &problem.parameter().domain;
+    let [low, high] = window(problem, set);
     let below = set.undecided.iter().find(|b| b.lower.is_none()).and_then(|b| b.upper.clone());
     let above = set.undecided.iter().find(|b| b.upper.is_none()).and_then(|b| b.lower.clone());
-    let ends = [below.or_else(|| domain.lower.clone()), above.or_else(|| domain.upper.clone())];
-    ends.map(|end| end.expect("the domain has an end, or the set says where nothing is known"))
+    let ends =
+        [below.or_else(|| domain.lower.clone()).unwrap_or(low), above.or_else(|| domain.upper.clone()).unwrap_or(high)];
+    if ends[0] < ends[1] { ends } else { window(problem, set) }
 }
 
 /// A number with two digits, not below this positive one: what is added is more than what rounding takes off.
