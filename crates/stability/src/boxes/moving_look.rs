@@ -2,6 +2,7 @@
 
 use super::look::{BoxLook, MOST_CORNERS};
 use super::moving::{MovingPolynomial, POINT_BITS};
+use super::moving_prove::MODEL_TERMS;
 use super::parts::{corners, middle};
 use super::prove::{closed_by_vector, scale_of};
 use crate::symbolic::certain_count;
@@ -21,27 +22,33 @@ pub(super) const CELLS: usize = 96;
 const CELLS_PER_BIT: usize = 6;
 const MOST_BITS: u64 = 64;
 
-/// No more is remembered of points and of sides: a model of two parameters takes some hundred kilobytes.
-const MOST_KNOWN: usize = 1 << 10;
+/// No more is remembered of points and of sides.
+const MOST_KNOWN: usize = 1 << 16;
+
+/// So many coefficients of models are remembered: some hundred megabytes.
+const MOST_COEFFICIENTS: usize = 1 << 22;
 
 /// What was found for a key; `None` where there is nothing.
-struct Memory<K, V>(Mutex<HashMap<K, Option<Arc<V>>>>);
+struct Memory<K, V> {
+    known: Mutex<HashMap<K, Option<Arc<V>>>>,
+    most: usize,
+}
 
-impl<K, V> Default for Memory<K, V> {
-    fn default() -> Self {
-        Memory(Mutex::default())
+impl<K, V> Memory<K, V> {
+    fn of(most: usize) -> Self {
+        Memory { known: Mutex::default(), most }
     }
 }
 
 impl<K: Eq + Hash, V> Memory<K, V> {
     fn get(&self, key: K, find: impl FnOnce() -> Option<V>) -> Option<Arc<V>> {
-        let known = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(found) = known().get(&key) {
             return found.clone();
         }
         let found = find().map(Arc::new);
         let mut known = known();
-        if known.len() >= MOST_KNOWN {
+        if known.len() >= self.most {
             known.clear();
         }
         known.insert(key, found.clone());
@@ -95,7 +102,9 @@ pub struct MovingLooks<P> {
 impl<P: Deref<Target = MovingPolynomial>> MovingLooks<P> {
     /// Nothing is known yet.
     pub fn of(p: P) -> Self {
-        MovingLooks { p, models: Memory::default(), points: Memory::default() }
+        let coefficients = p.functions.iter().map(Vec::len).sum::<usize>().max(1) * MODEL_TERMS;
+        let models = Memory::of((MOST_COEFFICIENTS / coefficients).clamp(1, MOST_KNOWN));
+        MovingLooks { p, models, points: Memory::of(MOST_KNOWN) }
     }
 
     /// Whether all points of a box are stable, or none is; `None` where that is not seen. More cells are looked at in smaller boxes: next to a
