@@ -3,15 +3,17 @@
 
 use crate::helpers::loops::agrees_with_radius;
 use crate::helpers::model::{example_text, read};
+use crate::helpers::number::number;
 use crate::helpers::program::jurist_with_input;
 use crate::helpers::random::Random;
 use crate::helpers::thorough::{count, tried};
 use jurist::Ask;
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
+use jurist_engine::answer::Verdict;
 use jurist_engine::error::{Code, Source};
 use jurist_engine::model::Model;
-use jurist_engine::stability::StableSet;
+use jurist_engine::stability::{Range, StableSet};
 use nalgebra::DMatrix;
 
 fn set(text: &str, name: &str) -> StableSet {
@@ -299,4 +301,22 @@ fn a_sample_time_of_a_block_is_a_multiple_whatever_constants_are() {
     assert_eq!(diagnostics.code(), Code::NotANumber, "a constant that depends on another one is not set");
     let unknown = Model::from_toml(&Source::new("model.toml", text("10*Ts")));
     assert_eq!(unknown.unwrap_err().code(), Code::UnknownName);
+}
+
+/// A constant of the plant of a cascade at two rates did not end. Ends were found by events in floating point, stepped one by one.
+#[test]
+fn a_constant_of_the_plant_of_a_cascade_at_two_rates_has_its_set() {
+    let text = example_text("drive-two-rates");
+    for (name, [unstable, stable]) in [("J", ["0.01288694", "0.01288696"]), ("L_a", ["0.0091555", "0.0091556"])] {
+        let question = read(&text).ask().set("K_ps", 20).free(name);
+        let domain = ["0.006", "0.3"].map(|x| number(x));
+        let set = question.domain(name, Range::between(Some(domain[0].clone()), Some(domain[1].clone())));
+        let set = set.stable_set(&Budget::unlimited()).unwrap_or_else(|e| panic!("{e}")).into_value();
+        assert!(set.undecided().is_empty() && set.intervals().len() == 1, "{name}: {set:?}");
+        assert_eq!([unstable, stable, "0.2"].map(|x| set.contains(&number(x))), [false, true, true], "{name}");
+        for x in [unstable, stable] {
+            let verdict = read(&text).ask().set("K_ps", 20).set(name, number(x)).verdict(&Budget::unlimited()).unwrap();
+            assert_eq!(verdict.value().verdict == Verdict::Stable, x == stable, "{name} = {x}");
+        }
+    }
 }

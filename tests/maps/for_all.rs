@@ -419,3 +419,32 @@ fn an_end_at_which_the_search_stopped_is_no_end_of_the_domain() {
     assert!(run.stdout.contains("\n    0.5 < K <= "), "{}", run.stdout);
     assert_eq!(interval["lower"]["closed"], false, "{document}");
 }
+
+/// Behind a hold the worst value is an end of its range. The exact set there bounds the set for all values: no bracket was left between values that are
+/// spoiled, and nothing beyond the window is open.
+#[test]
+fn an_end_that_a_corner_spoils_is_next_to_its_exact_end() {
+    let model = load(&example_text("drive-hold"));
+    let range = ["0.8", "1.2"];
+    let all = vec![AllOf::new("R_a", number(range[0]), number(range[1])).unwrap()];
+    let found = MapForAll::new(all).intervals(model.ask().free("K_pwm"), &Budget::unlimited()).unwrap();
+    let set = found.value();
+    assert!(set.intervals.len() == 1 && set.undecided.len() == 2, "{set:?}");
+    let of = |value: Rational| {
+        let answer = model.ask().set("R_a", value).free("K_pwm").stable_set(&Budget::unlimited()).unwrap();
+        let interval = answer.value().intervals()[0].clone();
+        [interval.lower, interval.upper].map(|end| end.expect("two ends").value)
+    };
+    let (own, bounds) = (&set.intervals[0], [&set.undecided[0], &set.undecided[1]]);
+    let [low, high] = [&own.lower, &own.upper].map(|end| end.as_ref().unwrap().value().exact().unwrap());
+    for k in 0..=4 {
+        let [lower, upper] = of(number(range[0]) + &(number("0.1") * Rational::from(k)));
+        assert!(lower.compare_rational(&low).is_lt() && upper.compare_rational(&high).is_gt(), "{k}");
+    }
+    // The nearest ends of the corners are in the brackets, which are short.
+    let corners = range.map(|x| of(number(x)));
+    let [from, to] = [&bounds[0].lower, &bounds[1].upper].map(|end| end.clone().unwrap());
+    assert!(corners.iter().any(|[lower, _]| lower.compare_rational(&from).is_gt()), "{set:?}");
+    assert!(corners.iter().any(|[_, upper]| upper.compare_rational(&to).is_lt()), "{set:?}");
+    assert!(&low - &from < number("1e-6") && &to - &high < number("1e-5"), "{set:?}");
+}

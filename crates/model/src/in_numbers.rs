@@ -52,11 +52,37 @@ impl Model {
         values: &[(String, Rational)],
         budget: &Budget,
     ) -> Result<Option<InNumbers>, Error> {
+        self.connected_in_numbers(kept, values, Symbols::keeping_flows, budget)
+    }
+
+    /// The same where numbers are all that is asked for of the kept names, too: of a loop with several rates a long entry of the product of its
+    /// samples becomes a symbol, whatever is in it.
+    ///
+    /// Cost: as [`Model::closed_loop_in_numbers`].
+    ///
+    /// # Errors
+    /// As [`Model::evaluate`].
+    pub fn closed_loop_by_values(
+        &self,
+        kept: &[String],
+        values: &[(String, Rational)],
+        budget: &Budget,
+    ) -> Result<Option<InNumbers>, Error> {
+        self.connected_in_numbers(kept, values, |symbols| symbols.keeping_flows().shortening_names(), budget)
+    }
+
+    fn connected_in_numbers(
+        &self,
+        kept: &[String],
+        values: &[(String, Rational)],
+        kept_whole: impl Fn(Symbols) -> Symbols,
+        budget: &Budget,
+    ) -> Result<Option<InNumbers>, Error> {
         let mut answer = self.answer(kept, values, budget)?;
         if let Values::Characteristic(_) = &answer.values {
             return Ok(None);
         }
-        answer.symbols = RefCell::new(answer.symbols.into_inner().keeping_flows());
+        answer.symbols = RefCell::new(kept_whole(answer.symbols.into_inner()));
         let (closed_loop, sample_time, symbols) = self.connected(answer, budget)?;
         Ok(Some(InNumbers { closed_loop, sample_time, symbols }))
     }

@@ -104,6 +104,8 @@ pub struct Symbols {
     samples: Vec<RationalFunction>,
     /// Whether exponentials of matrices stay whole.
     keeps_flows: bool,
+    /// Whether long entries of a product of samples become symbols also where a kept name is in them.
+    shortens_names: bool,
     /// The matrices of these, times time.
     flows: Vec<RationalMatrix>,
 }

@@ -4,6 +4,7 @@ use super::for_all::{MapForAll, OpenPart};
 use super::for_all_open::why_open;
 use super::required_set::{RequiredEnd, RequiredInterval, RequiredSet};
 use super::requirement_boxes::RequirementBoxes;
+use super::spoiled::{Spoiled, parted};
 use crate::answer::Answer;
 use crate::coverage::refusals::COMPLEX_FOR_ALL;
 use crate::error::{Code, Diagnostic, Error};
@@ -41,25 +42,41 @@ const WINDOW: (u32, u32) = (1, 4);
 /// Why nothing is said beyond the window.
 const OUTSIDE: &str = "not looked at: the domain has no end there, and '--domain' gives one";
 
+/// Beside what is spoiled a piece is cut so near to its end, as a power of two: coefficients are nearly straight, so one look proves most of it.
+const NEAR: u32 = 4;
+
 /// A piece of the parameter's range.
 pub(super) struct Piece {
     pub(super) between: [Rational; 2],
     halvings: u32,
+    /// Whether what lies beside its ends is known to be spoiled.
+    beside_spoiled: [bool; 2],
     /// Stability is decided, and requirements are looked at.
     is_stable: bool,
     pub(super) open: Vec<OpenPart>,
 }
 
 impl Piece {
+    /// Two parts: halves, or beside what is spoiled a short part and the rest.
     fn halves(self) -> [Piece; 2] {
-        let middle = self.between[0].midpoint(&self.between[1]);
         let [low, high] = self.between;
-        [[low, middle.clone()], [middle, high]].map(|between| Piece {
+        let [at_low, at_high] = self.beside_spoiled;
+        let short = &(&high - &low) * &Rational::dyadic(&1.into(), NEAR.into());
+        let (at, halvings) = match (at_low, at_high) {
+            (false, true) => (&high - &short, [1, NEAR]),
+            (true, false) => (&low + &short, [NEAR, 1]),
+            _ => (low.midpoint(&high), [1, 1]),
+        };
+        let part = |between, more: u32, beside_spoiled| Piece {
             between,
-            halvings: self.halvings + 1,
+            halvings: self.halvings + more,
+            beside_spoiled,
             is_stable: self.is_stable,
             open: self.open.clone(),
-        })
+        };
+        let parts = [([low, at.clone()], [at_low, false]), ([at, high], [false, at_high])];
+        let [first, second] = parts;
+        [part(first.0, halvings[0], first.1), part(second.0, halvings[1], second.1)]
     }
 }
 
@@ -110,7 +127,7 @@ impl MapForAll {
             let message = "the bound of a region is not asked about for all values of other names";
             return Err(Diagnostic::error(Code::Usage, message).into());
         }
-        let together = self.together(question)?;
+        let together = self.together(question.clone())?;
         let at_middle = line.stable_set(&budget.share(WINDOW.0, WINDOW.1));
         let at_middle = match at_middle {
             Ok(set) => Some(set),
@@ -118,28 +135,45 @@ impl MapForAll {
         };
         let window = window(line.parameter(), at_middle.as_ref().map(Answer::value));
         let middle = vec![window[0].midpoint(&window[1])];
-        let (pieces, stopped) = match self.tests(&together, middle, budget) {
-            Ok((stability, requirements)) => self.halved(&window, &line, (&stability, &requirements), budget)?,
+        let tests = self.tests(&together, middle, budget).and_then(|tests| {
+            let spoiled = self.spoiled_at_corners(&question, budget)?;
+            Ok((tests, spoiled))
+        });
+        let (pieces, stopped, spoiled) = match tests {
+            Ok(((stability, requirements), spoiled)) => {
+                let looked = (&window, spoiled.as_slice());
+                let (pieces, stopped) = self.halved(looked, &line, (&stability, &requirements), budget)?;
+                (pieces, stopped, spoiled)
+            }
             Err(failure) => {
                 let stopped = failure.stopped()?;
-                (vec![(window, Known::Undecided(UNFINISHED.to_owned()))], Some(stopped))
+                (vec![(window, Known::Undecided(UNFINISHED.to_owned()))], Some(stopped), Vec::new())
             }
         };
-        let found = RequiredSet { stopped, ..self.set(pieces, line.parameter()) };
+        let found = RequiredSet { stopped, ..self.set(pieces, line.parameter(), &spoiled) };
         Ok(Answer::new(line.without_values_of(|name| self.all.iter().any(|all| all.name == name)), found))
     }
 
-    /// Halves a window, the longest pieces first, until what is open is short or the budget is over.
+    /// Halves what is not spoiled of a window, the longest pieces first, until what is open is short or the budget is over.
     fn halved(
         &self,
-        window: &[Rational; 2],
+        (window, spoiled): (&[Rational; 2], &[Spoiled]),
         line: &Problem,
         (stability, requirements): (&[RequirementBoxes], &[RequirementBoxes]),
         budget: &Budget,
     ) -> Result<Pieces, Error> {
         budget.step("halving the range of the parameter");
-        let whole = Piece { between: window.clone(), halvings: 0, is_stable: false, open: self.parts(stability) };
-        let (mut pieces, mut level, mut stopped) = (Vec::new(), vec![whole], None);
+        let (left, bad) = parted(window, spoiled);
+        let whole = |between: [Rational; 2]| Piece {
+            beside_spoiled: [0, 1].map(|side| bad.iter().any(|(piece, _)| piece[1 - side] == between[side])),
+            between,
+            halvings: 0,
+            is_stable: false,
+            open: self.parts(stability),
+        };
+        let mut level: Vec<Piece> = left.into_iter().map(whole).collect();
+        let mut pieces: Vec<_> = bad.into_iter().map(|(piece, by)| (piece, Known::Spoiled(by))).collect();
+        let mut stopped = None;
         while !level.is_empty() && stopped.is_none() {
             let (mut open, mut rest) = (Vec::new(), level.into_iter());
             for mut piece in rest.by_ref() {
@@ -195,7 +229,7 @@ impl MapForAll {
     }
 
     /// Pieces in ascending order as a set.
-    fn set(&self, pieces: Vec<([Rational; 2], Known)>, parameter: &Free) -> RequiredSet {
+    fn set(&self, pieces: Vec<([Rational; 2], Known)>, parameter: &Free, spoiled: &[Spoiled]) -> RequiredSet {
         let mut runs: Vec<([Rational; 2], Known)> = Vec::new();
         for (between, known) in pieces {
             match runs.last_mut() {
@@ -240,10 +274,15 @@ impl MapForAll {
             }
         }
         let outside = |lower, upper| UndecidedBracket::new(lower, upper, OUTSIDE);
-        if let (None, Some(([low, _], _))) = (&parameter.domain.lower, runs.first()) {
+        let is_open = |end: &Rational, is_above: bool| !spoiled.iter().any(|one| one.is_all_beyond(end, is_above));
+        if let (None, Some(([low, _], _))) = (&parameter.domain.lower, runs.first())
+            && is_open(low, false)
+        {
             set.undecided.insert(0, outside(None, Some(low.clone())));
         }
-        if let (None, Some(([_, high], _))) = (&parameter.domain.upper, runs.last()) {
+        if let (None, Some(([_, high], _))) = (&parameter.domain.upper, runs.last())
+            && is_open(high, true)
+        {
             set.undecided.push(outside(Some(high.clone()), None));
         }
         set

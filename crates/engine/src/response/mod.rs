@@ -78,6 +78,7 @@ mod sampled_delay;
 mod shortened;
 mod spiral;
 mod spiral_over_box;
+mod spoiled;
 mod taylor_along;
 mod turning;
 mod value;

@@ -6,7 +6,7 @@ use super::requirement::{Requirement, Rule};
 use crate::answer::Verdict;
 use crate::error::Error;
 use crate::problem::{Ask, Bound, Problem, Question, Region};
-use crate::stability::boxes::{BoxPolynomial, DelayedFunction, MovingPolynomial, same_count};
+use crate::stability::boxes::{BoxPolynomial, DelayedFunction, MovingLooks, MovingPolynomial, same_count};
 use crate::stability::{AtPoint, RootCount, Shape, count_roots};
 use jurist_algebra::limits::{Budget, Exhausted};
 use jurist_algebra::matrix::CharacteristicPolynomial;
@@ -92,7 +92,7 @@ impl Asked {
 /// A loop as the family that proves boxes of it.
 enum LoopFamily {
     Rational(Box<BoxPolynomial>),
-    Moving(Box<MovingPolynomial>),
+    Moving(Box<MovingLooks<Box<MovingPolynomial>>>),
     Delayed(Box<DelayedFunction>),
     /// A loop with constants that are not rational.
     Constants,
@@ -164,7 +164,8 @@ impl RequirementBoxes {
             LoopFamily::Rational(Box::new(family))
         } else {
             let family = problem.moving_family(budget)?;
-            family.map_or(LoopFamily::Constants, |family| LoopFamily::Moving(Box::new(family)))
+            let looks = |family| LoopFamily::Moving(Box::new(MovingLooks::of(Box::new(family))));
+            family.map_or(LoopFamily::Constants, looks)
         };
         Ok(Some(RequirementBoxes { problem: Arc::clone(problem), over, delay: None, asked: Asked::Stability(family) }))
     }
@@ -186,7 +187,7 @@ impl RequirementBoxes {
         if let Some(delay) = &self.delay {
             return delay.look(sides, budget);
         }
-        let middle = || -> Vec<Rational> { sides.iter().map(|[low, high]| low.midpoint(high)).collect() };
+        let middle = || middle(sides);
         let known = match (self.by_family(sides, budget)?, &self.asked) {
             (Some(OverPoints::Open { .. }), Asked::Stability(LoopFamily::Delayed(_))) => {
                 return Ok(OverPoints::Open { middle: self.is_stable(&middle(), None, budget)? });
@@ -240,15 +241,22 @@ impl RequirementBoxes {
             (LoopFamily::Rational(family), _) => family.is_unstable_by_signs(sides),
             (_, over) => over.as_ref().is_some_and(|over| over.is_unstable_by_signs(sides)),
         };
+        if let LoopFamily::Moving(looks) = family {
+            // Its looks remember functions. Signs show that no point is stable, so they are not asked where one is.
+            let is_unstable = || looks.is_stable_at(&middle(sides)) != Some(true) && is_unstable_by_signs();
+            return Ok(Some(OverPoints::of(match looks.same_stability(sides, budget)? {
+                None => budget.enter(is_unstable)?.then_some(false),
+                told => told,
+            })));
+        }
         if budget.enter(is_unstable_by_signs)? {
             return Ok(Some(OverPoints::None));
         }
         let is_stable = |middle: &[Rational]| self.is_stable(middle, None, budget);
         Ok(Some(OverPoints::of(match family {
             LoopFamily::Rational(family) => same_count(family.as_ref(), sides, (CELLS, budget), is_stable)?,
-            LoopFamily::Moving(family) => same_count(family.as_ref(), sides, (CELLS, budget), is_stable)?,
             LoopFamily::Delayed(family) => same_count(family.as_ref(), sides, (CELLS, budget), is_stable)?,
-            LoopFamily::Constants => return Ok(None),
+            LoopFamily::Moving(_) | LoopFamily::Constants => return Ok(None),
         })))
     }
 
@@ -367,6 +375,10 @@ impl RequirementBoxes {
     ) -> Result<Option<bool>, Exhausted> {
         told(self.at(point).problem().and_then(|problem| problem.meets(one, at, budget)))
     }
+}
+
+fn middle(sides: &[[Rational; 2]]) -> Vec<Rational> {
+    sides.iter().map(|[low, high]| low.midpoint(high)).collect()
 }
 
 fn told_by(count: &RootCount) -> Option<bool> {

@@ -26,6 +26,11 @@ impl Symbols {
         Symbols { keeps_flows: true, ..self }
     }
 
+    /// The same where long entries of a product of samples become symbols also where a kept name is in them: then a kept name is seen by values only.
+    pub(crate) fn shortening_names(self) -> Symbols {
+        Symbols { shortens_names: true, ..self }
+    }
+
     /// Whether exponentials of matrices stay whole.
     pub(crate) fn keeps_flows(&self) -> bool {
         self.keeps_flows
@@ -69,8 +74,11 @@ impl Symbols {
         })
     }
 
-    /// The same, but for entries in which a kept name occurs.
+    /// The same, but for entries in which a kept name occurs, unless these are shortened as well.
     pub(crate) fn shortened_beside_names(&mut self, m: &RationalMatrix) -> RationalMatrix {
+        if self.shortens_names {
+            return self.shortened(m);
+        }
         let first = self.kept.len();
         let short = self.shortened(&RationalMatrix::from_fn(m.rows(), m.columns(), |i, j| {
             if m[(i, j)].variables().first().is_some_and(|v| *v < first) {

@@ -41,6 +41,13 @@ const LEFT_BITS: u64 = 48;
 /// The same where requirements are asked, which take a box of factors for each piece.
 const LEFT_BITS_OF_REQUIREMENTS: u64 = 20;
 
+/// Longer exact certificates are as boxes, where these prove nearly as much: polynomials over the constants of holds grow fast. The slower checker
+/// takes two seconds for a megabyte, and two masses with a notch filter behind a hold have one of 4 MB.
+const MOST_EXACT_BYTES: usize = 1 << 22;
+
+/// Boxes take the place of an exact certificate where they leave no larger share of their window unknown, as a power of two.
+const UNKNOWN_BITS: u64 = 10;
+
 /// A certificate of the answer about one parameter, and how much it says.
 ///
 /// ```
@@ -89,14 +96,38 @@ pub struct CertifiedIntervals {
 /// # Errors
 /// [`Error::Stopped`] when the budget runs out; [`Error::Refused`] (`E-no-certificate`) where there is neither.
 pub fn certify_intervals(answer: &Answer<StableSet>, budget: &Budget) -> Result<CertifiedIntervals, Error> {
+    certified_within(answer, MOST_EXACT_BYTES, budget)
+}
+
+/// The same with an exact certificate of at most so many bytes, unless boxes leave much unknown.
+fn certified_within(
+    answer: &Answer<StableSet>,
+    most_bytes: usize,
+    budget: &Budget,
+) -> Result<CertifiedIntervals, Error> {
     match answer.certificate(budget) {
-        Ok(text) => Ok(CertifiedIntervals { text, window: None, proved: Rational::ONE }),
+        Ok(text) => {
+            let is_long = text.len() > most_bytes && answer.problem().model().is_read_by_boxes();
+            let boxes = if is_long { shorter(answer, text.len(), budget)? } else { None };
+            Ok(boxes.unwrap_or(CertifiedIntervals { text, window: None, proved: Rational::ONE }))
+        }
         // Of an orbit's duty ratio the checkers read no boxes.
         Err(Error::Refused(why))
             if why.code() == Code::NoCertificate && answer.problem().model().is_read_by_boxes() =>
         {
             by_boxes(answer, budget)?.ok_or(Error::Refused(why))
         }
+        Err(other) => Err(other),
+    }
+}
+
+/// By boxes, where that is shorter than so many bytes and leaves little unknown.
+fn shorter(answer: &Answer<StableSet>, bytes: usize, budget: &Budget) -> Result<Option<CertifiedIntervals>, Error> {
+    let least = &Rational::ONE - &Rational::dyadic(&1.into(), UNKNOWN_BITS);
+    match by_boxes(answer, budget) {
+        Ok(found) => Ok(found.filter(|found| found.text.len() < bytes && found.proved >= least)),
+        // The exact one is there.
+        Err(Error::Refused(_)) => Ok(None),
         Err(other) => Err(other),
     }
 }
@@ -288,13 +319,15 @@ fn window(problem: &Problem, set: &LineSet<'_>) -> [Rational; 2] {
     }
 }
 
-/// The window of a set that says how far it was looked for.
+/// The window of a set that says how far it was looked for; where it says so of no end, one that contains the finite ends.
 fn looked_at(problem: &Problem, set: &LineSet<'_>) -> [Rational; 2] {
     let domain = &problem.parameter().domain;
+    let [low, high] = window(problem, set);
     let below = set.undecided.iter().find(|b| b.lower.is_none()).and_then(|b| b.upper.clone());
     let above = set.undecided.iter().find(|b| b.upper.is_none()).and_then(|b| b.lower.clone());
-    let ends = [below.or_else(|| domain.lower.clone()), above.or_else(|| domain.upper.clone())];
-    ends.map(|end| end.expect("the domain has an end, or the set says where nothing is known"))
+    let ends =
+        [below.or_else(|| domain.lower.clone()).unwrap_or(low), above.or_else(|| domain.upper.clone()).unwrap_or(high)];
+    if ends[0] < ends[1] { ends } else { window(problem, set) }
 }
 
 /// A number with two digits, not below this positive one: what is added is more than what rounding takes off.
@@ -337,4 +370,29 @@ fn cut(set: &LineSet<'_>, x: [Rational; 2], halvings: usize, put: &mut impl FnMu
     let middle = low.midpoint(high);
     cut(set, [low.clone(), middle.clone()], halvings + 1, put);
     cut(set, [middle, high.clone()], halvings + 1, put);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use jurist_check::{Limits, check};
+    use jurist_model::Model;
+    use jurist_model::error::Source;
+
+    /// An exact certificate over the constants of a hold was written however long it was, and the slower checker did not take it.
+    #[test]
+    fn a_long_exact_certificate_is_one_by_boxes() {
+        let text = "time = 'discrete'\nsample_time = '1/4'\nparameters = { K = { nominal = 1, min = 0 }, a = 1 }\n\
+            loop = { inputs = ['r'], outputs = ['y'] }\n[[block]]\ninput = 'r - y'\noutput = 'u'\ngain = 'K'\n[[block]]\n\
+            input = 'u'\noutput = 'y'\ntransfer = '1/(s + a)'\ndiscretize = 'zoh'\n";
+        let (model, _) = Model::from_toml(&Source::new("loop.toml", text)).unwrap();
+        let budget = Budget::unlimited();
+        let answer = model.ask().free("K").stable_set(&budget).unwrap();
+        for (most, kind) in [(MOST_EXACT_BYTES, "intervals"), (100, "boxes")] {
+            let certified = certified_within(&answer, most, &budget).unwrap();
+            let proved = check(text, &certified.text, &Limits::default()).unwrap();
+            assert_eq!((proved.kind, certified.window.is_some()), (kind, kind == "boxes"));
+            assert!(certified.proved > number(999, 1000), "{certified:?}");
+        }
+    }
 }

@@ -53,6 +53,7 @@ pub use largest::{LargestFactor, Witness};
 pub use line::on_line;
 pub use look::{BoxLook, same_count};
 pub use moving::MovingPolynomial;
+pub use moving_look::MovingLooks;
 pub use parts::corners;
 pub use polynomial::BoxPolynomial;
 pub use prove::{BoxProof, MOST_COEFFICIENTS, Outcome};

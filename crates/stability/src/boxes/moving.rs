@@ -6,7 +6,7 @@
 use super::family::{Family, Gradient, Path, pulls_of};
 use super::line::{on_line, pair_function, rational_zero};
 use super::look::BoxLook;
-use super::moving_look::Known;
+use super::moving_look::MovingLooks;
 use super::polynomial::{BoxPolynomial, Bundle};
 use super::prove::{Outcome, closed_by_constant, closed_by_vector, scale_of};
 use crate::subdivision::BoxPart;
@@ -307,7 +307,7 @@ impl Family for MovingPolynomial {
     }
 
     fn looks(&self) -> impl Fn(&BoxPart, &Budget) -> Result<BoxLook, Exhausted> {
-        let known = Known::of(self);
+        let known = MovingLooks::of(self);
         move |part, budget| budget.enter(|| known.look(&part.sides, budget))?
     }
 }

@@ -2,6 +2,7 @@
 
 use super::look::{BoxLook, MOST_CORNERS};
 use super::moving::{MovingPolynomial, POINT_BITS};
+use super::moving_prove::MODEL_TERMS;
 use super::parts::{corners, middle};
 use super::prove::{closed_by_vector, scale_of};
 use crate::symbolic::certain_count;
@@ -11,32 +12,43 @@ use jurist_algebra::limits::{Budget, Exhausted, checkpoint};
 use jurist_algebra::number::{Integer, Rational, Sign};
 use std::collections::HashMap;
 use std::hash::Hash;
+use std::ops::Deref;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Cells of frequency and parameters after which a box is rather halved.
-const CELLS: usize = 96;
+pub(super) const CELLS: usize = 96;
+
+/// So many more for each binary digit by which a side is shorter than it is far from zero, up to so many digits.
+const CELLS_PER_BIT: usize = 6;
+const MOST_BITS: u64 = 64;
 
 /// No more is remembered of points and of sides.
 const MOST_KNOWN: usize = 1 << 16;
 
-/// What was found for a key; `None` where there is nothing.
-struct Memory<K, V>(Mutex<HashMap<K, Option<Arc<V>>>>);
+/// So many coefficients of models are remembered: some hundred megabytes.
+const MOST_COEFFICIENTS: usize = 1 << 22;
 
-impl<K, V> Default for Memory<K, V> {
-    fn default() -> Self {
-        Memory(Mutex::default())
+/// What was found for a key; `None` where there is nothing.
+struct Memory<K, V> {
+    known: Mutex<HashMap<K, Option<Arc<V>>>>,
+    most: usize,
+}
+
+impl<K, V> Memory<K, V> {
+    fn of(most: usize) -> Self {
+        Memory { known: Mutex::default(), most }
     }
 }
 
 impl<K: Eq + Hash, V> Memory<K, V> {
     fn get(&self, key: K, find: impl FnOnce() -> Option<V>) -> Option<Arc<V>> {
-        let known = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(found) = known().get(&key) {
             return found.clone();
         }
         let found = find().map(Arc::new);
         let mut known = known();
-        if known.len() >= MOST_KNOWN {
+        if known.len() >= self.most {
             known.clear();
         }
         known.insert(key, found.clone());
@@ -54,22 +66,83 @@ pub(super) enum Everywhere {
 }
 
 /// A loop with what is known of its functions on sides and at points: one is looked up for many boxes.
-pub(super) struct Known<'p> {
-    p: &'p MovingPolynomial,
+///
+/// ```
+/// use jurist_algebra::limits::Budget;
+/// use jurist_algebra::matrix::CharacteristicPolynomial;
+/// use jurist_algebra::number::Rational;
+/// use jurist_algebra::poly::RationalFunction;
+/// use jurist_algebra::symbols::{Definition, ParametricSymbols};
+/// use jurist_stability::Shape;
+/// use jurist_stability::boxes::{MovingLooks, MovingPolynomial};
+/// // z - X + K (1 - X) with X = exp(-a): stable while K < (1 + X)/(1 - X), which is 2.16395... for a = 1
+/// let [k, a, x] = [0, 1, 2].map(RationalFunction::variable);
+/// let d = CharacteristicPolynomial {
+///     variables: ["K", "a", "X"].map(String::from).to_vec(),
+///     coefficients: vec![&k - &(&x + &(&k * &x)), RationalFunction::one()],
+///     formal_degree: 1,
+///     poles: Vec::new(),
+///     monic: true,
+/// };
+/// let symbols = ParametricSymbols::new(vec![("X".into(), Definition::Exponential(-&a))]);
+/// let p = MovingPolynomial::new(&d, 2, symbols, Shape::UnitDisc);
+/// let (looks, budget) = (MovingLooks::of(&p), Budget::unlimited());
+/// let box_of = |k: [&str; 2]| [k.map(|x| x.parse::<Rational>().unwrap()), [1, 1].map(Rational::from)];
+/// assert_eq!(looks.same_stability(&box_of(["1", "2.16"]), &budget)?, Some(true));
+/// assert_eq!(looks.same_stability(&box_of(["2.17", "3"]), &budget)?, Some(false));
+/// assert_eq!(looks.same_stability(&box_of(["2", "3"]), &budget)?, None);
+/// # Ok::<(), jurist_algebra::limits::Exhausted>(())
+/// ```
+pub struct MovingLooks<P> {
+    p: P,
     models: Memory<Vec<[Rational; 2]>, Vec<Vec<MultiTaylorModel>>>,
     points: Memory<Vec<Rational>, Vec<Vec<Series>>>,
 }
 
-impl<'p> Known<'p> {
-    pub fn of(p: &'p MovingPolynomial) -> Self {
-        Known { p, models: Memory::default(), points: Memory::default() }
+impl<P: Deref<Target = MovingPolynomial>> MovingLooks<P> {
+    /// Nothing is known yet.
+    pub fn of(p: P) -> Self {
+        let coefficients = p.functions.iter().map(Vec::len).sum::<usize>().max(1) * MODEL_TERMS;
+        let models = Memory::of((MOST_COEFFICIENTS / coefficients).clamp(1, MOST_KNOWN));
+        MovingLooks { p, models, points: Memory::of(MOST_KNOWN) }
+    }
+
+    /// Whether all points of a box are stable, or none is; `None` where that is not seen. More cells are looked at in smaller boxes: next to a
+    /// boundary frequencies are cut finer.
+    ///
+    /// Cost: Taylor models of the functions over the sides inside of them, unless these are known, and up to some hundred cells.
+    ///
+    /// # Errors
+    /// [`Exhausted`] when the budget runs out.
+    pub fn same_stability(&self, sides: &[[Rational; 2]], budget: &Budget) -> Result<Option<bool>, Exhausted> {
+        let bits = |[low, high]: &[Rational; 2]| {
+            let (far, width) = (low.abs().max(high.abs()), high - low);
+            let octaves = far.checked_div(&width).map(|ratio| ratio.ceil().bit_length());
+            octaves.unwrap_or(0).min(MOST_BITS) as usize
+        };
+        let finest = sides.iter().map(bits).max().unwrap_or(0);
+        let found = budget.enter(|| self.everywhere(sides, CELLS + CELLS_PER_BIT * finest, budget))??;
+        Ok(found.map(|everywhere| everywhere == Everywhere::Outside(0)))
+    }
+
+    /// Whether a point is stable; `None` where enclosed coefficients do not tell.
+    pub fn is_stable_at(&self, point: &[Rational]) -> Option<bool> {
+        if !self.p.has_a_meaning_at(point) {
+            return Some(false);
+        }
+        self.certain_at(point).map(|(count, ..)| count.outside == 0)
     }
 
     /// What is the same at all points of a box; `None` where that is not seen.
     ///
     /// A box is decided where Taylor models show that no root comes to the boundary and nothing that must not vanish changes its sign:
     /// then the number of roots outside is that in the middle, of which enclosed coefficients are certain.
-    pub fn everywhere(&self, sides: &[[Rational; 2]], budget: &Budget) -> Result<Option<Everywhere>, Exhausted> {
+    pub(super) fn everywhere(
+        &self,
+        sides: &[[Rational; 2]],
+        cells: usize,
+        budget: &Budget,
+    ) -> Result<Option<Everywhere>, Exhausted> {
         if self.p.has_no_meaning_in(sides) {
             return Ok(Some(Everywhere::Meaningless));
         }
@@ -91,7 +164,7 @@ impl<'p> Known<'p> {
         }
         checkpoint(200);
         let Some(models) = first.or_else(models) else { return Ok(None) };
-        if !self.p.keeps_count(sides, &models, (&signs, scale), (&closed_by_vector, CELLS), budget)? {
+        if !self.p.keeps_count(sides, &models, (&signs, scale), (&closed_by_vector, cells), budget)? {
             return Ok(None);
         }
         // What is presupposed is among what keeps its sign.
@@ -100,8 +173,8 @@ impl<'p> Known<'p> {
     }
 
     /// The same for a volume, with the side along which an open box is halved.
-    pub fn look(&self, sides: &[[Rational; 2]], budget: &Budget) -> Result<BoxLook, Exhausted> {
-        Ok(match self.everywhere(sides, budget)? {
+    pub(super) fn look(&self, sides: &[[Rational; 2]], budget: &Budget) -> Result<BoxLook, Exhausted> {
+        Ok(match self.everywhere(sides, CELLS, budget)? {
             Some(Everywhere::Outside(0)) => BoxLook::Stable,
             Some(_) => BoxLook::Unstable,
             None => BoxLook::Open(self.steepest_side(sides)),

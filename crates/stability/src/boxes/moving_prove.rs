@@ -21,7 +21,7 @@ use jurist_algebra::number::{Integer, Rational, Sign};
 const BITS: u64 = 192;
 
 /// Taylor models have about so many coefficients.
-const MODEL_TERMS: usize = 130;
+pub(super) const MODEL_TERMS: usize = 130;
 
 /// The greatest degree of a Taylor model.
 const MODEL_DEGREE: usize = 12;

@@ -2,7 +2,7 @@
 
 use super::family::Family;
 use super::moving::MovingPolynomial;
-use super::moving_look::{Everywhere, Known};
+use super::moving_look::{CELLS, Everywhere, MovingLooks};
 use crate::plane::boxes::{BoxMap, BoxVerdict, Place, Seen, Window, subdivided};
 use jurist_algebra::limits::Budget;
 use jurist_algebra::number::Rational;
@@ -34,10 +34,10 @@ impl MovingPolynomial {
             // Undefined, a root on the boundary, or degree lost, for all values of both.
             return BoxMap::nowhere_stable(window);
         }
-        let known = Known::of(self);
+        let known = MovingLooks::of(self);
         subdivided(window, goal, budget, |place, _: Option<&()>| {
             let Window { x, y } = place.window(window);
-            let seen = match known.everywhere(&[x, y], budget)? {
+            let seen = match known.everywhere(&[x, y], CELLS, budget)? {
                 Some(Everywhere::Outside(0)) => Seen::Decided(BoxVerdict::Stable),
                 Some(Everywhere::Outside(outside)) => Seen::Decided(BoxVerdict::Unstable { outside: Some(outside) }),
                 Some(Everywhere::Meaningless) => Seen::Decided(BoxVerdict::Unstable { outside: None }),

@@ -56,11 +56,12 @@ impl Problem {
 
     /// Algebra whose coefficients are known by their values, in a disc of this radius; `None` where the loop is not of this form.
     pub(super) fn coefficients_by_values(&self, radius: &Rational, budget: &Budget) -> Result<Option<Algebra>, Error> {
-        if self.model().hyperperiod() > 1 {
-            return Ok(None);
-        }
+        let has_rates = self.model().hyperperiod() > 1;
         let kept: Vec<String> = self.free().iter().map(|free| free.name.clone()).collect();
-        let found = budget.enter(|| self.model().closed_loop_in_numbers(&kept, self.set(), budget))?;
+        let found = budget.enter(|| match has_rates {
+            true => self.model().closed_loop_by_values(&kept, self.set(), budget),
+            false => self.model().closed_loop_in_numbers(&kept, self.set(), budget),
+        })?;
         let found = match found {
             Ok(found) => found,
             Err(stopped @ Error::Stopped(_)) => return Err(stopped),
@@ -70,7 +71,9 @@ impl Problem {
         let Some(InNumbers { closed_loop, sample_time, symbols }) = found.filter(is_held) else { return Ok(None) };
         budget.step("coefficients by enclosures");
         let of = Held { system: &closed_loop, sample_time: sample_time.as_ref(), symbols: &symbols };
-        Ok(budget.enter(|| of.algebra(&OfNames::of(&of, kept), radius))?)
+        // Over a hyperperiod a gain has high powers: it counts as what is inside of functions.
+        let names = |kept| if has_rates { OfNames::without_gains(kept) } else { OfNames::of(&of, kept) };
+        Ok(budget.enter(|| of.algebra(&names(kept), radius))?)
     }
 
     /// The loop cut open, by values. `None` where the cut is at a gain, where the open loop has a direct feedthrough or the closed loop decouples, or is not
@@ -93,8 +96,7 @@ impl Problem {
         let of = Held { system, sample_time: sample_time.as_ref(), symbols };
         Ok(budget.enter(|| {
             let names = OfNames::of(&of, kept.clone());
-            of.opened(&names)
-                .or_else(|| of.opened(&OfNames { gains: Vec::new(), inside: (0..kept.len()).collect(), kept }))
+            of.opened(&names).or_else(|| of.opened(&OfNames::without_gains(kept)))
         })?)
     }
 }
@@ -126,6 +128,11 @@ struct OfNames {
 }
 
 impl OfNames {
+    /// All names count as what is inside of functions.
+    fn without_gains(kept: Vec<String>) -> OfNames {
+        OfNames { gains: Vec::new(), inside: (0..kept.len()).collect(), kept }
+    }
+
     fn of(of: &Held, kept: Vec<String>) -> OfNames {
         let count = kept.len();
         let ClosedLoop { a, e, c, poles, .. } = of.system;

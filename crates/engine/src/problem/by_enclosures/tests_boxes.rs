@@ -4,6 +4,7 @@ use super::*;
 use crate::answer::{BoxRequest, MapMethod, MapOrBoxes, ToleranceRequest, Verdict};
 use crate::model::{Cut, Model};
 use crate::problem::{Algebra, Ask, parametric_symbols};
+use crate::stability::boxes::MovingLooks;
 use crate::stability::plane::boxes::BoxVerdict;
 use crate::stability::{AtPoint, Range};
 use jurist_algebra::ball::Series;
@@ -51,7 +52,7 @@ fn free(model: &Arc<Model>, names: &[&str]) -> Arc<Problem> {
 }
 
 /// The coefficients of the monic polynomial at a point.
-fn at(algebra: &Algebra, point: &[&str]) -> Vec<Ball> {
+pub(super) fn at(algebra: &Algebra, point: &[&str]) -> Vec<Ball> {
     let symbols = parametric_symbols(algebra.symbols()).unwrap();
     let point: Vec<Series> = point.iter().map(|x| Series::constant(&Ball::from_rational(&number(x), 256), 1)).collect();
     let values = symbols.values(&point).unwrap();
@@ -265,4 +266,42 @@ fn a_loop_at_values_has_enclosed_coefficients() {
         let [found, expected] = [&whole, &exact].map(|p| p.at(&Rational::ZERO, problem.shape(), &budget).unwrap());
         assert_eq!(found, expected, "{k}");
     }
+}
+
+/// What looks at boxes say of all points, exact verdicts say of some: boxes at random, and smaller and smaller ones beside a boundary.
+#[test]
+fn looks_that_remember_say_what_verdicts_of_points_say() {
+    let (budget, model) = (Budget::unlimited(), model(&[("3", "1/5")], " + "));
+    let problem = free(&model, &["K", "w0"]);
+    let family = problem.moving_family(&budget).unwrap().expect("functions");
+    let looks = MovingLooks::of(&family);
+    let end = model.ask().free("K").set("w0", 3).stable_set(&budget).unwrap();
+    let end = end.value().intervals()[0].upper.as_ref().unwrap().value.refined_to_digits(20).enclosure().0;
+    let side = |at: &Rational, width: &Rational| [at.clone(), at + width];
+    let mut boxes: Vec<[[Rational; 2]; 2]> = Vec::new();
+    for k in 0..24i64 {
+        let at = |a: i64, m: i64, over: i64| Rational::new((1 + (k * a) % m).into(), over.into());
+        boxes.push([side(&at(7, 25, 1), &at(3, 4, 20)), side(&at(5, 13, 4), &at(11, 5, 40))]);
+    }
+    for bits in [4, 12, 20, 28] {
+        let width = Rational::dyadic(&1.into(), bits);
+        let point = [number("3"), number("3")];
+        boxes.push([side(&(&end - &(&width + &width)), &width), point.clone()]);
+        boxes.push([side(&(&end + &width), &width), point]);
+    }
+    let mut seen = [0, 0];
+    for sides in &boxes {
+        let Some(is_stable) = looks.same_stability(sides, &budget).unwrap() else { continue };
+        seen[usize::from(is_stable)] += 1;
+        for [x, y] in [["0", "1"], ["1", "0"], ["1/3", "2/3"]].map(|shares| shares.map(number)) {
+            let point = [(&sides[0], x), (&sides[1], y)].map(|([low, high], share)| low + &(&(high - low) * &share));
+            let asked = model.ask().set("K", point[0].clone()).set("w0", point[1].clone());
+            let verdict = asked.problem().unwrap().verdict_exactly(&budget).unwrap().verdict;
+            assert_eq!(verdict == Verdict::Stable, is_stable, "{sides:?} at {point:?}");
+            assert!(looks.is_stable_at(&point).is_none_or(|told| told == is_stable));
+        }
+    }
+    // All of the small ones beside the boundary are seen.
+    let beside = boxes[24..].iter().filter(|sides| looks.same_stability(*sides, &budget).unwrap().is_some());
+    assert!(seen[0] > 8 && seen[1] > 4 && beside.count() == 8, "{seen:?}");
 }

@@ -1,6 +1,7 @@
 //! Loops with several rates: enclosures of the coefficients over a hyperperiod against exact polynomials.
 
 use super::tests::ends;
+use super::tests_boxes::at;
 use super::*;
 use crate::error::Source;
 use crate::model::Model;
@@ -172,5 +173,32 @@ fn roots_at_the_origin_of_loops_with_registers_are_known() {
         assert_eq!(parts.iter().map(at_origin).sum::<usize>(), exact, "{slow}");
         let [own, exact] = both(&problem).unwrap_or_else(|| panic!("{slow}"));
         assert_eq!(own, exact, "{slow}");
+    }
+}
+
+/// A constant of the plant, and a gain beside it: over a hyperperiod only values are known of them.
+#[test]
+fn coefficients_by_values_over_a_hyperperiod_are_the_exact_ones() {
+    let budget = Budget::unlimited();
+    let (slow, fast) = ("transfer = '1/(4*(z - 1))'\nevery = 3\nphase = 1", "transfer = '(K*z - K/2)/(z - 1)'");
+    let plant = "transfer = 'b/(s + a)'\ndiscretize = 'zoh'";
+    let text =
+        cascade(slow, fast, "transfer = '1/(s + 1)'\ndiscretize = 'zoh'", "min = 0").model().source().text.clone();
+    let text = text.replace("transfer = '1/(s + 1)'\ndiscretize = 'zoh'", plant);
+    let text = text.replace("[loop]", "a = { nominal = 1, min = 0 }\nb = 1\n[loop]");
+    let (model, _) = Model::from_toml(&Source::new("model.toml", text)).unwrap();
+    for (names, points) in [(["a", "K"], [["1/3", "2"], ["5", "1/7"]]), (["b", "a"], [["2", "1/2"], ["1/9", "3"]])] {
+        let problem = names.iter().fold(model.ask(), |ask, name| ask.free(*name)).problem().unwrap();
+        let exact = problem.algebra_over_symbols(&budget).unwrap();
+        let by_values = problem.coefficients_by_values(&Rational::ONE, &budget).unwrap().expect("of this form");
+        assert_eq!(by_values.formal_degree(), exact.formal_degree());
+        for point in &points {
+            let (exact, found) = (at(exact, point), at(&by_values, point));
+            let lead = exact.last().unwrap().clone();
+            for (a, b) in exact.iter().zip(&found) {
+                let a = a.div(&lead).unwrap();
+                assert!(a.intersection(b).is_some() && b.width_units().bit_length() < 100, "{names:?} {point:?}");
+            }
+        }
     }
 }
