@@ -132,3 +132,25 @@ fn the_time_is_kept_whatever_the_step() {
         });
     }
 }
+
+/// A budget of counted work that ends within a later part, where the question of that part is asked, or within the growth of a box.
+#[test]
+fn work_that_ends_in_a_later_part_leaves_a_document() {
+    for (command, works, key) in [
+        (&["analyze", "examples/drive-pwm.toml"][..], &["100000", "300000", "1000000"][..], "verdict"),
+        (
+            &["tolerance", "examples/drive-pwm.toml", "--tol", "T=10%", "--limit", "T"],
+            &["300000", "3000000"],
+            "undecided",
+        ),
+        (&["tolerance", "examples/drive-pwm.toml", "--all", "10%"], &["3000000"], "undecided"),
+    ] {
+        for work in works {
+            let run = jurist(&[command, &["--work", work, "--json"]].concat());
+            assert_eq!(run.status, 3, "{command:?} {work}: {}", run.stderr);
+            let document: Value =
+                serde_json::from_str(&run.stdout).unwrap_or_else(|e| panic!("{command:?} {work}: {e}"));
+            assert!(!document[key].is_null(), "{command:?} {work}: {document}");
+        }
+    }
+}

@@ -346,6 +346,7 @@ impl Question {
             request.side(free, value)
         });
         let sides = sides.collect::<Result<Vec<_>, Error>>()?;
-        Problem::tolerance(&problem.in_boxes(budget)?, sides, Asked { request, told }, budget)
+        // Work that ends anywhere in it is an answer as well.
+        budget.enter(|| Problem::tolerance(&problem.in_boxes(budget)?, sides, Asked { request, told }, budget))?
     }
 }
