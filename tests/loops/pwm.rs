@@ -303,6 +303,31 @@ fn a_value_with_a_sample_on_an_edge_is_left_out_of_the_set() {
     let hold =
         text.replace("method = 'pwm', edge = 'trailing', duty = 'D', delay = 0.5", "method = 'zoh', delay = '2*D'");
     assert_eq!(set(&hold, "D").intervals().len(), 1);
-    let map = jurist_with_input(&["map", "-", "-x", "D", "-y", "g"], text.as_bytes());
-    assert!(map.stderr.contains("an edge of the pulse of 'block' may pass a sample"), "{}", map.stderr);
+}
+
+/// A map is divided where a sample stands on an edge, and its boxes say what the verdicts on either side say.
+#[test]
+fn boxes_of_a_map_end_where_a_sample_stands_on_an_edge() {
+    let text = "time = 'discrete'\nsample_time = 1\n[parameters]\ng = 1.8\nD = 0.4\n[loop]\ninputs = ['r']\n[[block]]\ninput = 'g*(r - y)'\n\
+        output = 'y'\ntransfer = '1/(s + 1)'\ndiscretize = { method = 'pwm', edge = 'trailing', duty = 'D', delay = 0.5 }\n";
+    let line = ["map", "-", "-x", "D=0.2..0.8", "-y", "g=0..3", "--undecided", "0.1", "--json"];
+    let map = jurist_with_input(&line, text.as_bytes());
+    let document: serde_json::Value =
+        serde_json::from_str(&map.stdout).unwrap_or_else(|e| panic!("{e} {}", map.stderr));
+    let half: Rational = "1/2".parse().unwrap();
+    let mut seen = [0, 0];
+    for found in document["boxes"].as_array().unwrap() {
+        let side = |axis: &str| [0, 1].map(|k| found[axis][k].as_str().unwrap().parse::<Rational>().unwrap());
+        let ([from, to], [low, high]) = (side("x"), side("y"));
+        assert!(to <= half || half <= from, "{found}");
+        let (duty, gain) = (from.midpoint(&to), low.midpoint(&high));
+        let asked = read(text).ask().set("D", duty).set("g", gain);
+        let is_stable = asked.verdict(&Budget::unlimited()).unwrap().value().verdict == Verdict::Stable;
+        match found["verdict"].as_str() {
+            Some("undecided") => {}
+            told => assert_eq!(told == Some("stable"), is_stable, "{found}"),
+        }
+        seen[usize::from(is_stable)] += 1;
+    }
+    assert!(seen[0] > 3 && seen[1] > 3, "{seen:?}");
 }
