@@ -78,7 +78,7 @@ fn boxes_agree_with_verdicts_at_their_middles() {
 fn windows_that_have_no_such_parts_are_refused_in_words() {
     let negative = TEXT.replace("delay = 'L'", "delay = 'L - 1/10'");
     for (text, axes, word) in [
-        (TEXT, ["K=0..10", "L=0..5"], "window of 'L'"),
+        (TEXT, ["K=0..10", "L=0..9"], "window of 'L'"),
         (TEXT, ["T=1/20..1", "L=0..1"], "'T' and 'L' decide together"),
         (&negative, ["K=0..10", "L=1/20..1/5"], "dead time is negative"),
         (TEXT, ["a=1/2..1", "L=0..1"], ""),

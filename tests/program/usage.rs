@@ -351,7 +351,7 @@ fn no_message_has_a_word_in_braces() {
          W = { nominal = 1, min = '1/2', max = 3 }\n[loop]\ninputs = ['r']\noutputs = ['y']\n[[block]]\ninput = 'W*(r - y)'\n\
          output = 'y'\ntransfer = '1/(s + 1)'\ndiscretize = { method = 'zoh', delay = '1/3' }\n";
     for arguments in [
-        &["map", "-", "-x", "T", "-y", "W"][..],
+        &["charpoly", "-"][..],
         &["map", "-", "-x", "T", "-y", "W", "--phase-margin", "40deg"],
         &["map", "-", "-x", "T", "-y", "W", "--damping", "0.1", "--explain"],
         &["jury", "-", "--param", "T", "--explain"],

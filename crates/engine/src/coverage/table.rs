@@ -87,7 +87,7 @@ static ROWS: &[Row] = &[
     Row::new(Asked::Report, "report", [A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), A(&SEVERAL), A(&SEVERAL)]).called("report"),
     Row::new(Asked::ExactMap, "map -x NAME -y NAME --method exact", [A(&DECOMPOSITION), A(&DECOMPOSITION), R(&INSIDE), NO_DELAY, NO_DELAY, NO_DELAY, NO_ORDER]),
     Row::new(Asked::BoxMap, "map -x NAME -y NAME --method boxes", [B(&PLANE_BOXES), B(&PLANE_BOXES), B(&FUNCTION_BOXES), B(&DELAYED_BOXES), B(&DELAYED_FAMILY_BOXES), BESIDE, B(&SAMPLE_BOXES)]),
-    Row::new(Asked::Slices, "map -x NAME -y NAME -z NAME=LO..HI:N", [A(&DECOMPOSITION), A(&DECOMPOSITION), R(&SLICES), R(&SLICES_WITH_DEAD_TIME), R(&SLICES_WITH_DEAD_TIME), NO_DELAY, NO_ORDER]),
+    Row::new(Asked::Slices, "map -x NAME -y NAME -z NAME=LO..HI:N", [A(&DECOMPOSITION), A(&DECOMPOSITION), R(&SLICES), R(&SLICES_WITH_DEAD_TIME), R(&SLICES_WITH_DEAD_TIME), NO_DELAY, R(&SLICES)]),
     Row::new(Asked::Sensitivity, "intervals --param NAME --sensitivity", [A(&DIFFERENCES), A(&DIFFERENCES), A(&DIFFERENCES), A(&DIFFERENCES), A(&DIFFERENCES), A(&DIFFERENCES), A(&DIFFERENCES)]),
     Row::new(Asked::RootLocusForm, "charpoly --root-locus-form NAME", [A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), NO_ORDER]),
     Row::new(Asked::Transfer, "charpoly --transfer INPUT OUTPUT", [A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), A(&POLYNOMIAL), NO_ORDER]),

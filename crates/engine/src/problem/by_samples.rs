@@ -15,13 +15,19 @@ use jurist_algebra::poly::RationalFunction;
 /// How many whole numbers of samples are looked at on either side of the usual one.
 const MOST_WINDOWS: i64 = 8;
 
+/// The same on either side of the middle of a window, which has two ends.
+const MOST_PARTS: i64 = 32;
+
 impl Problem {
     /// True if the order depends on what is free: a dead time varies against the sample time of its hold.
     pub(super) fn is_of_varying_order(&self, budget: &Budget) -> Result<bool, Error> {
         let usual = |free: &Free| free.nominal.clone().unwrap_or_else(|| inside(&free.domain));
         let near: Vec<Rational> = self.free().iter().map(usual).collect();
-        let algebra = budget.enter(|| Algebra::near(self, &near, budget))?;
-        Ok(algebra.is_ok_and(|algebra| !algebra.symbols().varying_samples().is_empty()))
+        match budget.enter(|| Algebra::near(self, &near, budget))? {
+            Ok(algebra) => Ok(!algebra.symbols().varying_samples().is_empty()),
+            Err(stopped @ Error::Stopped(_)) => Err(stopped),
+            Err(_) => Ok(false),
+        }
     }
 
     /// The stable set where a dead time varies against its sample time; `None` where none does, or where the whole numbers of
@@ -46,7 +52,7 @@ impl Problem {
         if ratios.is_empty() {
             return Ok(None);
         }
-        let Some(breaks) = breaks(&ratios, domain, &usual) else { return Ok(None) };
+        let Some(breaks) = breaks(&ratios, domain, &usual, MOST_WINDOWS) else { return Ok(None) };
         let mut ends: Vec<Option<Rational>> = vec![domain.lower.clone()];
         ends.extend(breaks.into_iter().map(Some));
         ends.push(domain.upper.clone());
@@ -58,7 +64,7 @@ impl Problem {
                 // No dead time is negative: the model means nothing there.
                 continue;
             }
-            if !ratios.iter().all(|ratio| is_looked_at(ratio, &near, &usual)) {
+            if !ratios.iter().all(|ratio| is_looked_at(ratio, &near, &usual, MOST_WINDOWS)) {
                 let why = "more whole samples than are looked at in one question: give a shorter domain";
                 let unknown = vec![UndecidedBracket::new(range.lower, range.upper, why)];
                 set = set.followed_by(StableSet::from_intervals(Vec::new(), unknown), None);
@@ -113,7 +119,7 @@ impl Problem {
         let side = [&window.x, &window.y][axis];
         let range = Range::between(Some(side[0].clone()), Some(side[1].clone()));
         let found = ratios.iter().map(of_axis).collect::<Option<Vec<_>>>();
-        let found = found.and_then(|ratios| Some((breaks(&ratios, &range, &usual[axis])?, ratios)));
+        let found = found.and_then(|ratios| Some((breaks(&ratios, &range, &usual[axis], MOST_PARTS)?, ratios)));
         let Some((mut ends, ratios)) = found else {
             let [x, y] = self.axes().map(|axis| axis.name.as_str());
             let message = format!("'{x}' and '{y}' decide together how many samples a dead time is");
@@ -124,7 +130,7 @@ impl Problem {
         ends.push(side[1].clone());
         let part = |ends: &[Rational]| {
             let middle = ends[0].midpoint(&ends[1]);
-            if !ratios.iter().all(|ratio| is_looked_at(ratio, &middle, &usual[axis])) {
+            if !ratios.iter().all(|ratio| is_looked_at(ratio, &middle, &usual[axis], MOST_PARTS)) {
                 return Err(too_many_samples(&self.axes()[axis].name));
             }
             let mut part = window.clone();
@@ -166,19 +172,19 @@ fn value(ratio: &RationalFunction, at: &Rational) -> Option<Rational> {
 }
 
 /// Whether a number of samples is not too far from the usual one.
-fn is_looked_at(ratio: &RationalFunction, near: &Rational, usual: &Rational) -> bool {
+fn is_looked_at(ratio: &RationalFunction, near: &Rational, usual: &Rational, most: i64) -> bool {
     let (Some(here), Some(there)) = (value(ratio, near), value(ratio, usual)) else { return false };
     let (here, there) = (Rational::from(here.floor()), Rational::from(there.floor()));
-    !here.is_negative() && (here - there).abs() <= Rational::from(MOST_WINDOWS)
+    !here.is_negative() && (here - there).abs() <= Rational::from(most)
 }
 
 /// The values of the parameter in the domain at which a dead time is a whole number of samples, near the usual one, ascending;
 /// `None` where these are not known as rational numbers.
-fn breaks(ratios: &[RationalFunction], domain: &Range, usual: &Rational) -> Option<Vec<Rational>> {
+fn breaks(ratios: &[RationalFunction], domain: &Range, usual: &Rational, most: i64) -> Option<Vec<Rational>> {
     let mut out = Vec::new();
     for ratio in ratios {
         let middle = value(ratio, usual)?.floor().to_i64()?;
-        for whole in (middle - MOST_WINDOWS).max(0)..=middle + MOST_WINDOWS + 1 {
+        for whole in (middle - most).max(0)..=middle + most + 1 {
             let difference = ratio - &RationalFunction::from(Rational::from(whole));
             let p = difference.numerator().to_univariate(0)?;
             match p.degree() {
