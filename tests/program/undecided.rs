@@ -144,6 +144,11 @@ fn work_that_ends_in_a_later_part_leaves_a_document() {
             "undecided",
         ),
         (&["tolerance", "examples/drive-pwm.toml", "--all", "10%"], &["3000000"], "undecided"),
+        (
+            &["ship", "examples/anti-alias-filter.toml", "--block", "PI", "--format", "float32"],
+            &["60000000", "80000000"],
+            "block",
+        ),
     ] {
         for work in works {
             let run = jurist(&[command, &["--work", work, "--json"]].concat());

@@ -18,6 +18,11 @@ use std::sync::Arc;
 /// An answer, or why there is none: refused in words, or stopped.
 pub type Part<T> = Result<T, Error>;
 
+/// A part, stopped where its work ends anywhere in it: the others stand.
+fn part<T>(work: impl FnOnce() -> Part<T>, budget: &Budget) -> Part<T> {
+    budget.enter(work).unwrap_or_else(|stopped| Err(stopped.into()))
+}
+
 /// What is known of one of both loops.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
@@ -104,8 +109,8 @@ impl ShipAnswer {
         let (exact, rounded) = (point(&shipped.exact)?, point(&shipped.rounded).map_err(of_stored_loop)?);
         budget.step("every rounding");
         let list = &requirements.list;
-        let every = shipped.every_rounding(list, requirements.at.as_deref(), budget);
-        let every_rounding = every.transpose();
+        let every_rounding =
+            part(|| shipped.every_rounding(list, requirements.at.as_deref(), budget), budget).transpose();
         let fewest = beside.fewest.then(|| shipped.fewest_of(every_rounding.as_ref(), requirements, budget)).flatten();
         let limits_of = beside.limits_of.as_ref();
         let limits = limits_of.map(|(name, domain)| shipped.limits_by_bits(name, domain.as_ref(), budget));
@@ -116,7 +121,8 @@ impl ShipAnswer {
         budget.step("ranges of signals");
         let is_about_signals = shipped.asked.signal.is_some() || !shipped.asked.inputs.is_empty();
         let is_stable = rounded.verdict.value().verdict == Verdict::Stable;
-        let ranges = (is_about_signals && is_stable).then(|| shipped.ranges(budget).transpose()).flatten();
+        let ranges =
+            (is_about_signals && is_stable).then(|| part(|| shipped.ranges(budget), budget).transpose()).flatten();
         let worst_input = match &ranges {
             Some(Ok(ranges)) if beside.worst_input => ranges.worst_input(&shipped.asked.inputs, budget)?,
             _ => None,

@@ -12,7 +12,7 @@ use crate::cli::requirements::RequirementOptions;
 use crate::cli::status::{Error, Outcome, Status};
 use crate::cli::written::{certified, check_certificate};
 use clap::Args;
-use jurist_algebra::limits::{Budget, Exhausted};
+use jurist_algebra::limits::{Budget, Exhausted, apart};
 use jurist_algebra::number::Rational;
 use jurist_check::sha256;
 use jurist_draw::figures::ranges_figure;
@@ -132,10 +132,12 @@ impl Runs for Options {
         };
         context.warn(None, problem.warnings());
         let rounded = answer.shipped.rounded_text();
-        for (text, file) in [(rounded, &self.written.rounded), (&answer.shipped.every_text().0, &self.written.every)] {
-            if let Some(file) = file {
-                write_answer(text, Some(file))?;
-            }
+        if let Some(file) = &self.written.rounded {
+            write_answer(rounded, Some(file))?;
+        }
+        if let Some(file) = &self.written.every {
+            // It is written also where the work of a part has ended.
+            write_answer(&apart(|| answer.shipped.every_text()).0, Some(file))?;
         }
         if !self.model.set.is_empty()
             && !context.quiet
