@@ -278,15 +278,15 @@ fn variation_of_samples(n: &UniPoly, d: &UniPoly) -> f64 {
     let (lead, mut x) = (number(d, order), vec![0.0; order]);
     let direct = number(n, order) / lead;
     let rate: f64 = (0..order).map(|k| (number(d, k) / lead).abs().powf(1.0 / (order - k) as f64)).fold(0.0, f64::max);
-    let step = 0.005 / rate;
+    let step = 0.01 / rate;
     let slope = |x: &[f64]| -> Vec<f64> {
         let last = 1.0 - (0..order).map(|k| number(d, k) / lead * x[k]).sum::<f64>();
         x[1..].iter().copied().chain([last]).collect()
     };
     let output =
         |x: &[f64]| (0..order).map(|k| (number(n, k) / lead - direct * number(d, k) / lead) * x[k]).sum::<f64>();
-    let (mut sum, mut before) = (direct.abs(), 0.0);
-    for _ in 0..60_000 {
+    let (mut sum, mut before, mut lately) = (direct.abs(), 0.0, 0.0);
+    for k in 1..10_000_000 {
         let moved = |k: &[f64], h: f64| x.iter().zip(k).map(|(x, k)| x + h * k).collect::<Vec<_>>();
         let a = slope(&x);
         let b = slope(&moved(&a, step / 2.0));
@@ -297,13 +297,21 @@ fn variation_of_samples(n: &UniPoly, d: &UniPoly) -> f64 {
         }
         let now = output(&x);
         sum += f64::abs(now - before);
+        lately += f64::abs(now - before);
         before = now;
+        // A pole that is a thousand times slower than the fastest still loses a hundredth of its part meanwhile.
+        if k % 5000 == 0 {
+            if k >= 20_000 && lately <= 1e-7 * sum {
+                break;
+            }
+            lately = 0.0;
+        }
     }
     sum
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(if std::env::var_os("JURIST_THOROUGH").is_some() { 100 } else { 3 }))]
+    #![proptest_config(ProptestConfig::with_cases(if std::env::var_os("JURIST_THOROUGH").is_some() { 40 } else { 3 }))]
 
     #[test]
     fn the_integral_is_the_variation_of_the_step_response([n, d] in continuous()) {
