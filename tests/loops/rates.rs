@@ -309,7 +309,7 @@ fn a_constant_of_the_plant_of_a_cascade_at_two_rates_has_its_set() {
     let text = example_text("drive-two-rates");
     for (name, [unstable, stable]) in [("J", ["0.01288694", "0.01288696"]), ("L_a", ["0.0091555", "0.0091556"])] {
         let question = read(&text).ask().set("K_ps", 20).free(name);
-        let domain = ["0.006", "0.3"].map(|x| number(x));
+        let domain = ["0.006", "0.3"].map(number);
         let set = question.domain(name, Range::between(Some(domain[0].clone()), Some(domain[1].clone())));
         let set = set.stable_set(&Budget::unlimited()).unwrap_or_else(|e| panic!("{e}")).into_value();
         assert!(set.undecided().is_empty() && set.intervals().len() == 1, "{name}: {set:?}");
