@@ -205,9 +205,8 @@ impl<A: Along> Asked<A> {
         let mut pieces: Vec<Piece> = Vec::new();
         // The number of the look that showed that not all points of the box meet the requirement, or that this is not seen.
         let mut hopeless = None;
-        let more = self.more_pieces();
+        let (more, all) = (self.more_pieces(), MOST_PIECES + self.more_pieces());
         let look = |cell: &mut Cell<A::Piece>, tally: Tally| {
-            let all = MOST_PIECES + more;
             let most = hopeless.map_or(all, |first| all.min(first + MOST_HOPELESS + more));
             if tally.looks() >= most {
                 return Ok(Look::Open(None));
