@@ -11,7 +11,7 @@ use jurist_algebra::poly::complex_roots;
 use jurist_engine::answer::{Answer, ClosedLoopRoot, Roots};
 use jurist_engine::error::Error;
 use jurist_engine::model::{Model, Time};
-use jurist_engine::problem::Question;
+use jurist_engine::problem::{Problem, Question, Region};
 
 const BITS: u64 = 200;
 
@@ -178,4 +178,21 @@ fn the_command_prints_the_roots_of_the_polynomial() {
         assert_eq!(expected.iter().filter(|d| is_in("re_enclosure", &d.re) && is_in("im_enclosure", &d.im)).count(), 1);
     }
     assert_eq!(jurist(&["roots", "--set", "K_pwm=551"]).status, 0);
+}
+
+/// The roots are those of the loop, whatever smaller region the question has: they were those of the polynomial with its bound put in.
+#[test]
+fn a_region_does_not_move_the_roots() {
+    let problem = |model: &Model, region: Region| model.ask().within(region).problem().unwrap();
+    let list = |problem: std::sync::Arc<Problem>| {
+        let found = problem.roots(12, &Budget::unlimited()).unwrap();
+        found.value().list.iter().map(|root| root.real().decimal(9).expect("narrow")).collect::<Vec<_>>()
+    };
+    let sampled = load("time = 'discrete'\nloop.characteristic = '(z - 1/2)*(z + 1/4)'\n");
+    assert_eq!(list(problem(&sampled, Region::disc(number("1/2")).unwrap())), ["0.500000000", "-0.250000000"]);
+    let slow = load("time = 'continuous'\nloop.characteristic = '(s + 1)*(s + 3)'\n");
+    assert_eq!(list(problem(&slow, Region::half_plane(number("1")))), ["-1.00000000", "-3.00000000"]);
+    let delayed = load("time = 'continuous'\nloop.characteristic = 's + 1/2*exp(-s/2)'\n");
+    let whole = list(delayed.ask().problem().unwrap());
+    assert_eq!(list(problem(&delayed, Region::half_plane(number("1/4")))), whole);
 }

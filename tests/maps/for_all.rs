@@ -420,6 +420,27 @@ fn an_end_at_which_the_search_stopped_is_no_end_of_the_domain() {
     assert_eq!(interval["lower"]["closed"], false, "{document}");
 }
 
+/// The corner's limit is exactly where the search ended: what lies beyond was called open.
+#[test]
+fn an_end_where_the_search_ends_is_one_that_a_corner_spoils() {
+    // (a - 1)/(s + 1) behind a hold: -2 < K < 2 at the corners, which lie on either side of a = 1.
+    let model = load(
+        "time = 'discrete'\nsample_time = '3/10'\nparameters = { K = 1, a = 1 }\n[loop]\ninputs = ['r']\n[[block]]\ninput = 'r - y'\noutput = 'u'\n\
+         gain = 'K'\n[[block]]\ninput = 'u'\noutput = 'y'\ntransfer = '(a - 1)/(s + 1)'\ndiscretize = 'zoh'\n",
+    );
+    let all = vec![AllOf::new("a", number("1/2"), number("3/2")).unwrap()];
+    let found = MapForAll::new(all).intervals(model.ask().free("K"), &Budget::unlimited()).unwrap();
+    let set = found.value();
+    assert!(
+        set.intervals.len() == 1 && set.undecided.iter().all(|b| b.lower.is_some() && b.upper.is_some()),
+        "{set:?}"
+    );
+    let ends = [&set.intervals[0].lower, &set.intervals[0].upper];
+    assert!(
+        ends.iter().all(|end| matches!(end, Some(RequiredEnd::Requirement { names, .. }) if names == &["stability"]))
+    );
+}
+
 /// Behind a hold the worst value is an end of its range. The exact set there bounds the set for all values: no bracket was left between values that are
 /// spoiled, and nothing beyond the window is open.
 #[test]

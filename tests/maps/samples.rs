@@ -74,6 +74,29 @@ fn boxes_agree_with_verdicts_at_their_middles() {
     }
 }
 
+/// Of a complex loop each root was counted with its conjugate: the boxes of a window in parts had twice as many roots outside as their points.
+#[test]
+fn boxes_of_a_complex_loop_count_each_root_once() {
+    let text = TEXT.replace("1/(s*(s + a))", "1/(s + a + 3*j)");
+    let line = ["map", "-", "-x", "K=0..60", "-y", "L=1/50..7/20", "--undecided", "0.2", "--json"];
+    let map = jurist_with_input(&line, text.as_bytes());
+    let document: serde_json::Value =
+        serde_json::from_str(&map.stdout).unwrap_or_else(|e| panic!("{e} {}", map.stderr));
+    let (model, mut seen) = (Model::from_toml(&Source::new("model.toml", &text)).unwrap().0, 0);
+    for found in document["boxes"].as_array().unwrap().iter().filter(|found| found["verdict"] == "unstable") {
+        let middle = |axis: &str| {
+            let [low, high] = [0, 1].map(|k| found[axis][k].as_str().unwrap().parse::<Rational>().unwrap());
+            low.midpoint(&high)
+        };
+        let asked = model.ask().set("K", middle("x")).set("L", middle("y"));
+        let verdict = asked.verdict(&Budget::unlimited()).unwrap().into_value();
+        let outside = verdict.count.expect("counted").outside;
+        assert_eq!(found["outside"].as_u64(), Some(outside as u64), "{found}");
+        seen += 1;
+    }
+    assert!(seen > 3, "{seen}");
+}
+
 #[test]
 fn windows_that_have_no_such_parts_are_refused_in_words() {
     let negative = TEXT.replace("delay = 'L'", "delay = 'L - 1/10'");

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::problem::Problem;
 use crate::response::{AllOf, RequiredBoxes, Requirement};
 use crate::stability::Range;
-use crate::stability::plane::boxes::{BoxMap, Window, stability_boxes};
+use crate::stability::plane::boxes::{BoxMap, BoxVerdict, Window, stability_boxes};
 use jurist_algebra::limits::{Budget, Exhausted, Stop};
 use jurist_algebra::number::Rational;
 use std::sync::Arc;
@@ -234,17 +234,7 @@ impl Problem {
             if is_exact && window.is_ok() && !has_boxes {
                 return exact(budget);
             }
-            let mut boxes = self.boxes_over(ring, window, &request.undecided, budget)?;
-            if self.is_complex() {
-                // Each root was counted with its conjugate.
-                for found in &mut boxes.boxes {
-                    if let crate::stability::plane::boxes::BoxVerdict::Unstable { outside: Some(outside) } =
-                        &mut found.verdict
-                    {
-                        *outside /= 2;
-                    }
-                }
-            }
+            let boxes = self.boxes_over(ring, window, &request.undecided, budget)?;
             let value =
                 MapBoxes { goal: request.undecided.clone(), boxes, no_exact_map, required: None, for_all: Vec::new() };
             Ok(MapOrBoxes::Boxes(Box::new(Answer::new(Arc::clone(self), value))))
@@ -283,9 +273,9 @@ impl Problem {
         digits: usize,
         budget: &Budget,
     ) -> Result<MapOrBoxes, Error> {
-        if !requirements.is_empty() {
-            // A loop whose order varies has maps, but no requirements on them.
-            self.in_boxes(budget)?.algebra_over_symbols(budget)?;
+        if !requirements.is_empty() && self.map_ring(budget)? == CoefficientRing::VaryingOrder {
+            // It has maps, but no requirements on them: its algebra says where the order varies.
+            self.algebra_over_symbols(budget)?;
         }
         let by = |method: MapMethod, budget: &Budget| match self.map_by(method, request, digits, budget)? {
             found if requirements.is_empty() => Ok(found),
@@ -378,6 +368,25 @@ impl Problem {
         goal: &Rational,
         budget: &Budget,
     ) -> Result<BoxMap, Error> {
+        let mut found = self.boxes_of_family_over(ring, window, goal, budget)?;
+        if self.is_complex() {
+            // Each root was counted with its conjugate.
+            for one in &mut found.boxes {
+                if let BoxVerdict::Unstable { outside: Some(outside) } = &mut one.verdict {
+                    *outside /= 2;
+                }
+            }
+        }
+        Ok(found)
+    }
+
+    fn boxes_of_family_over(
+        &self,
+        ring: CoefficientRing,
+        window: Result<Window, Error>,
+        goal: &Rational,
+        budget: &Budget,
+    ) -> Result<BoxMap, Error> {
         let share = || budget.share(SUBDIVISION.0, SUBDIVISION.1);
         match ring {
             CoefficientRing::Rational => {
@@ -405,10 +414,13 @@ impl Problem {
             CoefficientRing::VaryingOrder => {
                 let window = window?;
                 let parts = self.parts_by_samples(&window, budget)?;
-                let boxes = |(window, part): (Window, Problem)| {
-                    part.boxes_over(part.coefficient_ring(budget)?, Ok(window), goal, budget)
+                let count = parts.len();
+                let boxes = |(k, (window, part)): (usize, (Window, Problem))| {
+                    // What is left is for this part and all behind it.
+                    let own = budget.share(1, (count - k) as u32);
+                    part.boxes_over(part.coefficient_ring(&own)?, Ok(window), goal, &own)
                 };
-                let boxes = parts.into_iter().map(boxes).collect::<Result<Vec<_>, _>>()?;
+                let boxes = parts.into_iter().enumerate().map(boxes).collect::<Result<Vec<_>, _>>()?;
                 Ok(BoxMap::joined(window, boxes))
             }
             CoefficientRing::DeadTime | CoefficientRing::DeadTimeBesideFunctions => {

@@ -244,11 +244,17 @@ impl Problem {
     ) -> Result<Answer<Roots>, Error> {
         assert!(self.free().is_empty(), "a point has no free parameters");
         let narrow = Rational::from(10).pow(-(digits as i64 + 4)).expect("ten is not zero");
+        // The roots are the loop's own, whatever smaller region is asked about.
+        let roots = self.without_region().enclosed_roots(wanted, &narrow, budget)?;
+        Ok(Answer::new(Arc::clone(self), roots))
+    }
+
+    fn enclosed_roots(&self, wanted: usize, narrow: &Rational, budget: &Budget) -> Result<Roots, Error> {
         let time = self.time();
         let (polynomial, degree, period) = exact_or_enclosed(
             budget,
-            |budget| self.roots_by_polynomial(&narrow, budget),
-            |budget| self.roots_by_matrix(&narrow, budget),
+            |budget| self.roots_by_polynomial(narrow, budget),
+            |budget| self.roots_by_matrix(narrow, budget),
         )?;
         budget.step("enclosing the roots");
         let mut exact = None;
@@ -259,7 +265,7 @@ impl Problem {
                 ));
             }
             Polynomial::Exact(p) => {
-                let discs = complex_roots(&p, &narrow, budget)?;
+                let discs = complex_roots(&p, narrow, budget)?;
                 exact = Some(p);
                 discs
             }
@@ -267,11 +273,10 @@ impl Problem {
             Polynomial::Delayed(p, tau) => {
                 let with_conjugates = |radius: &Rational| rightmost(&p, &tau, wanted, radius, degree, budget);
                 let algebra = self.algebra_over_symbols(budget)?;
-                let roots = match algebra.complex() {
-                    Some(whole) => rightmost_of_complex(whole, algebra, &narrow, budget, with_conjugates)?,
-                    None => with_conjugates(&narrow)?,
+                return match algebra.complex() {
+                    Some(whole) => rightmost_of_complex(whole, algebra, narrow, budget, with_conjugates),
+                    None => with_conjugates(narrow),
                 };
-                return Ok(Answer::new(Arc::clone(self), roots));
             }
         };
         let found: usize = discs.iter().map(number).sum();
@@ -283,7 +288,7 @@ impl Problem {
         list.sort_by_cached_key(|root| {
             std::cmp::Reverse((root.slowness(), root.disc.re.clone(), root.disc.im.clone()))
         });
-        Ok(Answer::new(Arc::clone(self), Roots { degree, infinite: degree.saturating_sub(found), list, beyond: None }))
+        Ok(Roots { degree, infinite: degree.saturating_sub(found), list, beyond: None })
     }
 
     /// By the polynomial of the algebra.

@@ -31,6 +31,7 @@ fn may_be_on_boundary(root: &ClosedLoopRoot) -> bool {
         return re.abs() <= *radius;
     }
     let square = re * re + &root.disc.im * &root.disc.im;
-    let [inner, outer] = [&Rational::ONE - radius, &Rational::ONE + radius];
+    let inner = (&Rational::ONE - radius).max(Rational::ZERO);
+    let outer = &Rational::ONE + radius;
     (&inner * &inner..=&outer * &outer).contains(&square)
 }

@@ -130,8 +130,15 @@ impl Problem {
         ends.push(side[1].clone());
         let part = |ends: &[Rational]| {
             let middle = ends[0].midpoint(&ends[1]);
+            let name = &self.axes()[axis].name;
+            if ratios.iter().any(|ratio| value(ratio, &middle).is_some_and(|samples| samples.is_negative())) {
+                return Err(not_in_the_window(name, "is negative"));
+            }
             if !ratios.iter().all(|ratio| is_looked_at(ratio, &middle, &usual[axis], MOST_PARTS)) {
-                return Err(too_many_samples(&self.axes()[axis].name));
+                return Err(not_in_the_window(
+                    name,
+                    &format!("is {MOST_PARTS} samples longer or shorter than in its middle"),
+                ));
             }
             let mut part = window.clone();
             *[&mut part.x, &mut part.y][axis] = [ends[0].clone(), ends[1].clone()];
@@ -152,10 +159,10 @@ impl Problem {
     }
 }
 
-fn too_many_samples(name: &str) -> Error {
-    let message =
-        format!("in the window of '{name}' a dead time is negative, or has many more whole samples than in its middle");
-    Diagnostic::error(Code::Usage, message).help(format!("ask about less of it: '-x {name}=LOW..HIGH'")).into()
+fn not_in_the_window(name: &str, what: &str) -> Error {
+    Diagnostic::error(Code::Usage, format!("in the window of '{name}' a dead time {what}"))
+        .help(format!("ask about less of it: '-x {name}=LOW..HIGH'"))
+        .into()
 }
 
 fn is_at(end: &End, x: &Rational) -> bool {

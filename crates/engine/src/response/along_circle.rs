@@ -85,7 +85,7 @@ pub(super) trait OnPiece: Halves + Clone {
     fn first(&self) -> Self;
     /// Whether so many digits are lost that the piece is to be computed again.
     fn is_blurred(&self) -> bool;
-    /// Whether the piece is so long that not even the value at its end is told.
+    /// Whether the piece is too long for its bounds to say anything, even of its end.
     fn is_coarse(&self) -> bool {
         false
     }

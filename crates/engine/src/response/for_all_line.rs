@@ -39,6 +39,9 @@ const MOST_OPEN: usize = 1 << 9;
 /// The part of the budget that may be spent on the window.
 const WINDOW: (u32, u32) = (1, 4);
 
+/// The share of a window, as a power of two, by which it goes on into what is spoiled.
+const LITTLE: u64 = 10;
+
 /// Why nothing is said beyond the window.
 const OUTSIDE: &str = "not looked at: the domain has no end there, and '--domain' gives one";
 
@@ -74,9 +77,7 @@ impl Piece {
             is_stable: self.is_stable,
             open: self.open.clone(),
         };
-        let parts = [([low, at.clone()], [at_low, false]), ([at, high], [false, at_high])];
-        let [first, second] = parts;
-        [part(first.0, halvings[0], first.1), part(second.0, halvings[1], second.1)]
+        [part([low, at.clone()], halvings[0], [at_low, false]), part([at, high], halvings[1], [false, at_high])]
     }
 }
 
@@ -141,6 +142,7 @@ impl MapForAll {
         });
         let (pieces, stopped, spoiled) = match tests {
             Ok(((stability, requirements), spoiled)) => {
+                let window = up_to_spoiled(window, line.parameter(), &spoiled);
                 let looked = (&window, spoiled.as_slice());
                 let (pieces, stopped) = self.halved(looked, &line, (&stability, &requirements), budget)?;
                 (pieces, stopped, spoiled)
@@ -154,7 +156,7 @@ impl MapForAll {
         Ok(Answer::new(line.without_values_of(|name| self.all.iter().any(|all| all.name == name)), found))
     }
 
-    /// Halves what is not spoiled of a window, the longest pieces first, until what is open is short or the budget is over.
+    /// Decides the values of a window that no corner spoils: open pieces are halved, the longest first, until they are short or the budget ends.
     fn halved(
         &self,
         (window, spoiled): (&[Rational; 2], &[Spoiled]),
@@ -287,6 +289,18 @@ impl MapForAll {
         }
         set
     }
+}
+
+/// A window that goes on a little beyond where all values are spoiled, unless that is farther away than the window is long.
+fn up_to_spoiled([low, high]: [Rational; 2], parameter: &Free, spoiled: &[Spoiled]) -> [Rational; 2] {
+    let length = &high - &low;
+    let [lowest, highest] = [&low - &length, &high + &length];
+    let below = spoiled.iter().filter(|one| one.lower.is_none()).filter_map(|one| one.upper.clone()).max();
+    let above = spoiled.iter().filter(|one| one.upper.is_none()).filter_map(|one| one.lower.clone()).min();
+    let below = below.filter(|end| parameter.domain.lower.is_none() && *end <= low && *end >= lowest);
+    let above = above.filter(|end| parameter.domain.upper.is_none() && *end >= high && *end <= highest);
+    let little = length * Rational::dyadic(&1.into(), LITTLE);
+    [below.map_or(low, |end| end - &little), above.map_or(high, |end| end + &little)]
 }
 
 fn is_short([low, high]: &[Rational; 2], window: &[Rational; 2]) -> bool {

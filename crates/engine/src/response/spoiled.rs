@@ -30,8 +30,8 @@ pub(super) type Pieces = Vec<([Rational; 2], &'static str)>;
 /// All values of an interval are spoiled, without end where there is none.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Spoiled {
-    lower: Option<Rational>,
-    upper: Option<Rational>,
+    pub lower: Option<Rational>,
+    pub upper: Option<Rational>,
     /// What is not met.
     by: &'static str,
 }
@@ -215,7 +215,7 @@ mod tests {
         for (x, expected) in [("11/4", false), ("3", false), ("7/2", true), ("4", false), ("100", false)] {
             assert_eq!(is_spoiled(x), expected, "{x}: {found:?}");
         }
-        // An empty set is told by a look, which names the value that spoils all.
+        // Where no value of the parameter is good at a corner, the search itself says so, and names the value that spoils all.
         assert!(beside(&set(&[], &[])).is_empty());
         let whole = set(&[[None, None]], &[]);
         assert!(beside(&whole).is_empty());

@@ -121,13 +121,16 @@ fn certified_within(
     }
 }
 
-/// By boxes, where that is shorter than so many bytes and leaves little unknown.
+/// The part of the budget that a shorter certificate may take where an exact one is there.
+const SHORTER: (u32, u32) = (1, 2);
+
+/// By boxes, where that is shorter than so many bytes and leaves little unknown; `None` also where the work of it ends, as the exact one is there.
 fn shorter(answer: &Answer<StableSet>, bytes: usize, budget: &Budget) -> Result<Option<CertifiedIntervals>, Error> {
     let least = &Rational::ONE - &Rational::dyadic(&1.into(), UNKNOWN_BITS);
-    match by_boxes(answer, budget) {
+    let part = budget.share(SHORTER.0, SHORTER.1);
+    match part.enter(|| by_boxes(answer, &part)).unwrap_or_else(|stopped| Err(stopped.into())) {
         Ok(found) => Ok(found.filter(|found| found.text.len() < bytes && found.proved >= least)),
-        // The exact one is there.
-        Err(Error::Refused(_)) => Ok(None),
+        Err(Error::Refused(_) | Error::Stopped(_)) => Ok(None),
         Err(other) => Err(other),
     }
 }
